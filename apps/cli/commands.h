@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace pellucid::cli {
+
+/// Add a subcommand with its options; it runs as the callback of the parse. Errors are thrown.
+void add_render_command(CLI::App& app);
+void add_info_command(CLI::App& app);
+
+}  // namespace pellucid::cli

@@ -1,0 +1,255 @@
+#include "arguments.h"
+#include "commands.h"
+
+#include "core/file.h"
+
+#include <pellucid/pellucid.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+namespace pellucid::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The command line as given; strings are parsed when the command runs, so that errors are ours.
+struct RenderArguments {
+    std::string scene;
+    std::string output;
+    std::string technique = RenderSettings{}.technique;
+    std::map<std::string, double> parameters;
+    std::string size = "512x512";
+    std::string environment = "studio";
+    std::string camera;
+    double fov_deg = 30.0;
+    std::uint32_t samples = 1;
+    std::string tonemap = "neutral";
+    double exposure_ev = 0.0;
+    std::string view = "radiance";
+    std::string layer_builder = "single-pass";
+    std::vector<std::string> aovs;
+    std::string json;
+    std::optional<double> ior;
+    std::string attenuation_color;
+    std::optional<double> attenuation_distance;
+    double crease_angle_deg = 180.0;
+    bool remake_normals = false;
+    std::string device;
+    bool validate = false;
+};
+
+std::string parameter_help(const ParameterInfo& parameter) {
+    return fmt::format("{}{}{} [{} to {}, default {}]", parameter.doc, parameter.unit.empty() ? "" : ", ", parameter.unit,
+                       parameter.minimum, parameter.maximum, parameter.default_value);
+}
+
+/// One flag for each parameter name of the registry, in the group of the techniques that have it.
+void add_parameter_options(CLI::App& command, RenderArguments& arguments) {
+    std::map<std::string, std::pair<std::string, std::string>, std::less<>> flags;  // name -> owners, help
+    for (const TechniqueInfo* technique : techniques()) {
+        for (const ParameterInfo& parameter : technique->parameters) {
+            auto& [owners, help] = flags[std::string(parameter.name)];
+            owners += (owners.empty() ? "" : ", ") + std::string(technique->name);
+            if (help.empty()) help = parameter_help(parameter);
+        }
+    }
+    for (const auto& [name, flag] : flags) {
+        command
+            .add_option_function<double>(
+                "--" + name, [&arguments, name = name](const double& value) { arguments.parameters[name] = value; }, flag.second)
+            ->group("Parameters of " + flag.first);
+    }
+}
+
+std::string technique_help() {
+    std::string help = "How refraction is computed:";
+    for (const TechniqueInfo* technique : techniques()) help += fmt::format(" {} ({});", technique->name, technique->summary);
+    help.pop_back();
+    return help;
+}
+
+std::string shape_help() {
+    std::string help = "Scene: a .gltf, .glb, .obj, .ply, .stl, .off or .3ds file, or shape:NAME[,PARAMETER=VALUE...] with NAME one of";
+    for (const ShapeInfo& shape : shape_infos()) help += fmt::format(" {}", shape.name);
+    return help;
+}
+
+std::string aov_help() {
+    std::string help = "NAME=FILE.exr, taken at pixel centres; may be repeated:";
+    for (const AovInfo& aov : aov_infos()) help += fmt::format(" {}: {};", aov.name, aov.doc);
+    help.pop_back();
+    return help;
+}
+
+LoadOptions load_options(const RenderArguments& arguments) {
+    LoadOptions options;
+    if (arguments.ior) options.ior = float(*arguments.ior);
+    if (!arguments.attenuation_color.empty()) {
+        const auto color = parse_numbers("--attenuation-color", arguments.attenuation_color, 3);
+        options.attenuation_color = glm::vec3(float(color[0]), float(color[1]), float(color[2]));
+    }
+    if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
+    options.crease_angle = float(arguments.crease_angle_deg * 3.14159265358979 / 180.0);
+    options.remake_normals = arguments.remake_normals;
+    return options;
+}
+
+RenderSettings render_settings(const RenderArguments& arguments) {
+    RenderSettings settings;
+    std::tie(settings.width, settings.height) = parse_size(arguments.size);
+    settings.technique = arguments.technique;
+    settings.parameters.insert(arguments.parameters.begin(), arguments.parameters.end());
+    settings.layer_builder = parse_layer_builder(arguments.layer_builder);
+    settings.view = parse_view(arguments.view);
+    settings.samples = arguments.samples;
+    settings.tonemap = parse_tonemap(arguments.tonemap);
+    settings.exposure_ev = float(arguments.exposure_ev);
+    for (const std::string& aov : arguments.aovs) settings.aovs.push_back(parse_aov(aov).first);
+    return settings;
+}
+
+/// Says before any work what could not be written after it.
+void check_output(const std::string& file) {
+    const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : fs::path(".");
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored)) throw Error(fmt::format("{}: there is no folder '{}'", file, folder.string()));
+    if (fs::is_directory(file, ignored)) throw Error(fmt::format("{}: is a folder", file));
+}
+
+void check_outputs(const RenderArguments& arguments) {
+    const std::string extension = fs::path(arguments.output).extension().string();
+    if (extension != ".png" && extension != ".exr") throw Error(fmt::format("{}: pictures are written as .png or .exr", arguments.output));
+    check_output(arguments.output);
+    for (const std::string& aov : arguments.aovs) check_output(parse_aov(aov).second);
+    if (!arguments.json.empty()) check_output(arguments.json);
+}
+
+/// Median over the frames of each pass's time, in the order of the passes.
+std::vector<PassTime> median_times(const std::vector<std::vector<PassTime>>& frames) {
+    std::vector<PassTime> medians;
+    for (std::size_t pass = 0; !frames.empty() && pass < frames.front().size(); ++pass) {
+        std::vector<double> times;
+        for (const auto& frame : frames) times.push_back(frame[pass].time_ms);
+        std::nth_element(times.begin(), times.begin() + std::ptrdiff_t(times.size() / 2), times.end());
+        medians.push_back({frames.front()[pass].name, times[times.size() / 2]});
+    }
+    return medians;
+}
+
+nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSettings& settings, const Scene& scene,
+                                const DeviceInfo& device, const RenderResult& result, const std::vector<std::string>& warnings) {
+    nlohmann::ordered_json json{{"device", device.name},
+                                {"driver", device.driver},
+                                {"version", version()},
+                                {"scene", arguments.scene},
+                                {"technique", settings.technique},
+                                {"environment", arguments.environment},
+                                {"width", settings.width},
+                                {"height", settings.height},
+                                {"samples", settings.samples},
+                                {"objects", scene.objects.size()},
+                                {"triangles", scene.triangle_count()},
+                                {"covered", result.covered},
+                                {"side_conflicts", result.side_conflicts}};
+    for (const ParameterInfo& parameter : find_technique(settings.technique).parameters) {
+        const auto given = settings.parameters.find(parameter.name);
+        json["parameters"][std::string(parameter.name)] = given == settings.parameters.end() ? parameter.default_value : given->second;
+    }
+    for (std::uint32_t status = 0; status < kStatusCount; ++status) {
+        const double share = result.covered > 0 ? double(result.status[status]) / double(result.covered) : 0.0;
+        json["status"][std::string(status_name(Status(status)))] = share;
+    }
+    double frame_ms = 0.0;
+    json["passes"] = nlohmann::ordered_json::object();
+    for (const PassTime& pass : median_times(result.frames)) {
+        json["passes"][pass.name] = {{"median", pass.time_ms}};
+        frame_ms += pass.time_ms;
+    }
+    json["frame_ms"] = frame_ms;
+    json["frames"] = result.frames.size();
+    json["warnings"] = warnings;
+    return json;
+}
+
+void write_outputs(const RenderArguments& arguments, const RenderResult& result, const nlohmann::ordered_json& json) {
+    write_image(arguments.output, arguments.output.ends_with(".exr") ? result.radiance : result.display);
+    for (const std::string& aov : arguments.aovs) {
+        const auto [name, file] = parse_aov(aov);
+        write_image(file, result.aovs.at(name));
+    }
+    if (!arguments.json.empty()) write_text_file(arguments.json, json.dump(2) + "\n");
+}
+
+void render(const RenderArguments& arguments) {
+    check_outputs(arguments);
+    const RenderSettings settings = render_settings(arguments);
+    find_technique(settings.technique);  // unknown names are said before any work
+    const Scene scene = load_scene(arguments.scene, load_options(arguments));
+    std::vector<std::string> warnings = scene.warnings;
+    std::string environment_warning;
+    const Environment environment = load_environment(arguments.environment, &environment_warning);
+    if (!environment_warning.empty()) warnings.push_back(environment_warning);
+
+    Renderer renderer({.device = arguments.device, .validation = arguments.validate});
+    renderer.set_scene(scene);
+    renderer.set_environment(environment);
+    if (!arguments.camera.empty()) {
+        renderer.set_camera(parse_camera(arguments.camera, scene, float(arguments.fov_deg * 3.14159265358979 / 180.0)));
+    }
+    const RenderResult result = renderer.render(settings);
+    warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+    for (const std::string& warning : warnings) fmt::print(stderr, "pellucid: warning: {}\n", warning);
+
+    write_outputs(arguments, result, describe(arguments, settings, scene, renderer.device(), result, warnings));
+    if (!renderer.validation_messages().empty()) {
+        throw std::runtime_error(fmt::format("{} validation messages, the first: {}", renderer.validation_messages().size(),
+                                             renderer.validation_messages().front()));
+    }
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+    auto arguments = std::make_shared<RenderArguments>();
+    RenderArguments& a = *arguments;
+    CLI::App* command = app.add_subcommand("render", "Render a scene into a picture");
+    command->add_option("scene", a.scene, shape_help())->required()->type_name("SCENE");
+    command->add_option("-o,--output", a.output, "Picture: .png (tone mapped, sRGB) or .exr (linear)")->required()->type_name("FILE");
+    command->add_option("--technique", a.technique, technique_help())->capture_default_str()->type_name("NAME");
+    command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
+    command->add_option("--environment", a.environment, "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
+        ->capture_default_str()->type_name("NAME|FILE");
+    command->add_option("--camera", a.camera, "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
+                                              "default: the file's first camera, or one that frames the scene")
+        ->type_name("NAME|orbit:AZ,EL,DIST");
+    command->add_option("--fov", a.fov_deg, "Vertical field of view of an orbit camera, degrees")
+        ->capture_default_str()->check(CLI::Range(1.0, 170.0));
+    command->add_option("--samples", a.samples, "Jittered frames, averaged in linear light")->capture_default_str();
+    command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")->capture_default_str()->type_name("NAME");
+    command->add_option("--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
+    command->add_option("--view", a.view, "radiance, or analysis: red two interfaces, blue four or more, green total internal "
+                                          "reflection, grey where the technique gave up")
+        ->capture_default_str()->type_name("NAME");
+    command->add_option("--layer-builder", a.layer_builder, "single-pass or depth-peeling")->capture_default_str()->type_name("NAME");
+    command->add_option("--aov", a.aovs, aov_help())->type_name("NAME=FILE.exr")->allow_extra_args(false);
+    command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
+    command->add_option("--ior", a.ior, "Index of refraction of all glass")->type_name("X");
+    command->add_option("--attenuation-color", a.attenuation_color, "What the glass leaves of white light after the distance, 0 to 1")
+        ->type_name("R,G,B");
+    command->add_option("--attenuation-distance", a.attenuation_distance, "Metres after which that is left")->type_name("M");
+    command->add_option("--crease-angle", a.crease_angle_deg, "Made normals are smooth across edges bent less than this, degrees")
+        ->capture_default_str()->check(CLI::Range(0.0, 180.0));
+    command->add_flag("--remake-normals", a.remake_normals, "Replace the normals that a mesh file brings along");
+    command->add_option("--device", a.device, "Vulkan device: its number in 'pellucid info' or a part of its name")->type_name("DEVICE");
+    command->add_flag("--validate", a.validate, "Run with the Vulkan validation layer; a message is an error");
+    add_parameter_options(*command, a);
+    command->callback([arguments] { render(*arguments); });
+}
+
+}  // namespace pellucid::cli

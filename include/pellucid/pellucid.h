@@ -1,0 +1,10 @@
+#pragma once
+
+// All of Pellucid's public interface.
+#include <pellucid/device.h>
+#include <pellucid/environment.h>
+#include <pellucid/error.h>
+#include <pellucid/image.h>
+#include <pellucid/renderer.h>
+#include <pellucid/scene.h>
+#include <pellucid/technique.h>

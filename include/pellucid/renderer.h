@@ -1,0 +1,120 @@
+#pragma once
+
+#include <pellucid/device.h>
+#include <pellucid/environment.h>
+#include <pellucid/image.h>
+#include <pellucid/scene.h>
+#include <pellucid/technique.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pellucid {
+
+/// What the picture shows.
+enum class View {
+    kRadiance,
+    /// Interfaces on each path (Wang 2014, figure 4.5): red two, blue four, green total internal
+    /// reflection; grey where the technique gave up (status other than ok).
+    kAnalysis,
+};
+
+/// How layers are gathered. Both give the same layers.
+enum class LayerBuilder {
+    kSinglePass,    ///< per-pixel lists, one geometry pass (default)
+    kDepthPeeling,  ///< one geometry pass per layer (Everitt 2001)
+};
+
+/// Curves from scene-linear radiance to display values; every one ends with the sRGB curve.
+enum class ToneMap {
+    kNone,      ///< clips to 0..1
+    kReinhard,  ///< L / (1 + L) on luminance (Reinhard et al. 2002)
+    kAces,      ///< Narkowicz 2015, fit of the ACES filmic curve
+    kNeutral,   ///< Khronos PBR Neutral 1.0: keeps base colours, compresses highlights (default)
+};
+
+struct RenderSettings {
+    std::uint32_t width = 512;   ///< pixels, >= 1
+    std::uint32_t height = 512;
+    std::string technique = "wang-2014";
+    ParameterMap parameters;     ///< of the technique
+    LayerBuilder layer_builder = LayerBuilder::kSinglePass;
+    View view = View::kRadiance;
+    /// Jittered frames, averaged in linear light. 1 samples pixel centres. AOVs always do.
+    std::uint32_t samples = 1;
+    ToneMap tonemap = ToneMap::kNeutral;
+    float exposure_ev = 0.0f;    ///< stops; radiance is multiplied by 2^exposure_ev
+    std::vector<std::string> aovs;  ///< names of aov_infos() wanted in RenderResult::aovs
+};
+
+/// An image of something other than colour. Values are taken at pixel centres.
+struct AovInfo {
+    std::string_view name;
+    int channels;
+    std::string_view doc;
+};
+std::span<const AovInfo> aov_infos();
+
+/// Time that one group of passes took on the device.
+struct PassTime {
+    std::string name;
+    double time_ms;
+};
+
+struct RenderResult {
+    Image radiance;  ///< RGB, scene-linear, before exposure; the analysis view's colours in kAnalysis
+    Image display;   ///< RGB, 0..1, tone mapped and sRGB-encoded
+    std::map<std::string, Image, std::less<>> aovs;
+    /// One entry per sample; empty where the device has no timestamps. On the software driver the
+    /// first frame of a size includes compiling the shaders.
+    std::vector<std::vector<PassTime>> frames;
+    std::uint64_t covered = 0;  ///< pixels whose first surface is refracting glass
+    std::array<std::uint64_t, kStatusCount> status{};  ///< covered pixels by Status
+    std::uint64_t side_conflicts = 0;  ///< covered pixels where shading and geometric normal disagreed about the side
+    std::vector<std::string> warnings;
+};
+
+/// Draws scenes on one Vulkan device. Needs no window. Not thread safe; any number may exist.
+class Renderer {
+public:
+    explicit Renderer(const DeviceOptions& options = {});
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// Uploads; `scene` may go afterwards. Throws Error if the device cannot hold it.
+    void set_scene(const Scene& scene);
+    void set_environment(const Environment& environment);
+    /// Default: the scene's first camera, or one that frames the scene (azimuth 0, elevation 15
+    /// degrees, 30 degrees of field, the bounding sphere filling 70% of the height).
+    void set_camera(const Camera& camera);
+
+    /// Renders what was set; before that there are no objects and the studio environment. Throws Error for settings out of range, unknown names, or sizes beyond the device.
+    RenderResult render(const RenderSettings& settings);
+
+    const DeviceInfo& device() const;
+    /// What the validation layer has said since the renderer was made.
+    const std::vector<std::string>& validation_messages() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Names that the command line and files use for the enumerations above.
+/// The parsers throw Error listing the known names.
+View parse_view(std::string_view name);
+LayerBuilder parse_layer_builder(std::string_view name);
+ToneMap parse_tonemap(std::string_view name);
+
+/// The version of the library, "0.1.0".
+std::string_view version();
+
+}  // namespace pellucid

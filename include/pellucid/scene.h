@@ -1,0 +1,153 @@
+#pragma once
+
+#include <pellucid/image.h>
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pellucid {
+
+/// How a texture coordinate outside 0..1 is brought back inside.
+enum class Wrap : std::uint32_t { kRepeat, kMirror, kClamp };
+
+/// A reference from a material to one of Scene::images.
+struct Texture {
+    int image = -1;                  ///< index into Scene::images, -1 for none
+    int texcoord_set = 0;            ///< 0 or 1: which of Mesh::texcoords
+    Wrap wrap_u = Wrap::kRepeat;
+    Wrap wrap_v = Wrap::kRepeat;
+    bool nearest = false;            ///< true: no interpolation between texels
+    glm::mat3 uv_from_texcoord{1.0f};  ///< KHR_texture_transform; applied to (u, v, 1)
+};
+
+/// glTF metallic-roughness material with the extensions that matter to glass.
+struct Material {
+    std::string name;
+
+    glm::vec4 base_color{1.0f};      ///< linear RGB 0..1, alpha 0..1; tints what is transmitted
+    Texture base_color_texture;      ///< multiplies base_color; its image is sRGB-encoded
+    float metallic = 0.0f;           ///< 0..1
+    float roughness = 0.0f;          ///< perceptual, 0..1
+    glm::vec3 emission{0.0f};        ///< linear radiance, emissive strength included
+    Texture emission_texture;        ///< multiplies emission; its image is sRGB-encoded
+    float alpha_cutoff = 0.0f;       ///< fragments with less alpha are left out; 0 keeps all
+    bool unlit = false;              ///< shows base_color itself
+    bool double_sided = false;
+
+    float transmission = 0.0f;       ///< 0..1; share of the light that enters instead of scattering at the surface
+    Texture transmission_texture;    ///< red channel multiplies transmission (linear)
+    float ior = 1.5f;                ///< index of refraction at the Fraunhofer d line, >= 1
+    float dispersion = 0.0f;         ///< KHR_materials_dispersion: 20 / Abbe number; 0 for none
+    float thickness = 0.0f;          ///< KHR_materials_volume thicknessFactor; 0: thin-walled, does not bend light
+    glm::vec3 attenuation_color{1.0f};  ///< 0..1, what is left of white light after attenuation_distance
+    float attenuation_distance = std::numeric_limits<float>::infinity();  ///< metres, > 0
+
+    bool transmissive() const { return transmission > 0.0f; }
+    /// Bounds a solid of glass, as opposed to an opaque or a thin-walled surface.
+    bool refractive() const { return transmissive() && thickness > 0.0f; }
+    /// Absorption coefficient per metre, `-ln(attenuation_color) / attenuation_distance`.
+    glm::vec3 sigma_a() const;
+};
+
+/// An indexed triangle mesh in its own coordinate frame.
+struct Mesh {
+    std::string name;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;        ///< unit, one per position
+    std::vector<glm::vec2> texcoords[2];   ///< empty, or one per position; v runs downwards (glTF)
+    std::vector<glm::vec4> colors;         ///< empty, or one linear RGBA per position
+    std::vector<glm::uvec3> triangles;     ///< counter-clockwise seen from outside
+};
+
+/// One placement of a mesh.
+struct Object {
+    std::string name;
+    int mesh = 0;
+    int material = 0;
+    glm::mat4 world_from_object{1.0f};     ///< affine, invertible; may mirror
+};
+
+/// A camera: right-handed, looking along its own -Z with +Y up.
+struct Camera {
+    std::string name;
+    glm::mat4 world_from_view{1.0f};       ///< rigid
+    float vertical_fov = 0.5235988f;       ///< radians, 0 < fov < pi (30 degrees)
+    float near_plane = 0.0f;               ///< metres, > 0; 0: chosen from the scene
+    float far_plane = 0.0f;                ///< metres, > near_plane; 0: chosen from the scene
+    bool orthographic = false;
+    float vertical_extent = 0.0f;          ///< orthographic: height of the view volume in metres
+};
+
+/// A checked scene: every index is in range, every number finite, every normal of unit length.
+struct Scene {
+    std::string source;                    ///< what load_scene was given
+    std::vector<Image> images;
+    std::vector<std::string> image_names;  ///< one per image, for messages
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Object> objects;
+    std::vector<Camera> cameras;
+    std::vector<std::string> warnings;     ///< one line each; what was approximated, repaired or left out
+    std::uint64_t triangle_count() const;  ///< over all objects; instances count each time
+};
+
+/// Sphere around a set of objects, in world coordinates.
+struct Bounds {
+    glm::vec3 center{0.0f};
+    float radius = 0.0f;
+};
+/// Bounding sphere of all objects (centre of the axis-aligned box, radius to the farthest vertex).
+Bounds scene_bounds(const Scene& scene);
+
+/// How files without materials of their own become glass, and how meshes are repaired.
+struct LoadOptions {
+    std::optional<float> ior;                      ///< >= 1; overrides every refractive material
+    std::optional<glm::vec3> attenuation_color;    ///< 0..1; likewise
+    std::optional<float> attenuation_distance;     ///< metres, > 0; likewise
+    /// Made normals are shared across edges bent less than this (radians, 0..pi).
+    float crease_angle = 3.14159265f;
+    /// Replace normals that a mesh file brings along by made ones.
+    bool remake_normals = false;
+};
+
+/// Loads a scene.
+///
+/// `source` is a file (`.gltf`, `.glb`, `.obj`, `.ply`, `.stl`, `.off`, `.3ds`) or a procedural
+/// shape `shape:NAME[,PARAMETER=VALUE...]` (see shape_names()). glTF brings its own materials;
+/// of every other kind the whole file is glass.
+/// Throws Error in one line if the file is missing, malformed, empty, or requires a glTF extension
+/// that is not supported. What could be repaired or was left out is in Scene::warnings.
+Scene load_scene(const std::string& source, const LoadOptions& options = {});
+
+/// Names that `shape:` accepts, with a line about each and its parameters.
+struct ShapeParameter {
+    std::string_view name;
+    double default_value;
+    double minimum;
+    double maximum;
+    std::string_view doc;
+};
+struct ShapeInfo {
+    std::string_view name;
+    std::string_view doc;
+    std::vector<ShapeParameter> parameters;
+};
+const std::vector<ShapeInfo>& shape_infos();
+
+/// Camera on a sphere around `bounds`, looking at its centre.
+/// azimuth_deg 0 looks along -Z from +Z, growing towards +X; elevation_deg -90..90;
+/// distance in bounding-sphere radii, > 1.
+Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg, float distance,
+                    float vertical_fov);
+
+/// Distance, in radii, at which a sphere fills `share` of the image height (0 < share < 1).
+float framing_distance(float vertical_fov, float share);
+
+}  // namespace pellucid

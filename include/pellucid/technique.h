@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace pellucid {
+
+/// One number that a technique can be given.
+struct ParameterInfo {
+    std::string_view name;   ///< as on the command line, "steps"
+    std::string_view unit;   ///< "m", "px", or "" for a plain number
+    double default_value;
+    double minimum;
+    double maximum;
+    bool whole;              ///< whole numbers only
+    std::string_view doc;    ///< one line
+};
+
+/// The publication that a technique follows; empty authors: none.
+struct Source {
+    std::string_view authors;
+    std::string_view title;
+    std::string_view venue;
+    int year;
+    std::string_view section;
+};
+
+/// A way to compute refraction, as the registry lists it.
+struct TechniqueInfo {
+    std::string_view name;
+    std::string_view summary;  ///< one line
+    Source source;
+    std::span<const ParameterInfo> parameters;
+};
+
+/// Every technique there is, in the order of its publication.
+std::span<const TechniqueInfo* const> techniques();
+
+/// Throws Error listing the known names if there is none of this name.
+const TechniqueInfo& find_technique(std::string_view name);
+
+/// Parameters given by name; what is not named keeps its default.
+using ParameterMap = std::map<std::string, double, std::less<>>;
+
+/// Why a pixel's refraction may be wrong. The numbers are those of the `status` AOV.
+enum class Status : std::uint32_t {
+    kOk = 0,            ///< every interface on the path was found (or there is no glass here)
+    kMissingLayer = 1,  ///< an interface lies in no layer that the technique looks at
+    kLeftScreen = 2,    ///< the path went where no layer was recorded: outside the picture
+    kStepLimit = 3,     ///< the search used up its steps
+    kEventLimit = 4,    ///< more interface events than the technique follows
+};
+inline constexpr std::uint32_t kStatusCount = 5;
+std::string_view status_name(Status status);
+
+}  // namespace pellucid

@@ -1,0 +1,95 @@
+#include "core/file.h"
+
+#include "core/fail.h"
+
+#include <pellucid/error.h>
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <system_error>
+
+namespace pellucid {
+namespace {
+
+std::filesystem::path temporary_beside(const std::filesystem::path& file) {
+    // The process id keeps two programs apart, the counter two threads of one program.
+    static std::atomic<unsigned> counter{0};
+    std::filesystem::path name = "." + file.stem().string() + ".part-" + std::to_string(getpid()) +
+                                 "-" + std::to_string(counter++);
+    name += file.extension();
+    return file.parent_path() / name;
+}
+
+/// What the library that writes would only report as "could not open", said precisely.
+void check_folder(const std::filesystem::path& file) {
+    if (!file.has_filename()) fail(file, "names no file");
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) fail(file, "cannot write: is a folder");
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::exists(folder, error))
+        fail(file, "cannot write: there is no folder " + folder.string());
+    if (!std::filesystem::is_directory(folder, error))
+        fail(file, "cannot write: " + folder.string() + " is not a folder");
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        fail(file, "cannot write into folder " + folder.string() + ": " + std::strerror(errno));
+}
+
+}  // namespace
+
+std::vector<std::byte> read_file(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (status.type() == std::filesystem::file_type::not_found) fail(file, "no such file");
+    if (error) fail(file, error.message());
+    if (std::filesystem::is_directory(status)) fail(file, "is a folder, not a file");
+    // A pipe would block and a device may never end.
+    if (!std::filesystem::is_regular_file(status)) fail(file, "is not a regular file");
+
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"),
+                                                                 &std::fclose);
+    if (!stream) fail(file, std::strerror(errno));
+    const auto size = std::filesystem::file_size(file, error);
+    if (error) fail(file, error.message());
+    std::vector<std::byte> bytes(size);
+    if (std::fread(bytes.data(), 1, bytes.size(), stream.get()) != bytes.size())
+        fail(file, "cannot be read completely");
+    return bytes;
+}
+
+void write_file_atomically(
+    const std::filesystem::path& file,
+    const std::function<void(const std::filesystem::path& temporary)>& write) {
+    check_folder(file);
+    const std::filesystem::path temporary = temporary_beside(file);
+    std::error_code ignored;
+    try {
+        write(temporary);
+        std::error_code error;
+        std::filesystem::rename(temporary, file, error);
+        if (error) fail(file, "cannot write: " + error.message());
+    } catch (const Error&) {
+        std::filesystem::remove(temporary, ignored);
+        throw;
+    } catch (const std::exception& cause) {
+        std::filesystem::remove(temporary, ignored);
+        fail(file, std::string("cannot write: ") + cause.what());
+    }
+}
+
+void write_text_file(const std::filesystem::path& file, std::string_view text) {
+    write_file_atomically(file, [&](const std::filesystem::path& temporary) {
+        std::ofstream stream(temporary, std::ios::binary);
+        stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+        stream.close();
+        if (!stream) fail(file, std::string("cannot write: ") + std::strerror(errno));
+    });
+}
+
+}  // namespace pellucid

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace pellucid {
+
+/// Whole content of a file. Throws Error naming it if it is missing, a folder, or unreadable.
+std::vector<std::byte> read_file(const std::filesystem::path& file);
+
+/// Lets `write` make a new file under the temporary name it is given (same folder, same extension)
+/// and then renames it to `file`, so that a killed run leaves no half-written file.
+/// Throws Error naming `file` if that fails; the temporary file is removed.
+void write_file_atomically(const std::filesystem::path& file,
+                           const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// As above for text that is at hand.
+void write_text_file(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace pellucid

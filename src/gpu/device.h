@@ -1,0 +1,64 @@
+#pragma once
+
+#include "gpu/vulkan.h"
+
+#include <pellucid/device.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pellucid {
+
+/// A Vulkan 1.3 device with one queue that does graphics and compute. Needs no surface.
+class Device {
+public:
+    /// Throws DeviceError if no device fits, Error if `options.device` names none.
+    explicit Device(const DeviceOptions& options);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const vk::raii::Device& handle() const { return device_; }
+    const vk::raii::Queue& queue() const { return queue_; }
+    std::uint32_t queue_family() const { return queue_family_; }
+    const DeviceInfo& info() const { return info_; }
+    const vk::PhysicalDeviceLimits& limits() const { return limits_; }
+
+    /// Largest single allocation, and largest storage-buffer binding, in bytes.
+    vk::DeviceSize max_allocation() const { return max_allocation_; }
+    vk::DeviceSize max_storage_binding() const { return limits_.maxStorageBufferRange; }
+    /// Atomics from fragment shaders, which the single-pass layer builder needs.
+    bool fragment_atomics() const { return fragment_atomics_; }
+    /// Nanoseconds per timestamp tick; 0 where the queue has no timestamps.
+    double timestamp_period_ns() const { return timestamp_period_ns_; }
+    bool debug_labels() const { return debug_labels_; }
+
+    /// Memory type that fits `type_bits` and has all of `required`, preferring `preferred` as well.
+    std::uint32_t memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags required,
+                              vk::MemoryPropertyFlags preferred = {}) const;
+
+    /// What the validation layer has said so far, in order.
+    const std::vector<std::string>& validation_messages() const { return *messages_; }
+
+private:
+    void create_device(const vk::raii::PhysicalDevice& physical);
+
+    vk::raii::Context context_;
+    std::unique_ptr<std::vector<std::string>> messages_;  // its address is given to the messenger
+    vk::raii::Instance instance_ = nullptr;
+    vk::raii::DebugUtilsMessengerEXT messenger_ = nullptr;
+    vk::raii::Device device_ = nullptr;
+    vk::raii::Queue queue_ = nullptr;
+    std::uint32_t queue_family_ = 0;
+    DeviceInfo info_;
+    vk::PhysicalDeviceLimits limits_;
+    vk::PhysicalDeviceMemoryProperties memory_;
+    vk::DeviceSize max_allocation_ = 0;
+    bool fragment_atomics_ = false;
+    bool debug_labels_ = false;
+    double timestamp_period_ns_ = 0.0;
+};
+
+}  // namespace pellucid

@@ -1,0 +1,229 @@
+#include "gpu/memory.h"
+
+#include <pellucid/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <functional>
+
+namespace pellucid {
+namespace {
+
+constexpr vk::DeviceSize kStagingSize = 64u << 20;
+
+ResourceId next_resource_id() {
+    static std::atomic<ResourceId> last{0};
+    return ++last;
+}
+
+vk::raii::DeviceMemory allocate(const Device& device, const std::string& name, const vk::MemoryRequirements& needs,
+                                vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred) {
+    if (needs.size > device.max_allocation()) {
+        throw Error(fmt::format("{} needs {:.2f} GiB, more than the {:.2f} GiB that {} allocates at once", name,
+                                double(needs.size) / double(1u << 30), double(device.max_allocation()) / double(1u << 30),
+                                device.info().name));
+    }
+    try {
+        return device.handle().allocateMemory(
+            {.allocationSize = needs.size,
+             .memoryTypeIndex = device.memory_type(needs.memoryTypeBits, required, preferred)});
+    } catch (const vk::OutOfDeviceMemoryError&) {
+        throw Error(fmt::format("{}: out of device memory for {:.2f} GiB", name, double(needs.size) / double(1u << 30)));
+    }
+}
+
+/// Records, submits and waits. For uploads and downloads only: a frame goes through the Recorder.
+void submit_once(const Device& device, const std::function<void(const vk::raii::CommandBuffer&)>& record) {
+    const auto& handle = device.handle();
+    const vk::raii::CommandPool pool = handle.createCommandPool(
+        {.flags = vk::CommandPoolCreateFlagBits::eTransient, .queueFamilyIndex = device.queue_family()});
+    const auto commands = handle.allocateCommandBuffers({.commandPool = *pool, .commandBufferCount = 1});
+    commands[0].begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    record(commands[0]);
+    commands[0].end();
+    const vk::raii::Fence fence = handle.createFence({});
+    const vk::CommandBuffer command = *commands[0];
+    device.queue().submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &command}, *fence);
+    while (handle.waitForFences(*fence, true, ~0ull) == vk::Result::eTimeout) {}
+}
+
+Buffer staging_buffer(const Device& device, vk::DeviceSize size) {
+    return Buffer(device, "staging", size,
+                  vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst, true);
+}
+
+vk::ImageAspectFlags aspect_of(vk::Format format) {
+    return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
+}
+
+void change_layout(const vk::raii::CommandBuffer& commands, const GpuImage& image, vk::ImageLayout from, vk::ImageLayout to) {
+    const auto everything = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
+    const vk::ImageMemoryBarrier2 barrier{
+        .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+        .srcAccessMask = everything,
+        .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+        .dstAccessMask = everything,
+        .oldLayout = from,
+        .newLayout = to,
+        .image = image.handle(),
+        .subresourceRange = {.aspectMask = aspect_of(image.format()), .levelCount = 1, .layerCount = image.layers()}};
+    commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+}
+
+vk::BufferImageCopy2 copy_region(const GpuImage& image, std::uint32_t layer, std::uint32_t row, std::uint32_t rows) {
+    return {.imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor,
+                                 .mipLevel = 0,
+                                 .baseArrayLayer = layer,
+                                 .layerCount = 1},
+            .imageOffset = {0, std::int32_t(row), 0},
+            .imageExtent = {image.extent().width, rows, 1}};
+}
+
+/// Calls `copy(first_row, row_count)` for bands of rows that fit the staging buffer.
+void for_each_band(const GpuImage& image, const std::function<void(std::uint32_t, std::uint32_t)>& copy) {
+    const vk::DeviceSize row_bytes = vk::DeviceSize(image.extent().width) * texel_size(image.format());
+    const auto band = std::uint32_t(std::max<vk::DeviceSize>(1, kStagingSize / row_bytes));
+    for (std::uint32_t row = 0; row < image.extent().height; row += band) {
+        copy(row, std::min(band, image.extent().height - row));
+    }
+}
+
+}  // namespace
+
+std::uint32_t texel_size(vk::Format format) {
+    switch (format) {
+        case vk::Format::eR8G8B8A8Unorm:
+        case vk::Format::eR32Sfloat:
+        case vk::Format::eR32Uint:
+        case vk::Format::eD32Sfloat: return 4;
+        case vk::Format::eR32G32Uint:
+        case vk::Format::eR16G16B16A16Sfloat: return 8;
+        case vk::Format::eR32G32B32A32Sfloat: return 16;
+        default: throw std::logic_error("texel_size: unexpected format " + vk::to_string(format));
+    }
+}
+
+Buffer::Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::BufferUsageFlags usage,
+               bool host_visible)
+    : name_(std::move(name)), size_(std::max<vk::DeviceSize>(size, 4)), id_(next_resource_id()) {
+    if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && size_ > device.max_storage_binding()) {
+        throw Error(fmt::format("{} needs {} MiB in one storage buffer; {} allows {} MiB", name_, size_ >> 20,
+                                device.info().name, device.max_storage_binding() >> 20));
+    }
+    buffer_ = device.handle().createBuffer({.size = size_, .usage = usage});
+    using Property = vk::MemoryPropertyFlagBits;
+    const vk::MemoryPropertyFlags required =
+        host_visible ? Property::eHostVisible | Property::eHostCoherent : vk::MemoryPropertyFlags{};
+    const vk::MemoryPropertyFlags preferred = host_visible ? required | Property::eHostCached : Property::eDeviceLocal;
+    memory_ = allocate(device, name_, buffer_.getMemoryRequirements(), required, preferred);
+    buffer_.bindMemory(*memory_, 0);
+    if (host_visible) mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+}
+
+GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent2D extent,
+                   std::uint32_t layers, vk::ImageUsageFlags usage)
+    : name_(std::move(name)), format_(format), extent_(extent), id_(next_resource_id()) {
+    const std::uint32_t limit = device.limits().maxImageDimension2D;
+    if (extent.width == 0 || extent.height == 0 || extent.width > limit || extent.height > limit) {
+        throw Error(fmt::format("{} of {}x{}: {} allows 1x1 to {}x{}", name_, extent.width, extent.height,
+                                device.info().name, limit, limit));
+    }
+    if (layers == 0 || layers > device.limits().maxImageArrayLayers) {
+        throw Error(fmt::format("{} with {} layers: {} allows 1 to {}", name_, layers, device.info().name,
+                                device.limits().maxImageArrayLayers));
+    }
+    const vk::DeviceSize bytes = vk::DeviceSize(extent.width) * extent.height * layers * texel_size(format);
+    if (bytes > device.max_allocation()) {
+        throw Error(fmt::format("{} of {}x{} with {} layer(s) needs {:.2f} GiB; {} allocates {:.2f} GiB at once", name_,
+                                extent.width, extent.height, layers, double(bytes) / double(1u << 30),
+                                device.info().name, double(device.max_allocation()) / double(1u << 30)));
+    }
+    image_ = device.handle().createImage({.imageType = vk::ImageType::e2D,
+                                          .format = format,
+                                          .extent = {extent.width, extent.height, 1},
+                                          .mipLevels = 1,
+                                          .arrayLayers = layers,
+                                          .samples = vk::SampleCountFlagBits::e1,
+                                          .tiling = vk::ImageTiling::eOptimal,
+                                          .usage = usage,
+                                          .initialLayout = vk::ImageLayout::eUndefined});
+    memory_ = allocate(device, name_, image_.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    image_.bindMemory(*memory_, 0);
+
+    const auto view = [&](vk::ImageViewType type, std::uint32_t first, std::uint32_t count) {
+        return device.handle().createImageView({.image = *image_,
+                                                .viewType = type,
+                                                .format = format,
+                                                .subresourceRange = {.aspectMask = aspect_of(format),
+                                                                     .levelCount = 1,
+                                                                     .baseArrayLayer = first,
+                                                                     .layerCount = count}});
+    };
+    array_view_ = view(vk::ImageViewType::e2DArray, 0, layers);
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        layer_views_.push_back(view(vk::ImageViewType::e2D, layer, 1));
+    }
+    submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
+        change_layout(commands, *this, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral);
+    });
+}
+
+void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data) {
+    if (data.empty()) return;
+    const Buffer staging = staging_buffer(device, std::min<vk::DeviceSize>(kStagingSize, data.size()));
+    for (vk::DeviceSize offset = 0; offset < data.size(); offset += staging.size()) {
+        const vk::DeviceSize bytes = std::min<vk::DeviceSize>(staging.size(), data.size() - offset);
+        std::memcpy(staging.mapped(), data.data() + offset, bytes);
+        submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
+            commands.copyBuffer(staging.handle(), buffer.handle(), vk::BufferCopy{.dstOffset = offset, .size = bytes});
+        });
+    }
+}
+
+void upload(const Device& device, const GpuImage& image, std::uint32_t layer, std::span<const std::byte> data) {
+    const std::size_t row_bytes = std::size_t(image.extent().width) * texel_size(image.format());
+    const Buffer staging = staging_buffer(device, std::max<vk::DeviceSize>(row_bytes, std::min(kStagingSize, data.size())));
+    for_each_band(image, [&](std::uint32_t row, std::uint32_t rows) {
+        std::memcpy(staging.mapped(), data.data() + row * row_bytes, rows * row_bytes);
+        submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
+            const vk::BufferImageCopy2 region = copy_region(image, layer, row, rows);
+            change_layout(commands, image, vk::ImageLayout::eGeneral, vk::ImageLayout::eTransferDstOptimal);
+            commands.copyBufferToImage2({.srcBuffer = staging.handle(),
+                                         .dstImage = image.handle(),
+                                         .dstImageLayout = vk::ImageLayout::eTransferDstOptimal,
+                                         .regionCount = 1,
+                                         .pRegions = &region});
+            change_layout(commands, image, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eGeneral);
+        });
+    });
+}
+
+std::vector<std::byte> download(const Device& device, const GpuImage& image, std::uint32_t layer) {
+    const std::size_t row_bytes = std::size_t(image.extent().width) * texel_size(image.format());
+    std::vector<std::byte> data(row_bytes * image.extent().height);
+    const Buffer staging = staging_buffer(device, std::max<vk::DeviceSize>(row_bytes, std::min(kStagingSize, data.size())));
+    for_each_band(image, [&](std::uint32_t row, std::uint32_t rows) {
+        submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
+            const vk::BufferImageCopy2 region = copy_region(image, layer, row, rows);
+            change_layout(commands, image, vk::ImageLayout::eGeneral, vk::ImageLayout::eTransferSrcOptimal);
+            commands.copyImageToBuffer2({.srcImage = image.handle(),
+                                         .srcImageLayout = vk::ImageLayout::eTransferSrcOptimal,
+                                         .dstBuffer = staging.handle(),
+                                         .regionCount = 1,
+                                         .pRegions = &region});
+            change_layout(commands, image, vk::ImageLayout::eTransferSrcOptimal, vk::ImageLayout::eGeneral);
+            const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
+                                             .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
+                                             .dstStageMask = vk::PipelineStageFlagBits2::eHost,
+                                             .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+            commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
+        });
+        std::memcpy(data.data() + row * row_bytes, staging.mapped(), rows * row_bytes);
+    });
+    return data;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "gpu/device.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pellucid {
+
+/// Identifies a buffer or an image to the Recorder; never reused.
+using ResourceId = std::uint64_t;
+
+/// Device memory read and written by shaders. Throws Error if it is larger than the device allows.
+class Buffer {
+public:
+    Buffer() = default;
+    Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::BufferUsageFlags usage,
+           bool host_visible = false);
+
+    vk::Buffer handle() const { return *buffer_; }
+    vk::DeviceSize size() const { return size_; }
+    ResourceId id() const { return id_; }
+    const std::string& name() const { return name_; }
+    /// Host address; null unless the buffer is host visible. Coherent.
+    std::byte* mapped() const { return mapped_; }
+
+private:
+    std::string name_;
+    vk::raii::DeviceMemory memory_ = nullptr;  // outlives buffer_
+    vk::raii::Buffer buffer_ = nullptr;
+    vk::DeviceSize size_ = 0;
+    ResourceId id_ = 0;
+    std::byte* mapped_ = nullptr;
+};
+
+/// A two-dimensional image or array of them, one mip level. Always in layout GENERAL, so that a
+/// pass needs only memory barriers (the cost on current desktop GPUs is small, and the software
+/// driver has no layouts).
+class GpuImage {
+public:
+    GpuImage() = default;
+    GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent2D extent,
+             std::uint32_t layers, vk::ImageUsageFlags usage);
+
+    vk::Image handle() const { return *image_; }
+    vk::ImageView array_view() const { return *array_view_; }  ///< all layers, as a 2D array
+    vk::ImageView layer_view(std::uint32_t layer) const { return *layer_views_.at(layer); }
+    vk::Format format() const { return format_; }
+    vk::Extent2D extent() const { return extent_; }
+    std::uint32_t layers() const { return std::uint32_t(layer_views_.size()); }
+    ResourceId id() const { return id_; }
+    const std::string& name() const { return name_; }
+
+private:
+    std::string name_;
+    vk::raii::DeviceMemory memory_ = nullptr;  // outlives image_
+    vk::raii::Image image_ = nullptr;
+    vk::raii::ImageView array_view_ = nullptr;
+    std::vector<vk::raii::ImageView> layer_views_;
+    vk::Format format_ = vk::Format::eUndefined;
+    vk::Extent2D extent_;
+    ResourceId id_ = 0;
+};
+
+/// Bytes per texel of the formats Pellucid uses.
+std::uint32_t texel_size(vk::Format format);
+
+/// Fills a device buffer or one layer of an image from host memory, and waits for it.
+void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data);
+void upload(const Device& device, const GpuImage& image, std::uint32_t layer, std::span<const std::byte> data);
+
+/// One layer of an image, tightly packed rows from the top, after all submitted work.
+std::vector<std::byte> download(const Device& device, const GpuImage& image, std::uint32_t layer);
+
+}  // namespace pellucid

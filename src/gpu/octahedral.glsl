@@ -1,0 +1,24 @@
+#ifndef PELLUCID_GPU_OCTAHEDRAL_GLSL
+#define PELLUCID_GPU_OCTAHEDRAL_GLSL
+
+// Unit vectors in 32 bits: Cigolle et al., "A Survey of Efficient Representations for Independent
+// Unit Vectors", JCGT 2014, section 3.3 (octahedral, 2 x 16 bit; error below 0.004 degrees).
+
+vec2 sign_not_zero(vec2 v) {
+    return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
+}
+
+uint pack_unit_vector(vec3 n) {
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    if (n.z < 0.0) p = (1.0 - abs(p.yx)) * sign_not_zero(p);
+    return packSnorm2x16(p);
+}
+
+vec3 unpack_unit_vector(uint packed) {
+    vec2 p = unpackSnorm2x16(packed);
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * sign_not_zero(n.xy);
+    return normalize(n);
+}
+
+#endif

@@ -1,0 +1,167 @@
+#include "gpu/program.h"
+
+#include <fmt/format.h>
+#include <spirv_cross/spirv_cross.hpp>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace pellucid {
+namespace {
+
+vk::raii::ShaderModule make_module(const Device& device, ShaderCode shader) {
+    return device.handle().createShaderModule({.codeSize = shader.words.size_bytes(), .pCode = shader.words.data()});
+}
+
+vk::PipelineShaderStageCreateInfo stage_info(vk::ShaderStageFlagBits stage, const vk::raii::ShaderModule& module) {
+    return {.stage = stage, .module = *module, .pName = "main"};
+}
+
+}  // namespace
+
+void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
+    const spirv_cross::Compiler compiler(shader.words.data(), shader.words.size());
+    const spirv_cross::ShaderResources resources = compiler.get_shader_resources();
+    const auto add = [&](const spirv_cross::Resource& resource, vk::DescriptorType type, const spirv_cross::Bitset& flags) {
+        const std::string instance = compiler.get_name(resource.id);
+        const std::string name = instance.empty() ? resource.name : instance;
+        const std::uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
+        const auto same = std::find_if(slots_.begin(), slots_.end(), [&](const BindingSlot& s) { return s.binding == binding; });
+        const bool writable = type != vk::DescriptorType::eSampledImage && !flags.get(spv::DecorationNonWritable);
+        const bool readable = !flags.get(spv::DecorationNonReadable);
+        if (same == slots_.end()) {
+            slots_.push_back({name, binding, type, readable, writable, stage});
+        } else if (same->name != name || same->type != type) {
+            throw std::logic_error(fmt::format("{}: binding {} is '{}' in {} and '{}' before", name_, binding, name,
+                                               shader.name, same->name));
+        } else {
+            same->readable |= readable;
+            same->writable |= writable;
+            same->stages |= stage;
+        }
+    };
+    for (const auto& r : resources.storage_buffers) {
+        add(r, vk::DescriptorType::eStorageBuffer, compiler.get_buffer_block_flags(r.id));
+    }
+    for (const auto& r : resources.storage_images) {
+        add(r, vk::DescriptorType::eStorageImage, compiler.get_decoration_bitset(r.id));
+    }
+    for (const auto& r : resources.separate_images) {
+        add(r, vk::DescriptorType::eSampledImage, compiler.get_decoration_bitset(r.id));
+    }
+    for (const auto& r : resources.push_constant_buffers) {
+        const auto size = std::uint32_t(compiler.get_declared_struct_size(compiler.get_type(r.base_type_id)));
+        push_size_ = std::max(push_size_, size);
+    }
+    if (!resources.uniform_buffers.empty() || !resources.sampled_images.empty()) {
+        throw std::logic_error(fmt::format("{}: uniform buffers and combined samplers are not used here", shader.name));
+    }
+    if (stage == vk::ShaderStageFlagBits::eCompute) {
+        workgroup_ = vk::Extent2D{compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, 0),
+                      compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, 1)};
+    }
+    stages_ |= stage;
+}
+
+void Program::make_layouts(const Device& device) {
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (const BindingSlot& slot : slots_) {
+        bindings.push_back({.binding = slot.binding,
+                            .descriptorType = slot.type,
+                            .descriptorCount = 1,
+                            .stageFlags = slot.stages});
+    }
+    set_layout_ = device.handle().createDescriptorSetLayout(
+        {.bindingCount = std::uint32_t(bindings.size()), .pBindings = bindings.data()});
+    const vk::PushConstantRange range{.stageFlags = stages_, .offset = 0, .size = push_size_};
+    const vk::DescriptorSetLayout set = *set_layout_;
+    layout_ = device.handle().createPipelineLayout({.setLayoutCount = 1,
+                                                    .pSetLayouts = &set,
+                                                    .pushConstantRangeCount = push_size_ > 0 ? 1u : 0u,
+                                                    .pPushConstantRanges = &range});
+}
+
+Program Program::compute(const Device& device, ShaderCode shader) {
+    Program program;
+    program.name_ = shader.name;
+    program.reflect(shader, vk::ShaderStageFlagBits::eCompute);
+    program.make_layouts(device);
+    const vk::raii::ShaderModule module = make_module(device, shader);
+    program.pipeline_ = device.handle().createComputePipeline(
+        nullptr, {.stage = stage_info(vk::ShaderStageFlagBits::eCompute, module), .layout = *program.layout_});
+    return program;
+}
+
+Program Program::graphics(const Device& device, const Graphics& state) {
+    Program program;
+    program.name_ = state.fragment.name;
+    program.reflect(state.vertex, vk::ShaderStageFlagBits::eVertex);
+    program.reflect(state.fragment, vk::ShaderStageFlagBits::eFragment);
+    program.make_layouts(device);
+
+    const vk::raii::ShaderModule vertex = make_module(device, state.vertex);
+    const vk::raii::ShaderModule fragment = make_module(device, state.fragment);
+    const std::array stages = {stage_info(vk::ShaderStageFlagBits::eVertex, vertex),
+                               stage_info(vk::ShaderStageFlagBits::eFragment, fragment)};
+
+    std::vector<vk::VertexInputBindingDescription> streams;
+    for (std::uint32_t i = 0; i < state.stream_strides.size(); ++i) {
+        streams.push_back({.binding = i, .stride = state.stream_strides[i], .inputRate = vk::VertexInputRate::eVertex});
+    }
+    std::vector<vk::VertexInputAttributeDescription> attributes;
+    for (std::uint32_t i = 0; i < state.attributes.size(); ++i) {
+        const VertexAttribute& a = state.attributes[i];
+        attributes.push_back({.location = i, .binding = a.stream, .format = a.format, .offset = a.offset});
+    }
+    const vk::PipelineVertexInputStateCreateInfo vertex_input{
+        .vertexBindingDescriptionCount = std::uint32_t(streams.size()),
+        .pVertexBindingDescriptions = streams.data(),
+        .vertexAttributeDescriptionCount = std::uint32_t(attributes.size()),
+        .pVertexAttributeDescriptions = attributes.data()};
+    const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
+    const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
+    const vk::PipelineRasterizationStateCreateInfo raster{.polygonMode = vk::PolygonMode::eFill,
+                                                          .cullMode = vk::CullModeFlagBits::eNone,
+                                                          .frontFace = vk::FrontFace::eCounterClockwise,
+                                                          .lineWidth = 1.0f};
+    const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples = vk::SampleCountFlagBits::e1};
+    const vk::PipelineDepthStencilStateCreateInfo depth{.depthTestEnable = state.depth,
+                                                        .depthWriteEnable = state.depth,
+                                                        .depthCompareOp = vk::CompareOp::eLess};
+    using Component = vk::ColorComponentFlagBits;
+    const vk::PipelineColorBlendAttachmentState blend{
+        .blendEnable = state.blend != Blend::kReplace,
+        .srcColorBlendFactor = state.blend == Blend::kMultiply ? vk::BlendFactor::eDstColor : vk::BlendFactor::eOne,
+        .dstColorBlendFactor = state.blend == Blend::kAdd ? vk::BlendFactor::eOne : vk::BlendFactor::eZero,
+        .colorBlendOp = vk::BlendOp::eAdd,
+        .srcAlphaBlendFactor = vk::BlendFactor::eOne,
+        .dstAlphaBlendFactor = vk::BlendFactor::eZero,
+        .alphaBlendOp = vk::BlendOp::eAdd,
+        .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA};
+    const std::vector<vk::PipelineColorBlendAttachmentState> blends(state.colors.size(), blend);
+    const vk::PipelineColorBlendStateCreateInfo color{.attachmentCount = std::uint32_t(blends.size()),
+                                                      .pAttachments = blends.data()};
+    const std::array dynamic_states = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+    const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = std::uint32_t(dynamic_states.size()),
+                                                     .pDynamicStates = dynamic_states.data()};
+    const vk::PipelineRenderingCreateInfo rendering{
+        .colorAttachmentCount = std::uint32_t(state.colors.size()),
+        .pColorAttachmentFormats = state.colors.data(),
+        .depthAttachmentFormat = state.depth ? vk::Format::eD32Sfloat : vk::Format::eUndefined};
+    program.pipeline_ = device.handle().createGraphicsPipeline(nullptr, {.pNext = &rendering,
+                                                                         .stageCount = std::uint32_t(stages.size()),
+                                                                         .pStages = stages.data(),
+                                                                         .pVertexInputState = &vertex_input,
+                                                                         .pInputAssemblyState = &assembly,
+                                                                         .pViewportState = &viewport,
+                                                                         .pRasterizationState = &raster,
+                                                                         .pMultisampleState = &samples,
+                                                                         .pDepthStencilState = &depth,
+                                                                         .pColorBlendState = &color,
+                                                                         .pDynamicState = &dynamic,
+                                                                         .layout = *program.layout_});
+    return program;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "gpu/device.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pellucid {
+
+/// SPIR-V embedded at build time; `name` is the shader's file name.
+struct ShaderCode {
+    std::string_view name;
+    std::span<const std::uint32_t> words;
+};
+
+/// One binding of set 0, as SPIR-V reflection finds it in the shaders.
+struct BindingSlot {
+    std::string name;
+    std::uint32_t binding = 0;
+    vk::DescriptorType type = vk::DescriptorType::eStorageBuffer;
+    bool readable = true;
+    bool writable = true;
+    vk::ShaderStageFlags stages;
+};
+
+/// How a fragment's colour joins what the target holds.
+enum class Blend { kReplace, kMultiply, kAdd };
+
+/// A compute or graphics pipeline with the bindings its shaders declare.
+class Program {
+public:
+    /// Workgroup size is the shader's own.
+    static Program compute(const Device& device, ShaderCode shader);
+
+    struct VertexAttribute {
+        vk::Format format;
+        std::uint32_t stream;  ///< index of the vertex buffer
+        std::uint32_t offset;  ///< bytes
+    };
+    struct Graphics {
+        ShaderCode vertex;
+        ShaderCode fragment;
+        std::vector<std::uint32_t> stream_strides;   ///< bytes per vertex of each vertex buffer
+        std::vector<VertexAttribute> attributes;     ///< location = index
+        std::vector<vk::Format> colors;              ///< attachments; empty draws without any
+        bool depth = false;                          ///< D32 attachment, nearest fragment wins
+        Blend blend = Blend::kReplace;
+    };
+    static Program graphics(const Device& device, const Graphics& state);
+
+    const std::string& name() const { return name_; }
+    const std::vector<BindingSlot>& slots() const { return slots_; }
+    std::uint32_t push_size() const { return push_size_; }
+    vk::ShaderStageFlags stages() const { return stages_; }
+    bool is_compute() const { return stages_ == vk::ShaderStageFlagBits::eCompute; }
+    vk::Extent2D workgroup() const { return workgroup_; }
+    vk::Pipeline pipeline() const { return *pipeline_; }
+    vk::PipelineLayout layout() const { return *layout_; }
+    vk::DescriptorSetLayout set_layout() const { return *set_layout_; }
+
+private:
+    void reflect(ShaderCode shader, vk::ShaderStageFlagBits stage);
+    void make_layouts(const Device& device);
+
+    std::string name_;
+    std::vector<BindingSlot> slots_;
+    std::uint32_t push_size_ = 0;
+    vk::ShaderStageFlags stages_;
+    vk::Extent2D workgroup_{1, 1};
+    vk::raii::DescriptorSetLayout set_layout_ = nullptr;
+    vk::raii::PipelineLayout layout_ = nullptr;
+    vk::raii::Pipeline pipeline_ = nullptr;
+};
+
+}  // namespace pellucid

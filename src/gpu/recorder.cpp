@@ -1,0 +1,317 @@
+#include "gpu/recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace pellucid {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using AccessBit = vk::AccessFlagBits2;
+
+constexpr std::uint32_t kQueriesPerPool = 64;
+constexpr std::uint32_t kSetsPerPool = 64;
+constexpr std::uint32_t kDescriptorsPerPool = 16 * kSetsPerPool;
+
+vk::PipelineStageFlags2 stages_of(const BindingSlot& slot) {
+    vk::PipelineStageFlags2 stages;
+    if (slot.stages & vk::ShaderStageFlagBits::eCompute) stages |= Stage::eComputeShader;
+    if (slot.stages & vk::ShaderStageFlagBits::eVertex) stages |= Stage::eVertexShader;
+    if (slot.stages & vk::ShaderStageFlagBits::eFragment) stages |= Stage::eFragmentShader;
+    return stages;
+}
+
+vk::AccessFlags2 access_of(const BindingSlot& slot, Access access) {
+    const bool sampled = slot.type == vk::DescriptorType::eSampledImage;
+    const vk::AccessFlags2 read = sampled ? AccessBit::eShaderSampledRead : AccessBit::eShaderStorageRead;
+    vk::AccessFlags2 flags;
+    if (access != Access::kWrite) flags |= read;
+    if (access != Access::kRead) flags |= AccessBit::eShaderStorageWrite;
+    return flags;
+}
+
+std::string_view access_name(bool readable, bool writable) {
+    return readable && writable ? "reads and writes" : writable ? "writes" : "reads";
+}
+
+void check_access(const Program& program, const BindingSlot& slot, const Binding& binding) {
+    const bool reads_it = binding.access != Access::kWrite;
+    const bool writes_it = binding.access != Access::kRead;
+    if (reads_it == slot.readable && writes_it == slot.writable) return;
+    throw std::logic_error(fmt::format("{}: the shader {} '{}', the pass {} it", program.name(),
+                                       access_name(slot.readable, slot.writable), slot.name,
+                                       access_name(reads_it, writes_it)));
+}
+
+const Binding& binding_of(const Program& program, const BindingSlot& slot, std::span<const Binding> bindings) {
+    const auto match = std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == slot.name; });
+    if (match == bindings.end()) {
+        throw std::logic_error(fmt::format("{}: the shader declares '{}', the pass binds no such name", program.name(), slot.name));
+    }
+    const bool wants_buffer = slot.type == vk::DescriptorType::eStorageBuffer;
+    if (wants_buffer != (match->buffer != nullptr)) {
+        throw std::logic_error(fmt::format("{}: the shader declares '{}' as {}, the pass binds the other kind",
+                                           program.name(), slot.name, vk::to_string(slot.type)));
+    }
+    check_access(program, slot, *match);
+    return *match;
+}
+
+}  // namespace
+
+Recorder::Recorder(const Device& device) : device_(device) {
+    const auto& handle = device.handle();
+    pool_ = handle.createCommandPool({.queueFamilyIndex = device.queue_family()});
+    commands_ = std::move(handle.allocateCommandBuffers({.commandPool = *pool_, .commandBufferCount = 1}).front());
+    fence_ = handle.createFence({});
+    restart();
+}
+
+void Recorder::restart() {
+    pool_.reset();
+    for (const auto& pool : descriptor_pools_) pool.reset();
+    descriptor_pool_ = 0;
+    scopes_.clear();
+    timestamps_ = 0;
+    states_.clear();
+    commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    // What earlier submissions wrote becomes visible here; from now on states_ knows.
+    const vk::MemoryBarrier2 all{.srcStageMask = Stage::eAllCommands,
+                                 .srcAccessMask = AccessBit::eMemoryWrite,
+                                 .dstStageMask = Stage::eAllCommands,
+                                 .dstAccessMask = AccessBit::eMemoryRead | AccessBit::eMemoryWrite};
+    commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &all});
+}
+
+void Recorder::synchronise(std::span<const Use> uses) {
+    vk::MemoryBarrier2 barrier;
+    for (const Use& use : uses) {
+        State& state = states_[use.id];
+        const bool unseen_write = state.write_access && (state.visible_stages & use.stage) != use.stage;
+        if (unseen_write || (use.write && state.write_access)) {
+            barrier.srcStageMask |= state.write_stage;
+            barrier.srcAccessMask |= state.write_access;
+        }
+        if (use.write) barrier.srcStageMask |= state.read_stages;
+    }
+    if (barrier.srcStageMask) {
+        for (const Use& use : uses) {
+            barrier.dstStageMask |= use.stage;
+            barrier.dstAccessMask |= use.access;
+        }
+        commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
+    }
+    for (const Use& use : uses) {
+        State& state = states_[use.id];
+        if (use.write) {
+            state = State{use.stage, use.access, {}, {}};
+        } else {
+            state.visible_stages |= use.stage;
+            state.read_stages |= use.stage;
+        }
+    }
+}
+
+vk::DescriptorSet Recorder::allocate_set(const Program& program) {
+    const auto& handle = device_.handle();
+    const vk::DescriptorSetLayout layout = program.set_layout();
+    for (bool fresh = false;; ++descriptor_pool_) {
+        if (descriptor_pool_ == descriptor_pools_.size()) {
+            const std::array sizes = {
+                vk::DescriptorPoolSize{vk::DescriptorType::eStorageBuffer, kDescriptorsPerPool},
+                vk::DescriptorPoolSize{vk::DescriptorType::eStorageImage, kDescriptorsPerPool},
+                vk::DescriptorPoolSize{vk::DescriptorType::eSampledImage, kDescriptorsPerPool}};
+            descriptor_pools_.push_back(handle.createDescriptorPool({.maxSets = kSetsPerPool,
+                                                                     .poolSizeCount = std::uint32_t(sizes.size()),
+                                                                     .pPoolSizes = sizes.data()}));
+            fresh = true;
+        }
+        const vk::DescriptorSetAllocateInfo info{.descriptorPool = *descriptor_pools_[descriptor_pool_],
+                                                 .descriptorSetCount = 1,
+                                                 .pSetLayouts = &layout};
+        // Sets are freed with their pool, so the plain handle is wanted here, not the RAII one.
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        const VkDescriptorSetAllocateInfo& plain = info;
+        const VkResult result = handle.getDispatcher()->vkAllocateDescriptorSets(*handle, &plain, &set);
+        if (result == VK_SUCCESS) return set;
+        if (fresh) throw std::logic_error(fmt::format("{}: no descriptor set for it", program.name()));
+    }
+}
+
+void Recorder::bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+                    std::vector<Use>& uses) {
+    if (bindings.size() != program.slots().size() || push.size() != program.push_size()) {
+        throw std::logic_error(fmt::format("{}: the shader has {} bindings and {} bytes of push constants, the pass {} and {}",
+                                           program.name(), program.slots().size(), program.push_size(), bindings.size(),
+                                           push.size()));
+    }
+    std::vector<vk::WriteDescriptorSet> set_writes;
+    std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
+    std::vector<vk::DescriptorImageInfo> images(bindings.size());
+    const vk::DescriptorSet set = allocate_set(program);
+    for (const BindingSlot& slot : program.slots()) {
+        const Binding& binding = binding_of(program, slot, bindings);
+        const std::size_t i = set_writes.size();
+        if (binding.buffer) {
+            buffers[i] = vk::DescriptorBufferInfo{.buffer = binding.buffer->handle(), .offset = 0, .range = VK_WHOLE_SIZE};
+        } else {
+            images[i] = vk::DescriptorImageInfo{.imageView = binding.layer ? binding.image->layer_view(*binding.layer) : binding.image->array_view(),
+                         .imageLayout = vk::ImageLayout::eGeneral};
+        }
+        set_writes.push_back({.dstSet = set,
+                              .dstBinding = slot.binding,
+                              .descriptorCount = 1,
+                              .descriptorType = slot.type,
+                              .pImageInfo = binding.image ? &images[i] : nullptr,
+                              .pBufferInfo = binding.buffer ? &buffers[i] : nullptr});
+        uses.push_back({binding.buffer ? binding.buffer->id() : binding.image->id(), stages_of(slot),
+                        access_of(slot, binding.access), binding.access != Access::kRead});
+    }
+    device_.handle().updateDescriptorSets(set_writes, nullptr);
+    const auto point = program.is_compute() ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics;
+    commands_.bindPipeline(point, program.pipeline());
+    commands_.bindDescriptorSets(point, program.layout(), 0, set, nullptr);
+    if (!push.empty()) {
+        commands_.pushConstants<std::byte>(program.layout(), program.stages(), 0,
+                                           vk::ArrayProxy<const std::byte>(std::uint32_t(push.size()), push.data()));
+    }
+}
+
+void Recorder::compute_bytes(const Program& program, std::span<const Binding> bindings,
+                             std::span<const std::byte> push, vk::Extent2D threads) {
+    std::vector<Use> uses;
+    bind(program, bindings, push, uses);
+    synchronise(uses);
+    const vk::Extent2D group = program.workgroup();
+    commands_.dispatch((threads.width + group.width - 1) / group.width, (threads.height + group.height - 1) / group.height, 1);
+}
+
+void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+                          const RenderTarget& target, std::span<const Buffer* const> streams,
+                          std::span<const DrawCall> calls) {
+    std::vector<Use> uses;
+    bind(program, bindings, push, uses);
+    const auto attachment = [](const RenderTarget::Attachment& a) {
+        return vk::RenderingAttachmentInfo{
+            .imageView = a.image->layer_view(a.layer),
+            .imageLayout = vk::ImageLayout::eGeneral,
+            .loadOp = a.clear ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eLoad,
+            .storeOp = vk::AttachmentStoreOp::eStore,
+            .clearValue = a.clear.value_or(vk::ClearValue{})};
+    };
+    std::vector<vk::RenderingAttachmentInfo> colors;
+    for (const auto& a : target.colors) {
+        colors.push_back(attachment(a));
+        uses.push_back({a.image->id(), Stage::eColorAttachmentOutput,
+                        AccessBit::eColorAttachmentRead | AccessBit::eColorAttachmentWrite, true});
+    }
+    vk::RenderingAttachmentInfo depth;
+    if (target.depth) {
+        depth = attachment(*target.depth);
+        uses.push_back({target.depth->image->id(), Stage::eEarlyFragmentTests | Stage::eLateFragmentTests,
+                        AccessBit::eDepthStencilAttachmentRead | AccessBit::eDepthStencilAttachmentWrite, true});
+    }
+    synchronise(uses);
+
+    const vk::Rect2D everything{{0, 0}, target.extent};
+    commands_.beginRendering({.renderArea = everything,
+                              .layerCount = 1,
+                              .colorAttachmentCount = std::uint32_t(colors.size()),
+                              .pColorAttachments = colors.data(),
+                              .pDepthAttachment = target.depth ? &depth : nullptr});
+    const vk::Viewport viewport{0.0f, 0.0f, float(target.extent.width), float(target.extent.height), 0.0f, 1.0f};
+    commands_.setViewport(0, viewport);
+    commands_.setScissor(0, target.scissor.extent.width > 0 ? target.scissor : everything);
+    for (std::uint32_t i = 0; i < streams.size(); ++i) {
+        commands_.bindVertexBuffers(i, streams[i]->handle(), vk::DeviceSize(0));
+    }
+    for (const DrawCall& call : calls) commands_.draw(call.vertex_count, 1, call.first_vertex, call.instance);
+    commands_.endRendering();
+}
+
+void Recorder::clear(const GpuImage& image, vk::ClearColorValue value) {
+    synchronise(std::array{Use{image.id(), Stage::eAllTransfer, AccessBit::eTransferWrite, true}});
+    const vk::ImageSubresourceRange range{
+        .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = image.layers()};
+    commands_.clearColorImage(image.handle(), vk::ImageLayout::eGeneral, value, range);
+}
+
+void Recorder::fill(const Buffer& buffer, std::uint32_t word) {
+    // eAllTransfer, not eClear: validation layers up to 1.3.239 take a fill for a copy.
+    synchronise(std::array{Use{buffer.id(), Stage::eAllTransfer, AccessBit::eTransferWrite, true}});
+    commands_.fillBuffer(buffer.handle(), 0, VK_WHOLE_SIZE, word);
+}
+
+void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes) {
+    synchronise(std::array{Use{source.id(), Stage::eCopy, AccessBit::eTransferRead, false},
+                           Use{destination.id(), Stage::eCopy, AccessBit::eTransferWrite, true}});
+    commands_.copyBuffer(source.handle(), destination.handle(), vk::BufferCopy{.size = bytes});
+}
+
+void Recorder::write_timestamp(Stage stage) {
+    if (device_.timestamp_period_ns() == 0.0) return;
+    const std::uint32_t pool = timestamps_ / kQueriesPerPool;
+    const std::uint32_t query = timestamps_ % kQueriesPerPool;
+    if (pool == query_pools_.size()) {
+        query_pools_.push_back(device_.handle().createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = kQueriesPerPool}));
+    }
+    if (query == 0) commands_.resetQueryPool(*query_pools_[pool], 0, kQueriesPerPool);
+    commands_.writeTimestamp2(stage, *query_pools_[pool], query);
+    ++timestamps_;
+}
+
+Recorder::Scope::Scope(Recorder& recorder, std::string_view name) : recorder_(recorder) {
+    recorder_.scopes_.emplace_back(name);
+    if (recorder_.device_.debug_labels()) {
+        recorder_.commands_.beginDebugUtilsLabelEXT({.pLabelName = recorder_.scopes_.back().c_str()});
+    }
+    recorder_.write_timestamp(Stage::eAllCommands);
+}
+
+Recorder::Scope::~Scope() {
+    recorder_.write_timestamp(Stage::eAllCommands);
+    if (recorder_.device_.debug_labels()) recorder_.commands_.endDebugUtilsLabelEXT();
+}
+
+std::vector<PassTime> Recorder::read_times() const {
+    std::vector<std::uint64_t> ticks;
+    for (std::uint32_t first = 0; first < timestamps_; first += kQueriesPerPool) {
+        const std::uint32_t count = std::min(kQueriesPerPool, timestamps_ - first);
+        const auto [result, values] = query_pools_[first / kQueriesPerPool].getResults<std::uint64_t>(
+            0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
+            vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+        ticks.insert(ticks.end(), values.begin(), values.end());
+    }
+    std::vector<PassTime> times;
+    for (std::size_t i = 0; 2 * i + 1 < ticks.size(); ++i) {
+        const double ms = double(ticks[2 * i + 1] - ticks[2 * i]) * device_.timestamp_period_ns() * 1e-6;
+        const auto same = std::find_if(times.begin(), times.end(), [&](const PassTime& t) { return t.name == scopes_[i]; });
+        if (same == times.end()) {
+            times.push_back({scopes_[i], ms});
+        } else {
+            same->time_ms += ms;
+        }
+    }
+    return times;
+}
+
+std::vector<PassTime> Recorder::submit_and_wait() {
+    const vk::MemoryBarrier2 to_host{.srcStageMask = Stage::eAllCommands,
+                                     .srcAccessMask = AccessBit::eMemoryWrite,
+                                     .dstStageMask = Stage::eHost,
+                                     .dstAccessMask = AccessBit::eHostRead};
+    commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
+    commands_.end();
+    const vk::CommandBuffer command = *commands_;
+    device_.queue().submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &command}, *fence_);
+    while (device_.handle().waitForFences(*fence_, true, ~0ull) == vk::Result::eTimeout) {}
+    device_.handle().resetFences(*fence_);
+    std::vector<PassTime> times = read_times();
+    restart();
+    return times;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,153 @@
+#pragma once
+
+#include "gpu/memory.h"
+#include "gpu/program.h"
+
+#include <pellucid/renderer.h>
+
+#include <array>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace pellucid {
+
+enum class Access { kRead, kWrite, kReadWrite };
+
+/// A resource bound to a shader's binding of the same name.
+struct Binding {
+    std::string_view name;
+    Access access;
+    const Buffer* buffer = nullptr;
+    const GpuImage* image = nullptr;
+    std::optional<std::uint32_t> layer;  ///< bind one layer as a 2D image; default: all, as an array
+};
+inline Binding reads(std::string_view name, const Buffer& b) { return {name, Access::kRead, &b, nullptr, {}}; }
+inline Binding reads(std::string_view name, const GpuImage& i) { return {name, Access::kRead, nullptr, &i, {}}; }
+inline Binding reads_layer(std::string_view name, const GpuImage& i, std::uint32_t layer) {
+    return {name, Access::kRead, nullptr, &i, layer};
+}
+inline Binding writes(std::string_view name, const Buffer& b) { return {name, Access::kWrite, &b, nullptr, {}}; }
+inline Binding writes(std::string_view name, const GpuImage& i) { return {name, Access::kWrite, nullptr, &i, {}}; }
+inline Binding updates(std::string_view name, const Buffer& b) { return {name, Access::kReadWrite, &b, nullptr, {}}; }
+inline Binding updates(std::string_view name, const GpuImage& i) { return {name, Access::kReadWrite, nullptr, &i, {}}; }
+
+inline vk::ClearValue clear_to(float value) { return vk::ClearColorValue(std::array{value, value, value, value}); }
+inline vk::ClearValue clear_to(std::array<std::uint32_t, 4> value) { return vk::ClearColorValue(value); }
+inline vk::ClearValue clear_to_farthest() { return vk::ClearDepthStencilValue{1.0f, 0}; }
+
+/// What a draw renders into. Cleared attachments forget what they held.
+struct RenderTarget {
+    struct Attachment {
+        const GpuImage* image;
+        std::uint32_t layer;
+        std::optional<vk::ClearValue> clear;
+    };
+    vk::Extent2D extent;
+    std::vector<Attachment> colors;
+    std::optional<Attachment> depth;
+    vk::Rect2D scissor;  ///< zero extent: everything
+};
+
+/// Vertices of one object; the shader sees `instance` as gl_InstanceIndex.
+struct DrawCall {
+    std::uint32_t first_vertex;
+    std::uint32_t vertex_count;
+    std::uint32_t instance;
+};
+
+/// Records one frame's passes in the order of the calls. Each call names what it reads and writes and
+/// gets its barriers from that; groups of calls are timed and labelled by scopes.
+///
+/// The names and accesses given are checked against the shader; a mismatch is a bug and throws
+/// std::logic_error naming both sides. Resources must outlive submit_and_wait().
+class Recorder {
+public:
+    explicit Recorder(const Device& device);
+
+    /// Times and labels everything recorded while it lives. Scopes do not nest.
+    class Scope {
+    public:
+        Scope(Recorder& recorder, std::string_view name);
+        ~Scope();
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+
+    private:
+        Recorder& recorder_;
+    };
+
+    /// Runs at least `threads.width` x `threads.height` invocations; the shader drops the surplus.
+    template <class Push>
+    void compute(const Program& program, std::initializer_list<Binding> bindings, const Push& push, vk::Extent2D threads) {
+        compute_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads);
+    }
+    void compute(const Program& program, std::initializer_list<Binding> bindings, vk::Extent2D threads) {
+        compute_bytes(program, bindings, {}, threads);
+    }
+
+    template <class Push>
+    void draw(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
+              const RenderTarget& target, std::span<const Buffer* const> streams, std::span<const DrawCall> calls) {
+        draw_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), target, streams, calls);
+    }
+
+    void draw(const Program& program, std::initializer_list<Binding> bindings, const RenderTarget& target,
+              std::span<const Buffer* const> streams, std::span<const DrawCall> calls) {
+        draw_bytes(program, bindings, {}, target, streams, calls);
+    }
+
+    void clear(const GpuImage& image, vk::ClearColorValue value);
+    void fill(const Buffer& buffer, std::uint32_t word);
+    void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes);
+
+    /// Ends the recording, submits it and waits. Returns the time of each scope in recording order;
+    /// scopes of one name are added up. The recorder is then empty and ready for the next frame.
+    std::vector<PassTime> submit_and_wait();
+
+    /// Forgets what was recorded.
+    void restart();
+
+    const Device& device() const { return device_; }
+
+private:
+    struct Use {
+        ResourceId id;
+        vk::PipelineStageFlags2 stage;
+        vk::AccessFlags2 access;
+        bool write;
+    };
+    struct State {
+        vk::PipelineStageFlags2 write_stage;
+        vk::AccessFlags2 write_access;
+        vk::PipelineStageFlags2 visible_stages;  // to which the last write has been made visible
+        vk::PipelineStageFlags2 read_stages;     // since the last write
+    };
+
+    void compute_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+                       vk::Extent2D threads);
+    void draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+                    const RenderTarget& target, std::span<const Buffer* const> streams, std::span<const DrawCall> calls);
+    void synchronise(std::span<const Use> uses);
+    void bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+              std::vector<Use>& uses);
+    vk::DescriptorSet allocate_set(const Program& program);
+    void write_timestamp(vk::PipelineStageFlagBits2 stage);
+    std::vector<PassTime> read_times() const;
+
+    const Device& device_;
+    vk::raii::CommandPool pool_ = nullptr;
+    vk::raii::CommandBuffer commands_ = nullptr;
+    vk::raii::Fence fence_ = nullptr;
+    std::vector<vk::raii::DescriptorPool> descriptor_pools_;
+    std::size_t descriptor_pool_ = 0;
+    std::vector<vk::raii::QueryPool> query_pools_;
+    std::vector<std::string> scopes_;   // one per pair of timestamps
+    std::uint32_t timestamps_ = 0;
+    std::map<ResourceId, State> states_;
+};
+
+}  // namespace pellucid

@@ -1,0 +1,92 @@
+// Structs that C++ and GLSL share. Laid out so that std430 and C++ agree without padding: every
+// vec4 and mat4 starts at a multiple of 16 bytes and every struct is a multiple of 16 bytes long.
+#ifndef PELLUCID_GPU_STRUCTS_H
+#define PELLUCID_GPU_STRUCTS_H
+
+#ifdef __cplusplus
+#include "core/math.h"
+#include <cstdint>
+namespace pellucid::gpu {
+using vec4 = glm::vec4;
+using mat4 = glm::mat4;
+using uint = std::uint32_t;
+#endif
+
+#define PELLUCID_NO_TEXTURE 0xffffffffu
+#define PELLUCID_NO_TRIANGLE 0xffffffffu
+#define PELLUCID_BACK_FACE 0x80000000u  // top bit of a layer record's triangle word
+#define PELLUCID_EMPTY_DEPTH 1e30       // metres; farther than anything
+#define PELLUCID_MATERIAL_UNLIT 1u
+#define PELLUCID_TEXTURE_NEAREST 1u
+#define PELLUCID_TEXTURE_SRGB 2u
+#define PELLUCID_TEXTURE_SECOND_SET 4u
+
+struct FrameConstants {
+    mat4 view_from_world;
+    mat4 world_from_view;
+    mat4 clip_from_view;
+    // View-plane position of pixel coordinate (i, j), centres at +0.5: (x + i * z, y - j * w), at
+    // depth 1 for a perspective camera, in metres for an orthographic one.
+    vec4 film;
+    float near_plane;
+    float far_plane;
+    float glass_near;   // depth range that refracting objects span, metres
+    float glass_far;
+    float depth_scale;  // power of two that brings depths below 1, so that scaling is exact
+    uint orthographic;
+    uint width;         // pixels
+    uint height;
+    uint object_count;
+    uint environment_kind;
+    uint reserved0;
+    uint reserved1;
+    vec4 environment_uniform;
+    vec4 irradiance[9];  // spherical harmonics, see irradiance_coefficients()
+};
+
+struct ObjectRecord {
+    mat4 world_from_object;
+    mat4 world_from_object_normal;  // inverse transpose
+    uint material;
+    uint first_triangle;  // of this object among all objects' triangles
+    uint first_vertex;    // of its mesh in the vertex buffers
+    uint mirrored;        // 1: the transform turns the winding around
+};
+
+struct MaterialRecord {
+    vec4 base_color;
+    vec4 emission;       // rgb, radiance
+    vec4 sigma_a;        // rgb, 1/m
+    float ior;
+    float transmission;
+    float alpha_cutoff;
+    uint flags;
+    uint base_color_texture;
+    uint emission_texture;
+    uint transmission_texture;
+    uint reserved0;
+};
+
+// Part of a texture page, and how to sample it.
+struct TextureRecord {
+    vec4 uv_row0;  // u = dot(row0.xyz, (texcoord, 1))
+    vec4 uv_row1;
+    uint page;
+    uint x;        // of the top left texel on the page
+    uint y;
+    uint width;
+    uint height;
+    uint wrap_u;   // pellucid::Wrap
+    uint wrap_v;
+    uint flags;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(FrameConstants) == 3 * 64 + 16 + 3 * 16 + 16 + 9 * 16);
+static_assert(sizeof(ObjectRecord) == 144);
+static_assert(sizeof(MaterialRecord) == 80);
+static_assert(sizeof(TextureRecord) == 64);
+}  // namespace pellucid::gpu
+#endif
+
+#endif

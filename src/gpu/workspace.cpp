@@ -1,0 +1,66 @@
+#include "gpu/workspace.h"
+
+namespace pellucid {
+
+const Program& Workspace::compute(ShaderCode shader) {
+    auto found = programs_.find(shader.name);
+    if (found == programs_.end()) {
+        found = programs_.emplace(shader.name, Program::compute(device_, shader)).first;
+    }
+    return found->second;
+}
+
+const Program& Workspace::graphics(const Program::Graphics& state) {
+    auto found = programs_.find(state.fragment.name);
+    if (found == programs_.end()) {
+        found = programs_.emplace(state.fragment.name, Program::graphics(device_, state)).first;
+    }
+    return found->second;
+}
+
+const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::Extent2D extent, std::uint32_t layers) {
+    auto found = images_.find(name);
+    if (found != images_.end()) {
+        const GpuImage& image = found->second.resource;
+        if (image.format() == format && image.extent() == extent && image.layers() == layers) {
+            found->second.used = true;
+            return image;
+        }
+        images_.erase(found);  // freed first, so that a resize does not need both
+    }
+    using Usage = vk::ImageUsageFlagBits;
+    const vk::ImageUsageFlags usage =
+        format == vk::Format::eD32Sfloat
+            ? vk::ImageUsageFlags(Usage::eDepthStencilAttachment)
+            : Usage::eStorage | Usage::eColorAttachment | Usage::eTransferSrc | Usage::eTransferDst;
+    return images_.emplace(std::string(name), Entry<GpuImage>{GpuImage(device_, std::string(name), format, extent, layers, usage)})
+        .first->second.resource;
+}
+
+const Buffer& Workspace::buffer(std::string_view name, vk::DeviceSize size, bool host_visible) {
+    auto found = buffers_.find(name);
+    if (found != buffers_.end()) {
+        if (found->second.resource.size() == size && (found->second.resource.mapped() != nullptr) == host_visible) {
+            found->second.used = true;
+            return found->second.resource;
+        }
+        buffers_.erase(found);
+    }
+    using Usage = vk::BufferUsageFlagBits;
+    return buffers_
+        .emplace(std::string(name), Entry<Buffer>{Buffer(device_, std::string(name), size,
+                                                         Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
+                                                         host_visible)})
+        .first->second.resource;
+}
+
+void Workspace::trim() {
+    const auto drop_unused = [](auto& entries) {
+        std::erase_if(entries, [](const auto& entry) { return !entry.second.used; });
+        for (auto& entry : entries) entry.second.used = false;
+    };
+    drop_unused(images_);
+    drop_unused(buffers_);
+}
+
+}  // namespace pellucid

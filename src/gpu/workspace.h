@@ -1,0 +1,45 @@
+#pragma once
+
+#include "gpu/memory.h"
+#include "gpu/program.h"
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace pellucid {
+
+/// Programs, and the images and buffers that live for a frame, by name. What a frame asks for is
+/// kept for the next one if name and shape agree; what a frame did not ask for is freed by trim().
+class Workspace {
+public:
+    explicit Workspace(const Device& device) : device_(device) {}
+
+    const Device& device() const { return device_; }
+
+    /// Programs are made once and kept.
+    const Program& compute(ShaderCode shader);
+    const Program& graphics(const Program::Graphics& state);
+
+    /// Contents are undefined until written in this frame.
+    const GpuImage& image(std::string_view name, vk::Format format, vk::Extent2D extent, std::uint32_t layers = 1);
+    const Buffer& buffer(std::string_view name, vk::DeviceSize size, bool host_visible = false);
+
+    /// Frees what has not been asked for since the last call. No frame may be in flight.
+    void trim();
+
+private:
+    template <class Resource>
+    struct Entry {
+        Resource resource;
+        bool used = true;
+    };
+
+    const Device& device_;
+    std::map<std::string, Program, std::less<>> programs_;
+    std::map<std::string, Entry<GpuImage>, std::less<>> images_;
+    std::map<std::string, Entry<Buffer>, std::less<>> buffers_;
+};
+
+}  // namespace pellucid

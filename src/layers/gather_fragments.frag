@@ -1,0 +1,23 @@
+#version 460
+// Appends every glass fragment to the list of its pixel.
+#extension GL_GOOGLE_include_directive : require
+#include "layers/layer_fragment.glsl"
+
+struct Node {
+    Fragment fragment;
+    uint next;  // index + 1 of the next node, 0 at the end
+};
+layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };  // fragments, per band
+layout(std430, set = 0, binding = 3) writeonly buffer Nodes { Node nodes[]; };
+layout(set = 0, binding = 4, r32ui) uniform uimage2DArray heads;
+layout(push_constant) uniform Push {
+    uint band;
+    uint capacity;
+};
+
+void main() {
+    uint node = atomicAdd(counters[band], 1u);
+    if (node >= capacity) return;  // counted all the same: the host enlarges the pool
+    uint next = imageAtomicExchange(heads, ivec3(gl_FragCoord.xy, 0), node + 1u);
+    nodes[node] = Node(rasterised_fragment(), next);
+}

@@ -1,0 +1,22 @@
+#ifndef PELLUCID_LAYERS_LAYERS_GLSL
+#define PELLUCID_LAYERS_LAYERS_GLSL
+
+// Reading layer records; see layers.h.
+#include "gpu/structs.h"
+#include "gpu/octahedral.glsl"
+
+struct Fragment {
+    float depth;      // metres along -Z of the view
+    uint normal;      // octahedral, world
+    uint triangle;    // with PELLUCID_BACK_FACE
+};
+
+uint triangle_index(uint triangle) { return triangle & ~PELLUCID_BACK_FACE; }
+bool back_face(uint triangle) { return (triangle & PELLUCID_BACK_FACE) != 0u; }
+
+// The order of layers: by depth, equal depths by triangle.
+bool is_behind(Fragment a, Fragment b) {
+    return a.depth > b.depth || (a.depth == b.depth && triangle_index(a.triangle) > triangle_index(b.triangle));
+}
+
+#endif

@@ -1,0 +1,28 @@
+#version 460
+// Depth peeling: keeps the nearest fragment behind the layer before (Everitt 2001).
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/frame.glsl"
+#include "layers/layer_fragment.glsl"
+
+layout(set = 0, binding = 2, r32f) readonly uniform image2DArray opaque_depth;
+layout(set = 0, binding = 3, r32f) readonly uniform image2D last_depth;
+layout(set = 0, binding = 4, rg32ui) readonly uniform uimage2D last_surface;
+layout(push_constant) uniform Push { uint layer; };
+
+layout(location = 0) out float out_depth;
+layout(location = 1) out uvec2 out_surface;
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    Fragment fragment = rasterised_fragment();
+    if (layer == 0u) {
+        if (fragment.depth >= imageLoad(opaque_depth, ivec3(texel, 0)).r) discard;
+    } else {
+        uvec2 surface = imageLoad(last_surface, texel).rg;
+        Fragment last = Fragment(imageLoad(last_depth, texel).r, surface.x, surface.y);
+        if (!is_behind(fragment, last)) discard;
+    }
+    out_depth = fragment.depth;
+    out_surface = uvec2(fragment.normal, fragment.triangle);
+    gl_FragDepth = fragment.depth * frame.depth_scale;
+}

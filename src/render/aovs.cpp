@@ -1,0 +1,151 @@
+#include "render/aovs.h"
+
+#include <pellucid/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace pellucid {
+namespace {
+
+constexpr std::array kAovs = {
+    AovInfo{"exit-direction", 3, "unit world direction in which the path leaves the glass; the view ray where there is none"},
+    AovInfo{"exit-position", 3, "world position of the path's last interface, m; the eye where there is no glass"},
+    AovInfo{"path-length", 1, "length of the path inside glass, m"},
+    AovInfo{"events", 2, "interface events on the path; total internal reflections among them"},
+    AovInfo{"status", 1, "0 ok, 1 missing_layer, 2 left_screen, 3 step_limit, 4 event_limit"},
+    AovInfo{"layers", 1, "glass surfaces recorded along the view ray"},
+    AovInfo{"depth", 1, "depth of the first glass surface along -Z of the view, m; 0 where there is none"},
+    AovInfo{"normal", 3, "outward world normal of the first glass surface; 0 where there is none"},
+    AovInfo{"object", 1, "index of the first glass surface's object; -1 where there is none"},
+};
+
+template <class T>
+std::vector<T> read(const Device& device, const GpuImage& image, std::uint32_t layer = 0) {
+    const std::vector<std::byte> bytes = download(device, image, layer);
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+}
+
+struct Surface {
+    std::uint32_t normal;
+    std::uint32_t triangle;
+};
+
+/// Twin of unpack_unit_vector() in octahedral.glsl.
+glm::vec3 unpack_unit_vector(std::uint32_t packed) {
+    const auto snorm = [](std::uint32_t bits) { return std::max(float(std::int16_t(std::uint16_t(bits))) / 32767.0f, -1.0f); };
+    const glm::vec2 p(snorm(packed & 0xffffu), snorm(packed >> 16));
+    glm::vec3 n(p, 1.0f - std::abs(p.x) - std::abs(p.y));
+    if (n.z < 0.0f) {
+        n.x = (1.0f - std::abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f);
+        n.y = (1.0f - std::abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f);
+    }
+    return glm::normalize(n);
+}
+
+Image vector_image(vk::Extent2D extent, const std::vector<glm::vec4>& values) {
+    Image image(int(extent.width), int(extent.height), 3);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        for (int c = 0; c < 3; ++c) image.pixels[3 * i + std::size_t(c)] = values[i][c];
+    }
+    return image;
+}
+
+template <class Value>
+Image scalar_image(vk::Extent2D extent, Value value) {
+    Image image(int(extent.width), int(extent.height), 1);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = value(i);
+    return image;
+}
+
+Image layer_count_image(const Device& device, const Layers& layers) {
+    Image image(int(layers.depth.extent().width), int(layers.depth.extent().height), 1);
+    for (std::uint32_t layer = 0; layer < layers.count; ++layer) {
+        const auto depth = read<float>(device, layers.depth, layer);
+        for (std::size_t i = 0; i < depth.size(); ++i) image.pixels[i] += depth[i] < float(PELLUCID_EMPTY_DEPTH) ? 1.0f : 0.0f;
+    }
+    return image;
+}
+
+/// Twin of find_object() in objects.glsl: the last object that starts at or before the triangle.
+float object_of_triangle(const std::vector<std::uint32_t>& first_triangles, std::uint32_t word) {
+    if (word == PELLUCID_NO_TRIANGLE) return -1.0f;
+    const auto after = std::upper_bound(first_triangles.begin(), first_triangles.end(), word & ~PELLUCID_BACK_FACE);
+    return float(after - first_triangles.begin() - 1);
+}
+
+Image surface_aov(const Device& device, std::string_view name, const Layers& layers, const std::vector<std::uint32_t>& first_triangles) {
+    const vk::Extent2D extent = layers.depth.extent();
+    if (name == "depth") {
+        const auto depth = read<float>(device, layers.depth);
+        return scalar_image(extent, [&](std::size_t i) { return depth[i] < float(PELLUCID_EMPTY_DEPTH) ? depth[i] : 0.0f; });
+    }
+    const auto surface = read<Surface>(device, layers.surface);
+    if (name == "object") {
+        return scalar_image(extent, [&](std::size_t i) { return object_of_triangle(first_triangles, surface[i].triangle); });
+    }
+    std::vector<glm::vec4> normals(surface.size(), glm::vec4(0.0f));
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+        if (surface[i].triangle != PELLUCID_NO_TRIANGLE) normals[i] = glm::vec4(unpack_unit_vector(surface[i].normal), 0.0f);
+    }
+    return vector_image(extent, normals);
+}
+
+Image make_aov(const Device& device, std::string_view name, const FrameImages& images, const std::vector<PathEvents>& events,
+               const std::vector<std::uint32_t>& first_triangles) {
+    const vk::Extent2D extent = images.layers.depth.extent();
+    if (name == "exit-direction") return vector_image(extent, read<glm::vec4>(device, images.refraction.exit_direction));
+    if (name == "exit-position") return vector_image(extent, read<glm::vec4>(device, images.refraction.exit_position));
+    if (name == "path-length") {
+        const auto directions = read<glm::vec4>(device, images.refraction.exit_direction);
+        return scalar_image(extent, [&](std::size_t i) { return directions[i].w; });
+    }
+    if (name == "events") {
+        Image image(int(extent.width), int(extent.height), 2);
+        for (std::size_t i = 0; i < events.size(); ++i) {
+            image.pixels[2 * i] = float(events[i].interfaces);
+            image.pixels[2 * i + 1] = float(events[i].reflections);
+        }
+        return image;
+    }
+    if (name == "status") return scalar_image(extent, [&](std::size_t i) { return float(events[i].status); });
+    if (name == "layers") return layer_count_image(device, images.layers);
+    return surface_aov(device, name, images.layers, first_triangles);
+}
+
+}  // namespace
+
+std::span<const AovInfo> aov_infos() { return kAovs; }
+
+void check_aov_names(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        std::vector<std::string_view> known;
+        for (const AovInfo& aov : kAovs) known.push_back(aov.name);
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            throw Error(fmt::format("unknown AOV '{}'; known: {}", name, fmt::join(known, ", ")));
+        }
+    }
+}
+
+void read_aovs(const Device& device, const FrameImages& images, const std::vector<std::uint32_t>& first_triangles,
+               const std::vector<std::string>& names, RenderResult& result) {
+    std::vector<PathEvents> events;
+    for (const std::uint32_t word : read<std::uint32_t>(device, images.refraction.events)) {
+        events.push_back(unpack_events(word));
+        if (events.back().interfaces == 0) continue;
+        ++result.covered;
+        ++result.status.at(std::size_t(events.back().status));
+        result.side_conflicts += events.back().side_conflict ? 1 : 0;
+    }
+    for (const std::string& name : names) {
+        result.aovs[name] = make_aov(device, name, images, events, first_triangles);
+    }
+}
+
+}  // namespace pellucid

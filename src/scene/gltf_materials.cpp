@@ -1,0 +1,244 @@
+#include "scene/gltf_materials.h"
+
+#include "core/fail.h"
+#include "core/math.h"
+#include "scene/gltf_images.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pellucid {
+namespace {
+
+/// An extension's JSON object with defaults for what it lacks.
+class Properties {
+public:
+    Properties(const tinygltf::ExtensionMap& extensions, const char* name) {
+        const auto found = extensions.find(name);
+        if (found != extensions.end()) object_ = &found->second;
+    }
+    bool present() const { return object_ != nullptr; }
+
+    double number(const char* key, double otherwise) const {
+        const tinygltf::Value* value = get(key);
+        return value && value->IsNumber() ? value->GetNumberAsDouble() : otherwise;
+    }
+    /// Element of an array of numbers.
+    double number(const char* key, int element, double otherwise) const {
+        const tinygltf::Value* value = get(key);
+        if (!value || !value->IsArray() || value->ArrayLen() <= std::size_t(element)) return otherwise;
+        const tinygltf::Value& number = value->Get(element);
+        return number.IsNumber() ? number.GetNumberAsDouble() : otherwise;
+    }
+    /// A textureInfo object, as tinygltf returns those outside of extensions.
+    tinygltf::TextureInfo texture(const char* key) const {
+        tinygltf::TextureInfo info;
+        const tinygltf::Value* value = get(key);
+        if (!value || !value->IsObject()) return info;
+        const auto integer = [&](const char* name, int otherwise) {
+            if (!value->Has(name) || !value->Get(name).IsNumber()) return otherwise;
+            return value->Get(name).GetNumberAsInt();
+        };
+        info.index = integer("index", -1);
+        info.texCoord = integer("texCoord", 0);
+        if (value->Has("extensions") && value->Get("extensions").IsObject())
+            for (const std::string& name : value->Get("extensions").Keys())
+                info.extensions[name] = value->Get("extensions").Get(name);
+        return info;
+    }
+
+private:
+    const tinygltf::Value* get(const char* key) const {
+        if (!object_ || !object_->IsObject() || !object_->Has(key)) return nullptr;
+        return &object_->Get(std::string(key));
+    }
+    const tinygltf::Value* object_ = nullptr;
+};
+
+class MaterialReader {
+public:
+    MaterialReader(const GltfFile& gltf, Scene& scene, Warnings& warnings)
+        : gltf_(gltf), images_(gltf, scene, warnings), warnings_(warnings) {}
+
+    Material read(const tinygltf::Material& from, std::size_t number) {
+        Material material;
+        material.name = from.name.empty() ? fmt::format("material {}", number) : from.name;
+        user_ = fmt::format("material {}", material.name);
+        if (from.name.empty()) user_ = material.name;
+        read_surface(from, material);
+        read_alpha(from, material);
+        read_glass(from.extensions, material);
+        warn_about_unused_textures(from);
+        return material;
+    }
+
+private:
+    /// `value` if it lies in the range that the specification gives, else the nearest that does.
+    float in_range(double value, double low, double high, const char* what) {
+        if (value >= low && value <= high) return static_cast<float>(value);
+        const double used = value > high ? high : low;
+        warnings_.add(fmt::format("{}: {} {} is out of range, {} used", user_, what, value, used));
+        return static_cast<float>(used);
+    }
+
+    void read_surface(const tinygltf::Material& from, Material& material) {
+        constexpr double kBrightest = 1e6;
+        const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+        for (int k = 0; k < 4 && pbr.baseColorFactor.size() == 4; ++k)
+            material.base_color[k] = in_range(pbr.baseColorFactor[std::size_t(k)], 0.0, 1.0, "baseColorFactor");
+        material.base_color_texture = texture(pbr.baseColorTexture, "base colour");
+        material.metallic = in_range(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
+        material.roughness = in_range(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
+        average_metallic_roughness(pbr.metallicRoughnessTexture, material);
+
+        const double strength =
+            in_range(Properties(from.extensions, "KHR_materials_emissive_strength").number("emissiveStrength", 1.0),
+                     0.0, kBrightest, "emissiveStrength");
+        for (int k = 0; k < 3 && from.emissiveFactor.size() == 3; ++k)
+            material.emission[k] = static_cast<float>(
+                strength * double(in_range(from.emissiveFactor[std::size_t(k)], 0.0, kBrightest, "emissiveFactor")));
+        if (material.emission != glm::vec3(0.0f))
+            material.emission_texture = texture(from.emissiveTexture, "emission");
+        material.unlit = Properties(from.extensions, "KHR_materials_unlit").present();
+        material.double_sided = from.doubleSided;
+    }
+
+    /// Material has one number each for metalness and roughness: the texture's mean stands for it.
+    void average_metallic_roughness(const tinygltf::TextureInfo& info, Material& material) {
+        if (info.index < 0) return;
+        const auto mean = images_.mean(image_of(info), user_);
+        if (!mean || mean->size() < 3) return;
+        material.roughness *= static_cast<float>(std::clamp((*mean)[1], 0.0, 1.0));
+        material.metallic *= static_cast<float>(std::clamp((*mean)[2], 0.0, 1.0));
+        warnings_.add(fmt::format("{}: metallic-roughness texture replaced by its mean", user_));
+    }
+
+    void read_alpha(const tinygltf::Material& from, Material& material) {
+        if (from.alphaMode == "MASK") {
+            // A cutoff of 0 keeps every fragment; the largest alpha is 1.
+            material.alpha_cutoff = in_range(from.alphaCutoff, 0.0, 2.0, "alphaCutoff");
+        } else if (from.alphaMode == "BLEND") {
+            material.alpha_cutoff = 0.5f;
+            warnings_.add(fmt::format("{}: alpha blending is drawn cut out at 0.5", user_));
+        }
+    }
+
+    void read_glass(const tinygltf::ExtensionMap& extensions, Material& material) {
+        const Properties transmission(extensions, "KHR_materials_transmission");
+        material.transmission =
+            in_range(transmission.number("transmissionFactor", 0.0), 0.0, 1.0, "transmissionFactor");
+        if (material.transmission > 0.0f)
+            material.transmission_texture = texture(transmission.texture("transmissionTexture"), "transmission");
+
+        const double ior = Properties(extensions, "KHR_materials_ior").number("ior", 1.5);
+        // The extension lets 0 stand for an infinite index: a mirror. Glass has none.
+        material.ior = ior == 0.0 ? 1.5f : in_range(ior, 1.0, 100.0, "ior");
+        if (ior == 0.0) warnings_.add(fmt::format("{}: ior 0 (infinite) is not supported, 1.5 used", user_));
+        material.dispersion = in_range(Properties(extensions, "KHR_materials_dispersion").number("dispersion", 0.0),
+                                       0.0, 100.0, "dispersion");
+
+        // thicknessTexture is for renderers that do not follow light through the solid.
+        const Properties volume(extensions, "KHR_materials_volume");
+        constexpr double kHuge = std::numeric_limits<float>::max();
+        material.thickness = in_range(volume.number("thicknessFactor", 0.0), 0.0, kHuge, "thicknessFactor");
+        for (int k = 0; k < 3; ++k)
+            material.attenuation_color[k] =
+                in_range(volume.number("attenuationColor", k, 1.0), 0.0, 1.0, "attenuationColor");
+        const double distance = volume.number("attenuationDistance", std::numeric_limits<double>::infinity());
+        if (!std::isinf(distance))
+            material.attenuation_distance = in_range(distance, 1e-6, kHuge, "attenuationDistance");
+    }
+
+    /// Index of the image behind a texture, -1 if there is none.
+    int image_of(const tinygltf::TextureInfo& info) const {
+        if (info.index < 0 || std::size_t(info.index) >= gltf_.model.textures.size()) return -1;
+        return gltf_.model.textures[std::size_t(info.index)].source;
+    }
+
+    Texture texture(const tinygltf::TextureInfo& info, const char* what) {
+        Texture texture;
+        if (info.index < 0) return texture;
+        if (std::size_t(info.index) >= gltf_.model.textures.size())
+            fail(gltf_.path, fmt::format("{}: there is no texture {}", user_, info.index));
+        const Properties transform(info.extensions, "KHR_texture_transform");
+        texture.texcoord_set = static_cast<int>(std::clamp(transform.number("texCoord", info.texCoord), -1.0, 9.0));
+        if (texture.texcoord_set < 0 || texture.texcoord_set > 1) {
+            warnings_.add(fmt::format("{}: {} texture left out: only texture coordinates 0 and 1 are read", user_, what));
+            return {};
+        }
+        texture.image = images_.index(image_of(info), user_);
+        if (texture.image < 0) return {};
+        read_sampler(gltf_.model.textures[std::size_t(info.index)].sampler, texture);
+        if (transform.present()) texture.uv_from_texcoord = uv_transform(transform);
+        return texture;
+    }
+
+    void read_sampler(int index, Texture& texture) const {
+        if (index < 0 || std::size_t(index) >= gltf_.model.samplers.size()) return;
+        const tinygltf::Sampler& sampler = gltf_.model.samplers[std::size_t(index)];
+        const auto wrap = [](int mode) {
+            if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::kClamp;
+            return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::kMirror : Wrap::kRepeat;
+        };
+        texture.wrap_u = wrap(sampler.wrapS);
+        texture.wrap_v = wrap(sampler.wrapT);
+        texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+
+    /// translation * rotation * scale; the rotation is counter-clockwise with v running downwards.
+    glm::mat3 uv_transform(const Properties& transform) {
+        constexpr double kFar = 1e6;
+        const auto value = [&](const char* key, int k, double otherwise) {
+            return in_range(transform.number(key, k, otherwise), -kFar, kFar, "KHR_texture_transform");
+        };
+        const float angle = in_range(transform.number("rotation", 0.0), -kFar, kFar, "KHR_texture_transform");
+        const float c = std::cos(angle), s = std::sin(angle);
+        const glm::mat3 translation(1, 0, 0, 0, 1, 0, value("offset", 0, 0.0), value("offset", 1, 0.0), 1);
+        const glm::mat3 rotation(c, -s, 0, s, c, 0, 0, 0, 1);
+        const glm::mat3 scale(value("scale", 0, 1.0), 0, 0, 0, value("scale", 1, 1.0), 0, 0, 0, 1);
+        return translation * rotation * scale;
+    }
+
+    void warn_about_unused_textures(const tinygltf::Material& from) {
+        std::vector<const char*> unused;
+        const auto note = [&](int texture_index, const char* what) {
+            if (texture_index < 0) return;
+            tinygltf::TextureInfo info;
+            info.index = texture_index;
+            images_.expect(image_of(info), user_);
+            unused.push_back(what);
+        };
+        note(from.normalTexture.index, "normal");
+        note(from.occlusionTexture.index, "occlusion");
+        if (!unused.empty())
+            warnings_.add(fmt::format("{}: {} texture{} not used", user_, fmt::join(unused, " and "),
+                                      unused.size() == 1 ? "" : "s"));
+    }
+
+    const GltfFile& gltf_;
+    GltfImages images_;
+    Warnings& warnings_;
+    std::string user_;  ///< the material at hand, for messages
+};
+
+}  // namespace
+
+void read_gltf_materials(const GltfFile& gltf, Scene& scene, Warnings& warnings) {
+    MaterialReader reader(gltf, scene, warnings);
+    for (std::size_t i = 0; i < gltf.model.materials.size(); ++i)
+        scene.materials.push_back(reader.read(gltf.model.materials[i], i));
+}
+
+Material default_gltf_material() {
+    Material material;
+    material.name = "default";
+    material.metallic = 1.0f;
+    material.roughness = 1.0f;
+    return material;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,107 @@
+#include <pellucid/error.h>
+#include <pellucid/scene.h>
+
+#include "core/fail.h"
+#include "core/file_extension.h"
+#include "core/math.h"
+#include "scene/load_gltf.h"
+#include "scene/load_mesh_file.h"
+#include "scene/mesh_repair.h"
+#include "scene/shapes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pellucid {
+namespace {
+
+constexpr std::string_view kShapePrefix = "shape:";
+constexpr std::array<std::string_view, 5> kMeshExtensions = {".obj", ".ply", ".stl", ".off", ".3ds"};
+
+void check(const LoadOptions& options) {
+    if (options.ior && !(*options.ior >= 1.0f && std::isfinite(*options.ior)))
+        throw Error(fmt::format("ior {}: must be a number from 1", *options.ior));
+    if (options.attenuation_color) {
+        const glm::vec3 c = *options.attenuation_color;
+        for (int k = 0; k < 3; ++k)
+            if (!(c[k] >= 0.0f && c[k] <= 1.0f))
+                throw Error(fmt::format("attenuation colour {} {} {}: must be within 0..1", c.x, c.y, c.z));
+    }
+    if (options.attenuation_distance && !(*options.attenuation_distance > 0.0f))
+        throw Error(fmt::format("attenuation distance {}: must be greater than 0",
+                                *options.attenuation_distance));
+    // The constant is pi rounded to a float, as is the option's default.
+    if (!(options.crease_angle >= 0.0f && options.crease_angle <= kPi))
+        throw Error(fmt::format("crease angle {}: must be within 0..pi radians", options.crease_angle));
+}
+
+/// A scene of one solid made of glass.
+Scene glass_scene(Mesh mesh, const LoadOptions& options, bool keep_normals, Warnings& warnings) {
+    MeshOrigin origin;
+    origin.refractive = true;
+    origin.make_normals = mesh.normals.empty() || !keep_normals;
+    origin.crease_angle = options.crease_angle;
+    repair_mesh(mesh, origin, warnings);
+
+    Material glass;
+    glass.name = "glass";
+    glass.transmission = 1.0f;
+    glass.thickness = 1.0f;
+    Object object;
+    object.name = mesh.name;
+
+    Scene scene;
+    scene.materials.push_back(std::move(glass));
+    scene.meshes.push_back(std::move(mesh));
+    scene.objects.push_back(std::move(object));
+    return scene;
+}
+
+Scene load_by_kind(const std::string& source, const LoadOptions& options, Warnings& warnings) {
+    if (source.starts_with(kShapePrefix))
+        // A shape knows its normals exactly; made ones would only be worse.
+        return glass_scene(load_shape(source.substr(kShapePrefix.size())), options, true, warnings);
+    const std::filesystem::path file(source);
+    const std::string extension = lower_extension(file);
+    if (extension == ".gltf" || extension == ".glb") return load_gltf(file, options, warnings);
+    if (std::find(kMeshExtensions.begin(), kMeshExtensions.end(), extension) != kMeshExtensions.end()) {
+        Mesh mesh = load_mesh_file(file, warnings);
+        return glass_scene(std::move(mesh), options, !options.remake_normals, warnings);
+    }
+    fail(file, fmt::format("unknown kind of file \"{}\" (known: .gltf, .glb, {}, or shape:NAME)",
+                           extension, fmt::join(kMeshExtensions, ", ")));
+}
+
+void apply_overrides(Scene& scene, const LoadOptions& options) {
+    for (Material& material : scene.materials) {
+        if (!material.refractive()) continue;
+        if (options.ior) material.ior = *options.ior;
+        if (options.attenuation_color) material.attenuation_color = *options.attenuation_color;
+        if (options.attenuation_distance) material.attenuation_distance = *options.attenuation_distance;
+    }
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& source, const LoadOptions& options) {
+    check(options);
+    Warnings warnings;
+    Scene scene = load_by_kind(source, options, warnings);
+    scene.source = source;
+    apply_overrides(scene, options);
+    if (scene.triangle_count() == 0) fail(source, "contains no triangles");
+    const Bounds bounds = scene_bounds(scene);
+    // Squares and products of positions must stay finite on the GPU, in 32 bits.
+    constexpr float kLargest = 1e15f, kSmallest = 1e-15f;
+    if (!(glm::length(bounds.center) < kLargest && bounds.radius < kLargest))
+        fail(source, "positions are too large (more than 1e15)");
+    if (!(bounds.radius > kSmallest)) fail(source, "all positions are the same");
+    scene.warnings = warnings.lines();
+    return scene;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,40 @@
+#ifndef PELLUCID_SHADE_ENVIRONMENT_GLSL
+#define PELLUCID_SHADE_ENVIRONMENT_GLSL
+
+// Light from infinitely far away; twin of scene/environment.cpp.
+// `vec3 procedural_radiance(uint kind, vec3 uniform_radiance, vec3 d)` comes with the formulas.
+// Includers with a map need `#extension GL_EXT_samplerless_texture_functions : require`.
+
+#include "scene/environment_formulas.glsl"
+
+// Radiance of an equirectangular map from direction d: bilinear, wrapping in u, clamped in v, texel
+// centres at (i + 1/2) / size. By hand, because filtering of 32-bit float images is optional.
+vec3 map_radiance(texture2D map, vec3 d) {
+    ivec2 size = textureSize(map, 0);
+    vec2 position = equirect_from_direction(d) * vec2(size) - 0.5;
+    vec2 corner = floor(position);
+    vec2 weight = position - corner;
+    ivec2 low = ivec2(corner);
+    int left = low.x < 0 ? size.x - 1 : low.x;
+    int right = low.x + 1 >= size.x ? 0 : low.x + 1;
+    int top = clamp(low.y, 0, size.y - 1);
+    int bottom = clamp(low.y + 1, 0, size.y - 1);
+    vec3 upper = mix(texelFetch(map, ivec2(left, top), 0).rgb,
+                     texelFetch(map, ivec2(right, top), 0).rgb, weight.x);
+    vec3 lower = mix(texelFetch(map, ivec2(left, bottom), 0).rgb,
+                     texelFetch(map, ivec2(right, bottom), 0).rgb, weight.x);
+    return mix(upper, lower, weight.y);
+}
+
+// Irradiance on a surface with unit normal n, from irradiance_coefficients() of
+// pellucid/environment.h (Ramamoorthi & Hanrahan 2001). Never negative.
+vec3 irradiance_from_coefficients(vec3 c[9], vec3 n) {
+    vec3 irradiance = 0.282095 * c[0];
+    irradiance += 0.488603 * (n.y * c[1] + n.z * c[2] + n.x * c[3]);
+    irradiance += 1.092548 * (n.x * n.y * c[4] + n.y * n.z * c[5] + n.x * n.z * c[7]);
+    irradiance += 0.315392 * (3.0 * n.z * n.z - 1.0) * c[6];
+    irradiance += 0.546274 * (n.x * n.x - n.y * n.y) * c[8];
+    return max(irradiance, vec3(0.0));
+}
+
+#endif

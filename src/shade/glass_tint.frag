@@ -1,0 +1,16 @@
+#version 460
+// Base colour and transmission of the first glass surface; its textures are known here only.
+#extension GL_GOOGLE_include_directive : require
+#include "shade/surface_fragment.glsl"
+#include "layers/layers.glsl"
+
+layout(set = 0, binding = 5, rg32ui) readonly uniform uimage2DArray layer_surface;
+
+layout(location = 0) out vec4 out_tint;
+
+void main() {
+    uint first = imageLoad(layer_surface, ivec3(gl_FragCoord.xy, 0)).g;
+    if (triangle_index(first) != triangle) discard;
+    MaterialRecord material = materials[material_index];
+    out_tint = vec4(base_color(material).rgb, transmission(material));
+}

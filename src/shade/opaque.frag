@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shade/surface_fragment.glsl"
+#include "shade/environment.glsl"
+
+layout(location = 0) out vec4 out_radiance;
+layout(location = 1) out float out_depth;
+
+void main() {
+    MaterialRecord material = materials[material_index];
+    vec4 base = base_color(material);
+    if (base.a < material.alpha_cutoff) discard;
+
+    vec3 radiance = base.rgb;
+    if ((material.flags & PELLUCID_MATERIAL_UNLIT) == 0u) {
+        vec3 coefficients[9];
+        for (int i = 0; i < 9; ++i) coefficients[i] = frame.irradiance[i].rgb;
+        vec3 irradiance = irradiance_from_coefficients(coefficients, facing_normal(world_view_direction()));
+        vec3 emission = material.emission.rgb * sample_texture(material.emission_texture, texcoords.xy, texcoords.zw).rgb;
+        radiance = base.rgb * irradiance / 3.14159265 + emission;
+    }
+    out_radiance = vec4(radiance, 1.0);
+    out_depth = eye_depth;
+    gl_FragDepth = eye_depth * frame.depth_scale;
+}

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "layers/layers.h"
+#include "techniques/technique.h"
+
+#include <pellucid/renderer.h>
+
+namespace pellucid {
+
+/// The nearest opaque surface of each pixel.
+struct Opaque {
+    const GpuImage& radiance;  ///< RGBA32F, scene-linear
+    const GpuImage& depth;     ///< R32F, metres; PELLUCID_EMPTY_DEPTH where there is none
+};
+
+/// Draws opaque objects: base colour as a diffuse reflector under the environment's irradiance
+/// (no shadows, no highlights), unlit materials as they are, emission added.
+Opaque draw_opaque(Recorder& recorder, const Frame& frame);
+
+/// What the nearest refracting surface and the thin-walled ones in front do to light on its way.
+struct SurfaceLook {
+    const GpuImage& glass_tint;      ///< RGBA16F: base colour; a: transmission, 0..1, of the first glass surface
+    const GpuImage& thin_tint;       ///< RGBA16F: transmittance of all thin walls in front
+    const GpuImage& thin_reflection;  ///< RGBA16F: environment that they reflect
+};
+
+/// Thin-walled glass does not bend light: its panes are multiplied together in any order. Their
+/// reflections are added, without the little that one pane takes from the reflection of another.
+SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers);
+
+/// Scene-linear radiance (RGBA32F): glass lit through its refraction, plus the first interface's
+/// reflection of the environment; opaque surfaces; the environment behind.
+const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers,
+                      const SurfaceLook& look, const Refraction& refraction, View view);
+
+/// Adds `radiance` to the sum of the samples before it; `sample` 0 starts a new sum.
+const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample);
+
+/// Display values (RGBA8, sRGB-encoded) of `scale * radiance`.
+const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale, ToneMap curve);
+
+}  // namespace pellucid

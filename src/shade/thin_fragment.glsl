@@ -1,0 +1,23 @@
+#ifndef PELLUCID_SHADE_THIN_FRAGMENT_GLSL
+#define PELLUCID_SHADE_THIN_FRAGMENT_GLSL
+
+// A pane of thin-walled glass in front of everything opaque and refracting.
+#extension GL_GOOGLE_include_directive : require
+#include "shade/surface_fragment.glsl"
+#include "optics/interface.glsl"
+
+layout(set = 0, binding = 5, r32f) readonly uniform image2DArray opaque_depth;
+layout(set = 0, binding = 6, r32f) readonly uniform image2DArray layer_depth;
+
+bool hidden() {
+    ivec3 at = ivec3(gl_FragCoord.xy, 0);
+    return eye_depth >= min(imageLoad(opaque_depth, at).r, imageLoad(layer_depth, at).r);
+}
+
+// Both faces of the pane, all reflections between them: 2 R / (1 + R).
+float pane_reflectance(vec3 normal, vec3 view_direction, float ior) {
+    float r = fresnel_dielectric(-dot(view_direction, normal), 1.0 / ior);
+    return 2.0 * r / (1.0 + r);
+}
+
+#endif

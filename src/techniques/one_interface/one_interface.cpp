@@ -1,0 +1,34 @@
+#include "techniques/one_interface/one_interface.h"
+
+namespace pellucid {
+namespace {
+
+constexpr std::uint32_t kShader[] = {
+#include "one_interface.comp.inc"
+};
+
+Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues&) {
+    const Refraction refraction = allocate_refraction(frame);
+    const Recorder::Scope scope(recorder, "trace");
+    recorder.compute(frame.workspace.compute({"one_interface.comp", kShader}),
+                     {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+                      reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
+                      reads("layer_surface", layers.surface), writes("exit_direction", refraction.exit_direction),
+                      writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
+                      writes("path_events", refraction.events)},
+                     frame.extent);
+    return refraction;
+}
+
+}  // namespace
+
+constexpr Technique kOneInterface{
+    .info = {.name = "one-interface",
+             .summary = "refraction at the first interface only: what engines draw",
+             .source = {},
+             .parameters = {}},
+    .layer_count = [](const ParameterValues&) { return 1u; },
+    .record = record,
+};
+
+}  // namespace pellucid

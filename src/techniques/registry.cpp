@@ -1,0 +1,91 @@
+#include "techniques/one_interface/one_interface.h"
+#include "techniques/technique.h"
+#include "techniques/wang_2014/wang_2014.h"
+
+#include <pellucid/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pellucid {
+namespace {
+
+// Every technique, one line each.
+constexpr std::array kTechniques = {
+    &kOneInterface,
+    &kWang2014,
+};
+
+constexpr auto kInfos = [] {
+    std::array<const TechniqueInfo*, kTechniques.size()> infos{};
+    for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = &kTechniques[i]->info;
+    return infos;
+}();
+
+void check_value(const TechniqueInfo& technique, const ParameterInfo& parameter, double value) {
+    if (!(value >= parameter.minimum && value <= parameter.maximum) || (parameter.whole && value != std::floor(value))) {
+        throw Error(fmt::format("{}: {} must be {} {} to {}, not {}", technique.name, parameter.name,
+                                parameter.whole ? "a whole number from" : "from", parameter.minimum, parameter.maximum, value));
+    }
+}
+
+}  // namespace
+
+std::span<const TechniqueInfo* const> techniques() { return kInfos; }
+
+const TechniqueInfo& find_technique(std::string_view name) {
+    std::vector<std::string_view> known;
+    for (const TechniqueInfo* info : kInfos) {
+        if (info->name == name) return *info;
+        known.push_back(info->name);
+    }
+    throw Error(fmt::format("unknown technique '{}'; known: {}", name, fmt::join(known, ", ")));
+}
+
+const Technique& technique_of(const TechniqueInfo& info) {
+    return **std::find_if(kTechniques.begin(), kTechniques.end(), [&](const Technique* t) { return t->info.name == info.name; });
+}
+
+std::string_view status_name(Status status) {
+    constexpr std::array<std::string_view, kStatusCount> kNames = {"ok", "missing_layer", "left_screen", "step_limit", "event_limit"};
+    return kNames.at(std::size_t(status));
+}
+
+ParameterValues::ParameterValues(const TechniqueInfo& technique, const ParameterMap& given) : technique_(technique) {
+    for (const ParameterInfo& parameter : technique.parameters) {
+        const auto found = given.find(parameter.name);
+        values_.push_back(found == given.end() ? parameter.default_value : found->second);
+        check_value(technique, parameter, values_.back());
+    }
+    for (const auto& [name, value] : given) {
+        std::vector<std::string_view> known;
+        for (const ParameterInfo& parameter : technique.parameters) known.push_back(parameter.name);
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            throw Error(fmt::format("{} has no parameter '{}'; it has: {}", technique.name, name,
+                                    known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+        }
+    }
+}
+
+double ParameterValues::operator[](std::string_view name) const {
+    const auto& all = technique_.parameters;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const ParameterInfo& p) { return p.name == name; });
+    return values_.at(std::size_t(found - all.begin()));
+}
+
+Refraction allocate_refraction(const Frame& frame) {
+    Workspace& workspace = frame.workspace;
+    const auto vectors = vk::Format::eR32G32B32A32Sfloat;
+    return {workspace.image("exit direction", vectors, frame.extent), workspace.image("exit position", vectors, frame.extent),
+            workspace.image("transmittance", vectors, frame.extent),
+            workspace.image("path events", vk::Format::eR32Uint, frame.extent)};
+}
+
+PathEvents unpack_events(std::uint32_t word) {
+    return {word & 0xfffu, (word >> 12) & 0xfffu, Status((word >> 24) & 0xfu), ((word >> 28) & 1u) != 0};
+}
+
+}  // namespace pellucid

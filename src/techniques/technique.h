@@ -1,0 +1,53 @@
+#pragma once
+
+#include "layers/layers.h"
+
+#include <pellucid/technique.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace pellucid {
+
+/// Per pixel, where the view ray ends up after the glass. What follows never asks which technique
+/// filled it. A pixel without glass holds the view ray itself: no events, transmittance 1, ok.
+struct Refraction {
+    const GpuImage& exit_direction;  ///< RGBA32F: unit world direction; w: path length inside media, m
+    const GpuImage& exit_position;   ///< RGBA32F: world position of the last interface, m
+    const GpuImage& transmittance;   ///< RGBA32F: rgb, Fresnel and absorption along the path, 0..1
+    const GpuImage& events;          ///< R32UI: see unpack_events()
+};
+Refraction allocate_refraction(const Frame& frame);
+
+/// The word in Refraction::events; twin of pack_events in refraction.glsl.
+struct PathEvents {
+    std::uint32_t interfaces;     ///< refractions and reflections, the first interface included
+    std::uint32_t reflections;    ///< total internal reflections among them
+    Status status;
+    bool side_conflict;           ///< somewhere the shading normal faced the other side than the surface
+};
+PathEvents unpack_events(std::uint32_t word);
+
+/// A technique's parameters with their values.
+class ParameterValues {
+public:
+    /// Throws Error for an unknown name (listing the known ones) or a value out of range.
+    ParameterValues(const TechniqueInfo& technique, const ParameterMap& given);
+    double operator[](std::string_view name) const;
+    std::uint32_t whole(std::string_view name) const { return std::uint32_t((*this)[name]); }
+
+private:
+    const TechniqueInfo& technique_;
+    std::vector<double> values_;
+};
+
+/// A row of the registry: what the technique is, what it needs, and how it is recorded.
+struct Technique {
+    TechniqueInfo info;
+    std::uint32_t (*layer_count)(const ParameterValues& parameters);
+    Refraction (*record)(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters);
+};
+const Technique& technique_of(const TechniqueInfo& info);
+
+}  // namespace pellucid

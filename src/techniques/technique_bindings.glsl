@@ -1,0 +1,44 @@
+#ifndef PELLUCID_TECHNIQUES_TECHNIQUE_BINDINGS_GLSL
+#define PELLUCID_TECHNIQUES_TECHNIQUE_BINDINGS_GLSL
+
+// Bindings 0 to 8, which every technique shares: the frame, the scene, the layers, and the result.
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/frame.glsl"
+#include "layers/layers.glsl"
+#include "techniques/refraction.glsl"
+
+layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };
+layout(set = 0, binding = 3, r32f) readonly uniform image2DArray layer_depth;
+layout(set = 0, binding = 4, rg32ui) readonly uniform uimage2DArray layer_surface;
+layout(set = 0, binding = 5, rgba32f) writeonly uniform image2DArray exit_direction;
+layout(set = 0, binding = 6, rgba32f) writeonly uniform image2DArray exit_position;
+layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray transmittance;
+layout(set = 0, binding = 8, r32ui) writeonly uniform uimage2DArray path_events;
+
+#include "layers/objects.glsl"
+
+Fragment load_fragment(ivec2 texel, uint layer) {
+    uvec2 surface = imageLoad(layer_surface, ivec3(texel, layer)).rg;
+    return Fragment(imageLoad(layer_depth, ivec3(texel, layer)).r, surface.x, surface.y);
+}
+
+MaterialRecord material_of(Fragment fragment) {
+    return materials[objects[find_object(triangle_index(fragment.triangle))].material];
+}
+
+vec3 view_normal(Fragment fragment) {
+    return mat3(frame.view_from_world) * unpack_unit_vector(fragment.normal);
+}
+
+void store_refraction(ivec2 texel, Path path) {
+    ivec3 at = ivec3(texel, 0);
+    mat3 rotation = mat3(frame.world_from_view);
+    vec3 position = (frame.world_from_view * vec4(path.position, 1.0)).xyz;
+    imageStore(exit_direction, at, vec4(normalize(rotation * path.direction), path.length_inside));
+    imageStore(exit_position, at, vec4(position, 1.0));
+    imageStore(transmittance, at, vec4(path.transmittance, 1.0));
+    imageStore(path_events, at, uvec4(pack_events(path)));
+}
+
+#endif

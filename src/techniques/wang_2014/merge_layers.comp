@@ -1,0 +1,23 @@
+#version 460
+// Wang 2014, section 3.5.2: where layer k is empty, layer k - 2 stands in for it, so that a ray
+// that leaves through the silhouette of a deeper layer still finds a surface there.
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/structs.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0, r32f) readonly uniform image2DArray layer_depth;
+layout(set = 0, binding = 1, r32f) writeonly uniform image2DArray merged_depth;
+layout(push_constant) uniform Push { uint layer_count; };
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, imageSize(layer_depth).xy))) return;
+
+    float last_of_kind[2] = float[2](PELLUCID_EMPTY_DEPTH, PELLUCID_EMPTY_DEPTH);  // entries, exits
+    for (uint layer = 0u; layer < layer_count; ++layer) {
+        float depth = imageLoad(layer_depth, ivec3(texel, layer)).r;
+        if (depth != PELLUCID_EMPTY_DEPTH) last_of_kind[layer & 1u] = depth;
+        imageStore(merged_depth, ivec3(texel, layer), vec4(last_of_kind[layer & 1u]));
+    }
+}
