@@ -1,5 +1,7 @@
 #include "arguments.h"
 
+#include "core/file_extension.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,10 +55,9 @@ std::pair<std::uint32_t, std::uint32_t> parse_size(const std::string& text) {
 
 std::pair<std::string, std::string> parse_aov(const std::string& text) {
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || !text.ends_with(".exr")) {
-        throw Error(fmt::format("--aov: '{}' should be NAME=FILE.exr", text));
-    }
-    return {text.substr(0, equals), text.substr(equals + 1)};
+    const std::string file = equals == std::string::npos ? "" : text.substr(equals + 1);
+    if (lower_extension(file) != ".exr") throw Error(fmt::format("--aov: '{}' should be NAME=FILE.exr", text));
+    return {text.substr(0, equals), file};
 }
 
 Camera parse_camera(const std::string& text, const Scene& scene, float vertical_fov) {

@@ -1,13 +1,15 @@
 #include "commands.h"
 
+#include "core/fail.h"
+
 #include <pellucid/pellucid.h>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -16,10 +18,20 @@ constexpr int kBug = 1;
 constexpr int kBadInput = 2;
 constexpr int kNoDevice = 3;
 
-int complain(std::string message, int exit_code) {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    fmt::print(stderr, "pellucid: {}\n", message);
+int complain(const std::string& message, int exit_code) {
+    // fputs does not throw where stderr is closed: the exit code is still to be given.
+    std::fputs(fmt::format("pellucid: {}\n", pellucid::one_line(message)).c_str(), stderr);
     return exit_code;
+}
+
+/// The parser would only say that a command is missing.
+void check_command(const CLI::App& app, const std::string& command) {
+    std::vector<std::string> known;
+    for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (subcommand->get_name() == command) return;
+        known.push_back(subcommand->get_name());
+    }
+    throw pellucid::Error(fmt::format("unknown command '{}'; known: {}", command, fmt::join(known, ", ")));
 }
 
 }  // namespace
@@ -32,6 +44,7 @@ int main(int argc, char** argv) {
     pellucid::cli::add_render_command(app);
     pellucid::cli::add_info_command(app);
     try {
+        if (argc > 1 && argv[1][0] != '-') check_command(app, argv[1]);
         app.parse(argc, argv);
         return kDone;
     } catch (const CLI::Success& help) {

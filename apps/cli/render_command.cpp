@@ -2,6 +2,7 @@
 #include "commands.h"
 
 #include "core/file.h"
+#include "core/file_extension.h"
 
 #include <pellucid/pellucid.h>
 
@@ -9,9 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <map>
 #include <memory>
+#include <optional>
 
 namespace pellucid::cli {
 namespace {
@@ -26,7 +29,7 @@ struct RenderArguments {
     std::map<std::string, double> parameters;
     std::string size = "512x512";
     std::string environment = "studio";
-    std::string camera;
+    std::optional<std::string> camera;
     double fov_deg = 30.0;
     std::uint32_t samples = 1;
     std::string tonemap = "neutral";
@@ -34,9 +37,9 @@ struct RenderArguments {
     std::string view = "radiance";
     std::string layer_builder = "single-pass";
     std::vector<std::string> aovs;
-    std::string json;
+    std::optional<std::string> json;
     std::optional<double> ior;
-    std::string attenuation_color;
+    std::optional<std::string> attenuation_color;
     std::optional<double> attenuation_distance;
     double crease_angle_deg = 180.0;
     bool remake_normals = false;
@@ -51,19 +54,28 @@ std::string parameter_help(const ParameterInfo& parameter) {
 
 /// One flag for each parameter name of the registry, in the group of the techniques that have it.
 void add_parameter_options(CLI::App& command, RenderArguments& arguments) {
-    std::map<std::string, std::pair<std::string, std::string>, std::less<>> flags;  // name -> owners, help
+    struct Flag {
+        std::string owners, help, type;
+    };
+    std::map<std::string, Flag, std::less<>> flags;
     for (const TechniqueInfo* technique : techniques()) {
         for (const ParameterInfo& parameter : technique->parameters) {
-            auto& [owners, help] = flags[std::string(parameter.name)];
-            owners += (owners.empty() ? "" : ", ") + std::string(technique->name);
-            if (help.empty()) help = parameter_help(parameter);
+            Flag& flag = flags[std::string(parameter.name)];
+            const std::string help = parameter_help(parameter);
+            if (flag.owners.empty()) {
+                flag = {std::string(technique->name), help, parameter.whole ? "N" : "X"};
+                continue;
+            }
+            flag.owners += fmt::format(", {}", technique->name);
+            if (flag.help != help) flag.help += fmt::format("; {}: {}", technique->name, help);
         }
     }
     for (const auto& [name, flag] : flags) {
         command
             .add_option_function<double>(
-                "--" + name, [&arguments, name = name](const double& value) { arguments.parameters[name] = value; }, flag.second)
-            ->group("Parameters of " + flag.first);
+                "--" + name, [&arguments, name = name](const double& value) { arguments.parameters[name] = value; }, flag.help)
+            ->type_name(flag.type)
+            ->group("Parameters of " + flag.owners);
     }
 }
 
@@ -90,8 +102,8 @@ std::string aov_help() {
 LoadOptions load_options(const RenderArguments& arguments) {
     LoadOptions options;
     if (arguments.ior) options.ior = float(*arguments.ior);
-    if (!arguments.attenuation_color.empty()) {
-        const auto color = parse_numbers("--attenuation-color", arguments.attenuation_color, 3);
+    if (arguments.attenuation_color) {
+        const auto color = parse_numbers("--attenuation-color", *arguments.attenuation_color, 3);
         options.attenuation_color = glm::vec3(float(color[0]), float(color[1]), float(color[2]));
     }
     if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
@@ -114,20 +126,30 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     return settings;
 }
 
-/// Says before any work what could not be written after it.
-void check_output(const std::string& file) {
-    const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : fs::path(".");
-    std::error_code ignored;
-    if (!fs::is_directory(folder, ignored)) throw Error(fmt::format("{}: there is no folder '{}'", file, folder.string()));
-    if (fs::is_directory(file, ignored)) throw Error(fmt::format("{}: is a folder", file));
+bool same_file(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error)) return true;
+    return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
+/// Says before any work what could not be written after it, and what would overwrite something.
 void check_outputs(const RenderArguments& arguments) {
-    const std::string extension = fs::path(arguments.output).extension().string();
-    if (extension != ".png" && extension != ".exr") throw Error(fmt::format("{}: pictures are written as .png or .exr", arguments.output));
-    check_output(arguments.output);
-    for (const std::string& aov : arguments.aovs) check_output(parse_aov(aov).second);
-    if (!arguments.json.empty()) check_output(arguments.json);
+    const std::string extension = lower_extension(arguments.output);
+    if (extension != ".png" && extension != ".exr") {
+        throw Error(fmt::format("--output: '{}': pictures are written as .png or .exr", arguments.output));
+    }
+    std::vector<std::string> taken{arguments.scene, arguments.environment};
+    std::vector<std::string> outputs{arguments.output};
+    for (const std::string& aov : arguments.aovs) outputs.push_back(parse_aov(aov).second);
+    if (arguments.json) outputs.push_back(*arguments.json);
+    for (const std::string& output : outputs) {
+        check_writable(output);
+        for (std::size_t i = 0; i < taken.size(); ++i) {
+            if (!same_file(taken[i], output)) continue;
+            throw Error(fmt::format("{}: {}", output, i < 2 ? "would overwrite what is read" : "is given for two outputs"));
+        }
+        taken.push_back(output);
+    }
 }
 
 /// Median over the frames of each pass's time, in the order of the passes.
@@ -178,12 +200,14 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
 }
 
 void write_outputs(const RenderArguments& arguments, const RenderResult& result, const nlohmann::ordered_json& json) {
-    write_image(arguments.output, arguments.output.ends_with(".exr") ? result.radiance : result.display);
+    write_image(arguments.output, lower_extension(arguments.output) == ".exr" ? result.radiance : result.display);
     for (const std::string& aov : arguments.aovs) {
         const auto [name, file] = parse_aov(aov);
         write_image(file, result.aovs.at(name));
     }
-    if (!arguments.json.empty()) write_text_file(arguments.json, json.dump(2) + "\n");
+    if (!arguments.json) return;
+    // Names inside files need not be UTF-8, as JSON must.
+    write_text_file(*arguments.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 void render(const RenderArguments& arguments) {
@@ -199,14 +223,14 @@ void render(const RenderArguments& arguments) {
     Renderer renderer({.device = arguments.device, .validation = arguments.validate});
     renderer.set_scene(scene);
     renderer.set_environment(environment);
-    if (!arguments.camera.empty()) {
-        renderer.set_camera(parse_camera(arguments.camera, scene, float(arguments.fov_deg * 3.14159265358979 / 180.0)));
+    if (arguments.camera) {
+        renderer.set_camera(parse_camera(*arguments.camera, scene, float(arguments.fov_deg * 3.14159265358979 / 180.0)));
     }
     const RenderResult result = renderer.render(settings);
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
-    for (const std::string& warning : warnings) fmt::print(stderr, "pellucid: warning: {}\n", warning);
 
     write_outputs(arguments, result, describe(arguments, settings, scene, renderer.device(), result, warnings));
+    for (const std::string& warning : warnings) std::fputs(fmt::format("pellucid: warning: {}\n", warning).c_str(), stderr);
     if (!renderer.validation_messages().empty()) {
         throw std::runtime_error(fmt::format("{} validation messages, the first: {}", renderer.validation_messages().size(),
                                              renderer.validation_messages().front()));

@@ -21,24 +21,20 @@ namespace {
 std::filesystem::path temporary_beside(const std::filesystem::path& file) {
     // The process id keeps two programs apart, the counter two threads of one program.
     static std::atomic<unsigned> counter{0};
-    std::filesystem::path name = "." + file.stem().string() + ".part-" + std::to_string(getpid()) +
-                                 "-" + std::to_string(counter++);
+    std::filesystem::path name = ".";
+    name += file.stem();
+    name += ".part-" + std::to_string(getpid()) + "-" + std::to_string(counter++);
     name += file.extension();
     return file.parent_path() / name;
 }
 
-/// What the library that writes would only report as "could not open", said precisely.
-void check_folder(const std::filesystem::path& file) {
-    if (!file.has_filename()) fail(file, "names no file");
+/// What a symbolic link leads to; a link that leads nowhere stands for itself.
+std::filesystem::path link_target(const std::filesystem::path& link) {
     std::error_code error;
-    if (std::filesystem::is_directory(file, error)) fail(file, "cannot write: is a folder");
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (!std::filesystem::exists(folder, error))
-        fail(file, "cannot write: there is no folder " + folder.string());
-    if (!std::filesystem::is_directory(folder, error))
-        fail(file, "cannot write: " + folder.string() + " is not a folder");
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
-        fail(file, "cannot write into folder " + folder.string() + ": " + std::strerror(errno));
+    const std::filesystem::path target = std::filesystem::weakly_canonical(link, error);
+    if (error) fail(link, "cannot write: " + error.message());
+    check_writable(target);
+    return target;
 }
 
 }  // namespace
@@ -63,16 +59,36 @@ std::vector<std::byte> read_file(const std::filesystem::path& file) {
     return bytes;
 }
 
+// What the library that writes would only report as "could not open", said precisely.
+void check_writable(const std::filesystem::path& file) {
+    if (!file.has_filename()) fail(file, "names no file");
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (std::filesystem::is_directory(status)) fail(file, "cannot write: is a folder");
+    // Renaming onto /dev/null or a pipe would replace it.
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        fail(file, "cannot write: is not a regular file");
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::exists(folder, error))
+        fail(file, "cannot write: there is no folder " + folder.string());
+    if (!std::filesystem::is_directory(folder, error))
+        fail(file, "cannot write: " + folder.string() + " is not a folder");
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        fail(file, "cannot write into folder " + folder.string() + ": " + std::strerror(errno));
+}
+
 void write_file_atomically(
     const std::filesystem::path& file,
     const std::function<void(const std::filesystem::path& temporary)>& write) {
-    check_folder(file);
-    const std::filesystem::path temporary = temporary_beside(file);
+    check_writable(file);
+    std::error_code no_link;
+    const std::filesystem::path target = std::filesystem::is_symlink(file, no_link) ? link_target(file) : file;
+    const std::filesystem::path temporary = temporary_beside(target);
     std::error_code ignored;
     try {
         write(temporary);
         std::error_code error;
-        std::filesystem::rename(temporary, file, error);
+        std::filesystem::rename(temporary, target, error);
         if (error) fail(file, "cannot write: " + error.message());
     } catch (const Error&) {
         std::filesystem::remove(temporary, ignored);

@@ -137,7 +137,11 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
         const DrawCall call{record.first_vertex, std::uint32_t(3 * mesh.triangles.size()), std::uint32_t(object_records.size())};
         auto& list = material.refractive() ? refractive : material.transmissive() ? thin_walled : opaque;
         list.push_back(call);
-        if (material.refractive()) append_box_corners(mesh, object.world_from_object, refractive_corners);
+        if (material.refractive()) {
+            append_box_corners(mesh, object.world_from_object, refractive_corners);
+            const bool textured = material.base_color_texture.image >= 0 || material.transmission_texture.image >= 0;
+            if (textured || !mesh.colors.empty()) textured_refractive.push_back(call);
+        }
         object_records.push_back(record);
         triangle_count += mesh.triangles.size();
     }

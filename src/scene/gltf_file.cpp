@@ -61,13 +61,24 @@ void split_container(const std::filesystem::path& path, std::span<const std::byt
     }
 }
 
-json parse_json(const std::filesystem::path& path, std::string_view text) {
-    // Depth is limited because tinygltf recurses into extensions and extras.
+/// tinygltf recurses into extensions and extras, so their depth must not reach the stack's.
+void check_depth(const std::filesystem::path& path, std::string_view text) {
     constexpr int kMaxDepth = 100;
-    json root = json::parse(text.begin(), text.end(), [&](int depth, json::parse_event_t, json&) {
-        if (depth > kMaxDepth) fail(path, "JSON is nested too deeply");
-        return true;
-    });
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') in_string = !in_string;
+        if (in_string && c == '\\') ++i;
+        if (in_string) continue;
+        if ((c == '{' || c == '[') && ++depth > kMaxDepth) fail(path, "JSON is nested too deeply");
+        if (c == '}' || c == ']') --depth;
+    }
+}
+
+json parse_json(const std::filesystem::path& path, std::string_view text) {
+    check_depth(path, text);
+    json root = json::parse(text.begin(), text.end());
     if (!root.is_object()) fail(path, "JSON is not an object");
     return root;
 }
@@ -120,12 +131,12 @@ std::string percent_decoded(const std::string& uri) {
 /// Content of a data URI, or of a file beside the glTF file. Throws Error.
 std::vector<std::byte> read_uri(const std::filesystem::path& path, const std::string& uri) {
     if (!tinygltf::IsDataURI(uri)) {
-        if (uri.starts_with("data:")) fail(path, "data URI of unknown kind: " + uri.substr(0, uri.find(',')));
+        if (uri.starts_with("data:")) throw Error("data URI of unknown kind: " + uri.substr(0, uri.find(',')));
         return read_file(path.parent_path() / percent_decoded(uri));
     }
     std::vector<unsigned char> bytes;
     std::string mime_type;
-    if (!tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false)) fail(path, "damaged data URI");
+    if (!tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false)) throw Error("damaged data URI");
     std::vector<std::byte> content(bytes.size());
     if (!bytes.empty()) std::memcpy(content.data(), bytes.data(), bytes.size());
     return content;
@@ -138,7 +149,11 @@ void read_buffers(GltfFile& gltf, const json& root, std::span<const std::byte> b
         const std::string uri = buffers[i].value("uri", std::string());
         std::vector<std::byte> bytes;
         if (!uri.empty()) {
-            bytes = read_uri(gltf.path, uri);
+            try {
+                bytes = read_uri(gltf.path, uri);
+            } catch (const Error& error) {
+                fail(gltf.path, fmt::format("buffer {}: {}", i, error.what()));
+            }
         } else if (i == 0) {
             bytes.assign(binary.begin(), binary.end());
         }

@@ -2,7 +2,7 @@
 
 #include "scene/warnings.h"
 
-#include <tiny_gltf.h>
+#include "scene/tinygltf.h"
 
 #include <cstddef>
 #include <filesystem>

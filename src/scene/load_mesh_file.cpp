@@ -62,6 +62,17 @@ std::uint64_t face_count(const aiScene& scene) {
     return count;
 }
 
+/// Some readers flag polygons where there are none, at which assimp's triangulation aborts the
+/// program (it is built with assertions).
+void correct_primitive_types(const aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        aiMesh& part = *scene.mMeshes[m];
+        bool polygons = false;
+        for (unsigned f = 0; f < part.mNumFaces; ++f) polygons = polygons || part.mFaces[f].mNumIndices > 3;
+        if (!polygons) part.mPrimitiveTypes = aiPrimitiveType_TRIANGLE;  // no more than triangles
+    }
+}
+
 glm::dmat4 matrix_of(const aiMatrix4x4& m) {
     // aiMatrix4x4 lists rows.
     return glm::transpose(glm::dmat4(m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2,
@@ -76,6 +87,7 @@ struct Leftovers {
 
 void append_part(const std::filesystem::path& file, const aiMesh& part, const glm::dmat4& placed,
                  bool with_normals, Mesh& mesh, Leftovers& leftovers) {
+    if (!part.HasFaces()) return;
     const std::size_t base = mesh.positions.size();
     if (base + part.mNumVertices > std::numeric_limits<std::uint32_t>::max())
         fail(file, "more than 2^32 vertices");
@@ -146,6 +158,7 @@ Mesh load_mesh_file(const std::filesystem::path& file, Warnings& warnings) {
     if (announced && face_count(*scene) < *announced)
         warnings.add(fmt::format("{}: {} of {} faces could not be read", file.filename().string(),
                                  *announced - face_count(*scene), *announced));
+    correct_primitive_types(*scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (!scene) fail(file, cause_of(importer));
 

@@ -14,6 +14,8 @@
 namespace pellucid {
 namespace {
 
+constexpr std::string_view kBlank = " \t\r\n\v\f";
+
 struct Property {
     char type = 0;       ///< of the value: i u f, followed by the size in the next field
     int size = 0;        ///< bytes
@@ -55,7 +57,6 @@ bool parse_type(std::string_view name, char& type, int& size) {
 
 std::vector<std::string_view> words(std::string_view line) {
     std::vector<std::string_view> result;
-    constexpr std::string_view kBlank = " \t\r\n\v\f";
     for (std::size_t at = line.find_first_not_of(kBlank); at != line.npos;) {
         const std::size_t end = std::min(line.find_first_of(kBlank, at), line.size());
         result.push_back(line.substr(at, end - at));
@@ -153,13 +154,18 @@ public:
         return type == 'i' ? std::int64_t(value << unused) >> unused : std::int64_t(value);
     }
 
+    /// Binary files may be padded; more numbers than announced mean that the header is wrong.
+    void expect_end() const {
+        if (header_.ascii && body_.find_first_not_of(kBlank, at_) != body_.npos)
+            fail(file_, "PLY: there is more data than the header announces");
+    }
+
 private:
     void need(std::uint64_t size) const {
         if (size > body_.size() - at_) fail(file_, "PLY: the file ends early (truncated?)");
     }
 
     std::string_view token() {
-        constexpr std::string_view kBlank = " \t\r\n\v\f";
         const std::size_t begin = body_.find_first_not_of(kBlank, at_);
         if (begin == body_.npos) fail(file_, "PLY: the file ends early (truncated?)");
         at_ = std::min(body_.find_first_of(kBlank, begin), body_.size());
@@ -207,6 +213,7 @@ std::uint64_t check_ply(const std::filesystem::path& file, std::vector<std::byte
             }
         }
     }
+    values.expect_end();
     const auto* plain = reinterpret_cast<const std::byte*>(header.plain.data());
     std::vector<std::byte> rewritten(plain, plain + header.plain.size());
     rewritten.insert(rewritten.end(), bytes.begin() + std::ptrdiff_t(header.size), bytes.end());

@@ -1,5 +1,5 @@
 #version 460
-// Base colour and transmission of the first glass surface; its textures are known here only.
+// What the textures of the first glass surface multiply its base colour and its transmission with.
 #extension GL_GOOGLE_include_directive : require
 #include "shade/surface_fragment.glsl"
 #include "layers/layers.glsl"
@@ -12,5 +12,6 @@ void main() {
     uint first = imageLoad(layer_surface, ivec3(gl_FragCoord.xy, 0)).g;
     if (triangle_index(first) != triangle) discard;
     MaterialRecord material = materials[material_index];
-    out_tint = vec4(base_color(material).rgb, transmission(material));
+    out_tint = vec4(vertex_color.rgb * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw).rgb,
+                    sample_texture(material.transmission_texture, texcoords.xy, texcoords.zw).r);
 }

@@ -35,7 +35,7 @@ vec3 diffuse_irradiance(vec3 normal) {
 vec3 glass_radiance(ivec3 at, vec3 view_direction, uvec2 first) {
     uint object = find_object(triangle_index(first.y));
     MaterialRecord material = materials[objects[object].material];
-    vec4 tint = imageLoad(glass_tint, at);
+    vec4 tint = vec4(material.base_color.rgb, material.transmission) * imageLoad(glass_tint, at);
     vec3 transmitted = imageLoad(transmittance, at).rgb * environment_radiance(imageLoad(exit_direction, at).xyz);
     vec3 normal = unpack_unit_vector(first.x);
     if (back_face(first.y)) return tint.rgb * transmitted;  // seen from inside: no outer reflection

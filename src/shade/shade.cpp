@@ -90,7 +90,7 @@ SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaq
                   {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
                    reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages),
                    reads("layer_surface", layers.surface)},
-                  target(glass_tint, 1.0f), streams, scene.refractive);
+                  target(glass_tint, 1.0f), streams, scene.textured_refractive);
     recorder.draw(tint,
                   {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
                    reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages),

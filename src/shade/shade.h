@@ -17,9 +17,9 @@ struct Opaque {
 /// (no shadows, no highlights), unlit materials as they are, emission added.
 Opaque draw_opaque(Recorder& recorder, const Frame& frame);
 
-/// What the nearest refracting surface and the thin-walled ones in front do to light on its way.
+/// What textures on the nearest refracting surface, and thin walls in front, do to light on its way.
 struct SurfaceLook {
-    const GpuImage& glass_tint;      ///< RGBA16F: base colour; a: transmission, 0..1, of the first glass surface
+    const GpuImage& glass_tint;      ///< RGBA16F: factor on the base colour; a: on the transmission, 0..1
     const GpuImage& thin_tint;       ///< RGBA16F: transmittance of all thin walls in front
     const GpuImage& thin_reflection;  ///< RGBA16F: environment that they reflect
 };

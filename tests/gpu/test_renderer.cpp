@@ -1,0 +1,211 @@
+// The renderer as a whole: sizes, repetition, samples, names, recovery.
+#include "gpu/gpu_test.h"
+#include "unit/test_files.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <unistd.h>
+
+namespace pellucid::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+std::vector<std::string> all_aovs() {
+    std::vector<std::string> names;
+    for (const AovInfo& aov : aov_infos()) names.emplace_back(aov.name);
+    return names;
+}
+
+RenderSettings sized(std::uint32_t width, std::uint32_t height) {
+    RenderSettings settings;
+    settings.width = width;
+    settings.height = height;
+    return settings;
+}
+
+using RendererSuite = RendererTest;
+
+TEST_F(RendererSuite, AnySizeInAnyOrder) {
+    renderer().set_scene(load_scene("shape:torus"));
+    for (const auto& [width, height] : {std::pair{17u, 13u}, {1u, 1u}, {4001u, 3u}, {3u, 1501u}, {64u, 64u}, {17u, 13u}}) {
+        for (const LayerBuilder builder : {LayerBuilder::kSinglePass, LayerBuilder::kDepthPeeling}) {
+            RenderSettings settings = sized(width, height);
+            settings.layer_builder = builder;
+            settings.aovs = all_aovs();
+            const RenderResult result = renderer().render(settings);
+            EXPECT_EQ(result.display.width, int(width));
+            EXPECT_EQ(result.display.height, int(height));
+            EXPECT_TRUE(all_finite(result.radiance));
+            for (const auto& [name, image] : result.aovs) EXPECT_TRUE(all_finite(image)) << name;
+        }
+    }
+}
+
+TEST_F(RendererSuite, SettingsOutOfRangeAreRefusedAndTheNextFrameWorks) {
+    renderer().set_scene(load_scene("shape:sphere,segments=8"));
+    const auto refuse = [&](RenderSettings settings, const char* text) {
+        EXPECT_THAT([&] { renderer().render(settings); }, ThrowsMessage<Error>(HasSubstr(text)));
+        EXPECT_GT(renderer().render(sized(16, 16)).covered, 50u);
+    };
+    refuse(sized(0, 16), "size 0x16");
+    refuse(sized(16, 100000), "size 16x100000");
+    RenderSettings settings = sized(16, 16);
+    settings.technique = "magic";
+    refuse(settings, "known: one-interface, wang-2014");
+    settings = sized(16, 16);
+    settings.parameters["speed"] = 1;
+    refuse(settings, "it has: layers, steps");
+    settings.parameters = {{"layers", 1e9}};
+    refuse(settings, "layers must be");
+    settings.parameters = {{"steps", 1.5}};
+    refuse(settings, "whole number");
+    settings.parameters = {{"steps", std::nan("")}};
+    refuse(settings, "steps must be");
+    settings = sized(16, 16);
+    settings.samples = 0;
+    refuse(settings, "samples");
+    settings = sized(16, 16);
+    settings.aovs = {"colour"};
+    refuse(settings, "known: exit-direction");
+    settings = sized(16, 16);
+    settings.exposure_ev = std::nanf("");
+    refuse(settings, "exposure");
+    // More than the device's largest allocation, refused before or while recording.
+    settings = sized(16384, 16384);
+    settings.parameters = {{"layers", 64}};
+    refuse(settings, "GiB");
+}
+
+TEST_F(RendererSuite, SameFrameTwiceIsTheSameBitForBit) {
+    renderer().set_scene(load_scene("shape:goblet"));
+    renderer().set_environment(load_environment("sky"));
+    for (const TechniqueInfo* technique : techniques()) {
+        RenderSettings settings = sized(128, 96);
+        settings.technique = technique->name;
+        settings.samples = 3;
+        settings.aovs = all_aovs();
+        const RenderResult first = renderer().render(settings);
+        const RenderResult second = renderer().render(settings);
+        EXPECT_EQ(first.radiance.pixels, second.radiance.pixels) << technique->name;
+        EXPECT_EQ(first.display.pixels, second.display.pixels) << technique->name;
+        for (const auto& [name, image] : first.aovs) EXPECT_EQ(image.pixels, second.aovs.at(name).pixels) << name;
+    }
+}
+
+TEST_F(RendererSuite, EveryPixelHasAStatusAndNoNanWhateverTheMesh) {
+    std::vector<std::string> scenes = {"shape:gem", "shape:knot", "shape:hollow-sphere", "shape:cube", "shape:slab"};
+    if (!data_folder().empty()) {
+        // Open, non-manifold and inverted meshes.
+        for (const char* model : {"teapot.obj", "suzanne.obj", "f16.ply", "dragon_vrip_res3.ply", "horse.ply", "stanford-bunny.obj"}) {
+            scenes.push_back(data_folder() / "models" / model);
+        }
+    }
+    for (const std::string& scene : scenes) {
+        renderer().set_scene(load_scene(scene));
+        for (const TechniqueInfo* technique : techniques()) {
+            RenderSettings settings = sized(96, 96);
+            settings.technique = technique->name;
+            settings.aovs = all_aovs();
+            const RenderResult result = renderer().render(settings);
+            EXPECT_GT(result.covered, 100u) << scene;
+            std::uint64_t with_status = 0;
+            for (const std::uint64_t count : result.status) with_status += count;
+            EXPECT_EQ(with_status, result.covered) << scene;
+            EXPECT_TRUE(all_finite(result.radiance)) << scene << " " << technique->name;
+            for (const auto& [name, image] : result.aovs) EXPECT_TRUE(all_finite(image)) << scene << " " << name;
+            const Image& direction = result.aovs.at("exit-direction");
+            for (std::size_t i = 0; i < direction.pixels.size(); i += 3) {
+                ASSERT_NEAR(glm::length(glm::vec3(direction.pixels[i], direction.pixels[i + 1], direction.pixels[i + 2])), 1.0f, 1e-4f);
+            }
+        }
+    }
+}
+
+TEST_F(RendererSuite, SamplesConvergeAndAovsStay) {
+    renderer().set_scene(load_scene("shape:sphere"));
+    renderer().set_environment(load_environment("checker"));
+    RenderSettings settings = sized(48, 48);
+    settings.aovs = all_aovs();
+    const RenderResult one = renderer().render(settings);
+    EXPECT_EQ(one.frames.size(), 1u);
+    settings.samples = 64;
+    const RenderResult many = renderer().render(settings);
+    settings.samples = 128;
+    const RenderResult more = renderer().render(settings);
+    EXPECT_EQ(many.frames.size(), 64u);
+    EXPECT_EQ(one.aovs.at("exit-direction").pixels, many.aovs.at("exit-direction").pixels);
+    EXPECT_EQ(one.covered, many.covered);
+    const auto rms = [](const Image& a, const Image& b) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2.0);
+        return std::sqrt(sum / double(a.pixels.size()));
+    };
+    EXPECT_LT(rms(many.radiance, more.radiance), 0.3 * rms(one.radiance, more.radiance));
+}
+
+TEST_F(RendererSuite, BothLayerBuildersDrawTheSamePicture) {
+    renderer().set_scene(load_scene("shape:infinity-ring"));
+    RenderSettings settings = sized(200, 150);
+    const RenderResult single = renderer().render(settings);
+    settings.layer_builder = LayerBuilder::kDepthPeeling;
+    EXPECT_EQ(single.radiance.pixels, renderer().render(settings).radiance.pixels);
+}
+
+TEST_F(RendererSuite, PassTimesAreThere) {
+    renderer().set_scene(load_scene("shape:sphere"));
+    const RenderResult result = renderer().render(sized(64, 64));
+    if (result.frames.front().empty()) GTEST_SKIP() << "the queue has no timestamps";
+    std::vector<std::string> names;
+    for (const PassTime& pass : result.frames.front()) {
+        names.push_back(pass.name);
+        EXPECT_GE(pass.time_ms, 0.0);
+    }
+    EXPECT_THAT(names, ::testing::IsSupersetOf({"layers", "trace", "shade"}));
+}
+
+TEST_F(RendererSuite, AnalysisViewColoursTheInterfaces) {
+    renderer().set_scene(load_scene("shape:sphere"));
+    RenderSettings settings = sized(32, 32);
+    settings.view = View::kAnalysis;
+    const glm::vec3 center = rgb(renderer().render(settings).radiance, 16, 16);
+    EXPECT_GT(center.r, 4.0f * center.b);  // two interfaces: red
+    renderer().set_scene(load_scene("shape:hollow-sphere"));
+    const glm::vec3 hollow = rgb(renderer().render(settings).radiance, 16, 16);
+    EXPECT_GT(hollow.b, 4.0f * hollow.r);  // four: blue
+}
+
+long resident_kilobytes() {
+    long pages = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> pages >> resident;
+    return resident * (sysconf(_SC_PAGESIZE) / 1024);
+}
+
+TEST_F(RendererSuite, HundredsOfFramesDoNotGrow) {
+    const Scene scene = load_scene("shape:torus,segments=24,sides=12");
+    renderer().set_scene(scene);
+    long after_warm_up = 0;
+    for (int frame = 0; frame < 400; ++frame) {
+        renderer().render(sized(24 + frame % 3, 24));  // resizing all the time
+        if (frame % 50 == 0) renderer().set_scene(scene);
+        if (frame == 100) after_warm_up = resident_kilobytes();
+    }
+    // The validation layer keeps some state per object that was ever made.
+    EXPECT_LT(resident_kilobytes() - after_warm_up, 40 * 1024);
+}
+
+TEST(RendererDevice, UnknownDeviceListsTheKnown) {
+    try {
+        list_devices();
+    } catch (const DeviceError& error) {
+        GTEST_SKIP() << error.what();
+    }
+    EXPECT_THAT([] { Renderer({.device = "no such device", .validation = false}); }, ThrowsMessage<Error>(HasSubstr("found: 0 (")));
+    EXPECT_THAT([] { Renderer({.device = "99", .validation = false}); }, ThrowsMessage<Error>(HasSubstr("unknown device '99'")));
+}
+
+}  // namespace
+}  // namespace pellucid::test
