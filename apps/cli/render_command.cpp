@@ -26,7 +26,7 @@ struct RenderArguments {
     std::string scene;
     std::string output;
     std::string technique = RenderSettings{}.technique;
-    std::map<std::string, double> parameters;
+    std::map<std::string, std::optional<double>> parameters;  ///< every name there is
     std::string size = "512x512";
     std::string environment = "studio";
     std::optional<std::string> camera;
@@ -52,6 +52,15 @@ std::string parameter_help(const ParameterInfo& parameter) {
                        parameter.minimum, parameter.maximum, parameter.default_value);
 }
 
+/// An option with a finite number; the parser's own conversion takes "" and "nan".
+template <class Number>
+CLI::Option* add_number(CLI::App& command, const std::string& flag, Number& number, const std::string& help) {
+    return command.add_option(flag, number, help)->check([flag](const std::string& text) {
+        parse_number(flag, text);
+        return std::string();
+    });
+}
+
 /// One flag for each parameter name of the registry, in the group of the techniques that have it.
 void add_parameter_options(CLI::App& command, RenderArguments& arguments) {
     struct Flag {
@@ -71,9 +80,7 @@ void add_parameter_options(CLI::App& command, RenderArguments& arguments) {
         }
     }
     for (const auto& [name, flag] : flags) {
-        command
-            .add_option_function<double>(
-                "--" + name, [&arguments, name = name](const double& value) { arguments.parameters[name] = value; }, flag.help)
+        add_number(command, "--" + name, arguments.parameters[name], flag.help)
             ->type_name(flag.type)
             ->group("Parameters of " + flag.owners);
     }
@@ -116,7 +123,9 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     RenderSettings settings;
     std::tie(settings.width, settings.height) = parse_size(arguments.size);
     settings.technique = arguments.technique;
-    settings.parameters.insert(arguments.parameters.begin(), arguments.parameters.end());
+    for (const auto& [name, value] : arguments.parameters) {
+        if (value) settings.parameters[name] = *value;
+    }
     settings.layer_builder = parse_layer_builder(arguments.layer_builder);
     settings.view = parse_view(arguments.view);
     settings.samples = arguments.samples;
@@ -179,6 +188,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"triangles", scene.triangle_count()},
                                 {"covered", result.covered},
                                 {"side_conflicts", result.side_conflicts}};
+    json["parameters"] = nlohmann::ordered_json::object();
     for (const ParameterInfo& parameter : find_technique(settings.technique).parameters) {
         const auto given = settings.parameters.find(parameter.name);
         json["parameters"][std::string(parameter.name)] = given == settings.parameters.end() ? parameter.default_value : given->second;
@@ -243,6 +253,8 @@ void add_render_command(CLI::App& app) {
     auto arguments = std::make_shared<RenderArguments>();
     RenderArguments& a = *arguments;
     CLI::App* command = app.add_subcommand("render", "Render a scene into a picture");
+    // A script's defaults can be overridden by what a user appends.
+    command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     command->add_option("scene", a.scene, shape_help())->required()->type_name("SCENE");
     command->add_option("-o,--output", a.output, "Picture: .png (tone mapped, sRGB) or .exr (linear)")->required()->type_name("FILE");
     command->add_option("--technique", a.technique, technique_help())->capture_default_str()->type_name("NAME");
@@ -252,22 +264,22 @@ void add_render_command(CLI::App& app) {
     command->add_option("--camera", a.camera, "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
                                               "default: the file's first camera, or one that frames the scene")
         ->type_name("NAME|orbit:AZ,EL,DIST");
-    command->add_option("--fov", a.fov_deg, "Vertical field of view of an orbit camera, degrees")
+    add_number(*command, "--fov", a.fov_deg, "Vertical field of view of an orbit camera, degrees")
         ->capture_default_str()->check(CLI::Range(1.0, 170.0));
-    command->add_option("--samples", a.samples, "Jittered frames, averaged in linear light")->capture_default_str();
+    add_number(*command, "--samples", a.samples, "Jittered frames, averaged in linear light")->capture_default_str();
     command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")->capture_default_str()->type_name("NAME");
-    command->add_option("--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
+    add_number(*command, "--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
     command->add_option("--view", a.view, "radiance, or analysis: red two interfaces, blue four or more, green total internal "
                                           "reflection, grey where the technique gave up")
         ->capture_default_str()->type_name("NAME");
     command->add_option("--layer-builder", a.layer_builder, "single-pass or depth-peeling")->capture_default_str()->type_name("NAME");
-    command->add_option("--aov", a.aovs, aov_help())->type_name("NAME=FILE.exr")->allow_extra_args(false);
+    command->add_option("--aov", a.aovs, aov_help())->type_name("NAME=FILE.exr")->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
-    command->add_option("--ior", a.ior, "Index of refraction of all glass")->type_name("X");
+    add_number(*command, "--ior", a.ior, "Index of refraction of all glass")->type_name("X");
     command->add_option("--attenuation-color", a.attenuation_color, "What the glass leaves of white light after the distance, 0 to 1")
         ->type_name("R,G,B");
-    command->add_option("--attenuation-distance", a.attenuation_distance, "Metres after which that is left")->type_name("M");
-    command->add_option("--crease-angle", a.crease_angle_deg, "Made normals are smooth across edges bent less than this, degrees")
+    add_number(*command, "--attenuation-distance", a.attenuation_distance, "Metres after which that is left")->type_name("M");
+    add_number(*command, "--crease-angle", a.crease_angle_deg, "Made normals are smooth across edges bent less than this, degrees")
         ->capture_default_str()->check(CLI::Range(0.0, 180.0));
     command->add_flag("--remake-normals", a.remake_normals, "Replace the normals that a mesh file brings along");
     command->add_option("--device", a.device, "Vulkan device: its number in 'pellucid info' or a part of its name")->type_name("DEVICE");

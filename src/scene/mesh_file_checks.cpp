@@ -106,29 +106,6 @@ void check_3ds(const std::filesystem::path& file, std::string_view text) {
         fail(file, fmt::format("3DS: the file ends early: {} of {} bytes", text.size(), length));
 }
 
-/// assimp takes ".5" for no number at all (it needs "0.5"), and reads past the end of a file whose
-/// last line is continued or has no end.
-void make_obj_plain(std::vector<std::byte>& bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    std::vector<std::byte> plain;
-    plain.reserve(bytes.size() + bytes.size() / 8 + 1);
-    const auto at = [&](std::size_t i) { return i < text.size() ? text[i] : '\n'; };
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '\\') {
-            // Joins two lines; elsewhere it only stands in names, which are not read.
-            plain.push_back(std::byte(' '));
-            if (at(i + 1) == '\r' && at(i + 2) == '\n') ++i;
-            if (at(i + 1) == '\n' || at(i + 1) == '\r') ++i;
-            continue;
-        }
-        const bool bare = text[i] == '.' && i > 0 && text[i - 1] == ' ' && at(i + 1) >= '0' && at(i + 1) <= '9';
-        if (bare) plain.push_back(std::byte('0'));
-        plain.push_back(bytes[i]);
-    }
-    plain.push_back(std::byte('\n'));
-    bytes = std::move(plain);
-}
-
 }  // namespace
 
 std::optional<std::uint64_t> check_mesh_file(const std::filesystem::path& file,
@@ -140,7 +117,7 @@ std::optional<std::uint64_t> check_mesh_file(const std::filesystem::path& file,
     if (extension == ".off") return check_off(file, text);
     if (extension == ".stl") check_stl(file, text);
     if (extension == ".3ds") check_3ds(file, text);
-    if (extension == ".obj") make_obj_plain(bytes);
+    if (extension == ".obj") check_obj(file, bytes);
     return std::nullopt;
 }
 

@@ -19,6 +19,8 @@ std::optional<std::uint64_t> check_mesh_file(const std::filesystem::path& file,
                                              const std::string& extension,
                                              std::vector<std::byte>& bytes);
 
+/// The same for one format each, where that is more than a few lines.
+void check_obj(const std::filesystem::path& file, std::vector<std::byte>& bytes);
 std::uint64_t check_ply(const std::filesystem::path& file, std::vector<std::byte>& bytes);
 
 }  // namespace pellucid

@@ -12,6 +12,10 @@
 #include <random>
 #include <set>
 
+// assimp forgets some memory where it gives up on a file.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }
+
 namespace pellucid {
 namespace {
 
@@ -302,14 +306,14 @@ const Known kKnown[] = {
     {"ply_off/assimp_invalid.off", "OFF"},
     {"obj/assimp_box_UTF16BE.obj", "contains no mesh"},
     {"obj/assimp_empty.obj", "is empty"},
-    {"obj/assimp_malformed.obj", "Invalid face index"},
+    {"obj/assimp_malformed.obj", "line 28: face refers to a vertex"},
     {"obj/assimp_number_formats.obj", "no triangles"},
     {"obj/assimp_point_cloud.obj", "no triangles"},
     {"obj/assimp_testline.obj", "no triangles"},
     {"obj/tinyobj_invalid-face-definition.obj", "no triangles"},
-    {"obj/tinyobj_invalid-relative-texture-index.obj", "out of range"},
-    {"obj/tinyobj_invalid-relative-vertex-index.obj", "too small"},
-    {"obj/tinyobj_issue-140-zero-face-idx.obj", "Invalid face index"},
+    {"obj/tinyobj_invalid-relative-texture-index.obj", "line 2: face refers to vertex 1"},
+    {"obj/tinyobj_invalid-relative-vertex-index.obj", "line 1: face refers to a vertex"},
+    {"obj/tinyobj_issue-140-zero-face-idx.obj", "line 16: face refers to a vertex"},
     {"obj/tinyobj_issue-356-leading-spaces-newmtl.obj", "contains no mesh"},
     {"obj/tinyobj_line-prim.obj", "no triangles"},
     {"obj/tinyobj_points-prim.obj", "no triangles"},

@@ -14,7 +14,9 @@ void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, imageSize(layer_depth).xy))) return;
 
-    float last_of_kind[2] = float[2](PELLUCID_EMPTY_DEPTH, PELLUCID_EMPTY_DEPTH);  // entries, exits
+    // Entries, exits. Beside the object there is neither; a ray there counts as outside: in front of
+    // entries and behind exits.
+    float last_of_kind[2] = float[2](PELLUCID_EMPTY_DEPTH, -PELLUCID_EMPTY_DEPTH);
     for (uint layer = 0u; layer < layer_count; ++layer) {
         float depth = imageLoad(layer_depth, ivec3(texel, layer)).r;
         if (depth != PELLUCID_EMPTY_DEPTH) last_of_kind[layer & 1u] = depth;

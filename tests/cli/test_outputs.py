@@ -1,0 +1,225 @@
+"""What is written, and that it is whole or not there."""
+import json
+import math
+import os
+import signal
+import subprocess
+import unittest
+
+import cli
+from cli import BINARY, CliTest, TETRAHEDRON
+from pictures import read_exr, read_png
+
+AOVS = {"exit-direction": 3, "exit-position": 3, "path-length": 1, "events": 2, "status": 1, "layers": 1, "depth": 1,
+        "normal": 3, "object": 1}
+STATUS = ["ok", "missing_layer", "left_screen", "step_limit", "event_limit"]
+
+
+def srgb(value):
+    """IEC 61966-2-1."""
+    value = min(max(value, 0.0), 1.0)
+    return 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
+
+
+class Pictures(CliTest):
+    def test_png(self):
+        self.assert_rendered(self.render("shape:goblet", size="17x13"))
+        picture = read_png(self.read("out.png"))
+        self.assertEqual((picture.width, picture.height), (17, 13))
+        self.assertGreater(len(set(picture.pixels)), 10)
+
+    def test_exr(self):
+        self.assert_rendered(self.render("shape:goblet", output="out.exr", size="17x33"), "out.exr")
+        picture = read_exr(self.read("out.exr"))
+        self.assertEqual((picture.width, picture.height, sorted(picture.channels)), (17, 33, ["B", "G", "R"]))
+        self.assertTrue(all(math.isfinite(value) and value >= 0 for value in picture.pixels))
+        self.assertGreater(max(picture.pixels), 0.1)
+
+    def test_extension_in_capitals(self):
+        self.assert_rendered(self.render("shape:sphere", output="OUT.PNG"), "OUT.PNG")
+        read_png(self.read("OUT.PNG"))
+        self.assert_rendered(self.render("shape:sphere", output="OUT.EXR"), "OUT.EXR")
+        read_exr(self.read("OUT.EXR"))
+
+    def test_tonemap_none_clips_and_encodes(self):
+        self.assert_rendered(self.render("shape:goblet", output="out.exr"), "out.exr")
+        linear = read_exr(self.read("out.exr"))
+        for stops in (0, 1, -2):
+            self.assert_rendered(self.render("shape:goblet", "--tonemap", "none", "--exposure", str(stops)))
+            display = read_png(self.read("out.png"))
+            for pixel in range(linear.width * linear.height):
+                for i, channel in enumerate("RGB"):
+                    radiance = linear.pixels[3 * pixel + linear.channels.index(channel)]
+                    expected = 255 * srgb(radiance * 2.0 ** stops)
+                    # Rounding, and one step for the device's own power function.
+                    self.assertAlmostEqual(display.pixels[3 * pixel + i], expected, delta=1.0)
+
+    def test_tonemaps_differ(self):
+        pictures = set()
+        for name in ("none", "reinhard", "aces", "neutral"):
+            self.assert_rendered(self.render("shape:goblet", "--tonemap", name))
+            pictures.add(self.read("out.png"))
+        self.assertEqual(len(pictures), 4)
+
+    def test_same_twice(self):
+        self.assert_rendered(self.render("shape:goblet"))
+        first = self.read("out.png")
+        self.assert_rendered(self.render("shape:goblet"))
+        self.assertEqual(self.read("out.png"), first)
+
+
+class Samples(CliTest):
+    def render_samples(self, samples):
+        self.assert_rendered(self.render("shape:goblet", "--samples", str(samples), "--aov", "exit-direction=direction.exr",
+                                         "--json", "out.json"))
+        return self.read("out.png"), read_exr(self.read("direction.exr")).pixels, json.loads(self.read("out.json"))
+
+    def test_pictures_change_and_aovs_do_not(self):
+        one_picture, one_aov, one = self.render_samples(1)
+        more_picture, more_aov, more = self.render_samples(5)
+        self.assertNotEqual(one_picture, more_picture)
+        self.assertEqual(one_aov, more_aov)
+        self.assertEqual((one["frames"], more["frames"]), (1, 5))
+        self.assertEqual((one["covered"], one["status"]), (more["covered"], more["status"]))
+
+
+class Aovs(CliTest):
+    def test_each(self):
+        arguments = [argument for name in AOVS for argument in ("--aov", f"{name}={name}.exr")]
+        self.assert_rendered(self.render("shape:goblet", *arguments, "--json", "out.json", size="19x18"))
+        aovs = {name: read_exr(self.read(f"{name}.exr")) for name in AOVS}
+        for name, aov in aovs.items():
+            self.assertEqual((aov.width, aov.height, len(aov.channels)), (19, 18, AOVS[name]), name)
+            self.assertTrue(all(map(math.isfinite, aov.pixels)), name)
+        self.check_counts(aovs, json.loads(self.read("out.json")))
+
+    def check_counts(self, aovs, described):
+        """The counts of the JSON are those of the AOVs."""
+        interfaces = aovs["events"].pixels[aovs["events"].channels.index("Y")::2]
+        covered = [i for i, count in enumerate(interfaces) if count > 0]
+        self.assertGreater(len(covered), 10)
+        self.assertEqual(described["covered"], len(covered))
+        for number, name in enumerate(STATUS):
+            share = sum(aovs["status"].pixels[i] == number for i in covered) / len(covered)
+            self.assertAlmostEqual(described["status"][name], share, places=9)
+        for i in covered:
+            self.assertAlmostEqual(math.hypot(*aovs["exit-direction"].pixels[3 * i:3 * i + 3]), 1, places=3)
+            self.assertGreater(aovs["depth"].pixels[i], 0)
+
+    def test_list_is_complete(self):
+        self.assertEqual(sorted(self.known_names("--aov", "?=out.exr")), sorted(AOVS))
+
+    def test_syntax(self):
+        for aov in ("depth", "depth=", "depth=a.png", "depth=a", "depth=.exr", "=a.exr", ""):
+            self.refuses("AOV" if aov == "=a.exr" else "--aov", "--aov", aov)
+
+
+class Json(CliTest):
+    def describe(self, scene, *arguments):
+        self.assert_rendered(self.render(scene, "--json", "out.json", *arguments))
+        return json.loads(self.read("out.json"))
+
+    def test_content(self):
+        described = self.describe("shape:sphere", "--samples", "3")
+        for key in ("device", "driver", "version"):
+            self.assertTrue(described[key], key)
+        self.assertEqual(described["version"], self.run_cli("--version").stdout.strip())
+        self.assertEqual((described["width"], described["height"]), (16, 16))
+        self.assertGreater(described["triangles"], 100)
+        self.assertGreater(described["covered"], 0)
+        self.assertEqual(list(described["status"]), STATUS)
+        self.assertAlmostEqual(sum(described["status"].values()), 1)
+        self.assertEqual(described["warnings"], [])
+        self.assertLessEqual({"layers", "trace", "shade"}, set(described["passes"]))
+        for times in described["passes"].values():
+            self.assertGreaterEqual(times["median"], 0)
+        self.assertAlmostEqual(described["frame_ms"], sum(times["median"] for times in described["passes"].values()))
+
+    def test_warnings(self):
+        self.write("open.obj", TETRAHEDRON[:TETRAHEDRON.rindex("f")])
+        described = self.describe("open.obj")
+        self.assertEqual(described["triangles"], 3)
+        self.assertRegex(" ".join(described["warnings"]), r"open.*3.*edge|3 .*edge.*open")
+
+
+class Unwritable(CliTest):
+    """Outputs that cannot be written are refused, and then none is."""
+
+    def test_picture(self):
+        os.mkdir(self.path("folder.png"))
+        self.write("file", "")
+        self.refuses(["folder.png", "is a folder"], output="folder.png")
+        self.refuses(["no/out.png", "no folder"], output="no/out.png")
+        self.refuses(["file/out.png", "not a folder"], output="file/out.png")
+        self.refuses("/proc/out.png", output="/proc/out.png")
+        for name in ("out.jpg", "out", "out.png.bak", ".png"):
+            self.refuses([f"'{name}'", ".png", ".exr"], output=name)
+
+    def test_others(self):
+        self.refuses(["no/a.exr", "no folder"], "--aov", "depth=no/a.exr")
+        self.refuses(["no/a.json", "no folder"], "--json", "no/a.json")
+        self.refuses([".", "folder"], "--json", ".")
+
+    def test_devices_are_not_replaced(self):
+        self.refuses(["/dev/full", "not a regular file"], "--json", "/dev/full")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write into every folder")
+    def test_read_only_folder(self):
+        os.mkdir(self.path("locked"), 0o555)
+        self.refuses(["locked/out.png", "Permission denied"], output="locked/out.png")
+
+    def test_two_outputs_of_one_name(self):
+        self.refuses(["./a.exr", "two outputs"], "--aov", "depth=a.exr", "--aov", "normal=./a.exr")
+        self.refuses(["out.exr", "two outputs"], "--aov", "depth=out.exr", output="out.exr")
+        self.refuses([self.path("out.png"), "two outputs"], "--json", self.path("out.png"))
+
+    def test_input_is_not_overwritten(self):
+        self.write("a.obj", TETRAHEDRON)
+        self.refuses(["a.obj", "overwrite"], "--json", "a.obj", scene="a.obj")
+        self.assertEqual(self.read("a.obj").decode(), TETRAHEDRON)
+
+    def test_link_stays(self):
+        self.write("real.png", "old")
+        os.symlink("real.png", self.path("link.png"))
+        self.assert_rendered(self.render("shape:sphere", output="link.png"), "link.png")
+        self.assertTrue(os.path.islink(self.path("link.png")))
+        read_png(self.read("real.png"))
+
+
+class Killed(CliTest):
+    def start(self, *arguments):
+        process = subprocess.Popen([BINARY, "render", "shape:sphere", "-o", "out.exr", *arguments], cwd=self.folder)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def test_while_rendering(self):
+        process = self.start("--size", "64x64", "--samples", "1000000")
+        with self.assertRaises(subprocess.TimeoutExpired):
+            process.wait(timeout=1)
+        process.kill()
+        self.assertEqual(process.wait(), -signal.SIGKILL)
+        self.assertEqual(self.files(), [])
+
+    def test_while_writing(self):
+        process = self.start("--size", "1500x1500", "--technique", "one-interface")
+        while process.poll() is None and not self.files():
+            pass
+        process.kill()
+        process.wait()
+        if "out.exr" in self.files():  # the kill came too late: the file is whole
+            read_exr(self.read("out.exr"))
+
+    def test_old_file_stays(self):
+        self.write("out.exr", "old")
+        process = self.start("--size", "1500x1500", "--technique", "one-interface")
+        while process.poll() is None and self.files() == ["out.exr"]:
+            pass
+        process.kill()
+        process.wait()
+        if self.read("out.exr") != b"old":
+            read_exr(self.read("out.exr"))
+
+
+if __name__ == "__main__":
+    cli.main()

@@ -1,0 +1,132 @@
+"""Scene files that are missing, damaged or strange."""
+import json
+import math
+import os
+
+import cli
+from cli import CliTest, TETRAHEDRON
+from pictures import read_exr
+
+GLTF = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "name": "front", "translation": [0.3, 0.3, 3]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
+                     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
+
+
+def gltf(**changes):
+    return json.dumps({**GLTF, **changes})
+
+
+class SceneFiles(CliTest):
+    def test_made_files_render(self):
+        for name, content in (("a.obj", TETRAHEDRON), ("a.gltf", gltf())):
+            with self.subTest(name):
+                self.assert_rendered(self.render(self.write(name, content)))
+
+    def test_missing(self):
+        for name in ("nowhere.obj", "nowhere.gltf", "nowhere.glb", "no/where.ply"):
+            self.refuses([name, "no such file"], scene=name)
+        os.mkdir(self.path("folder.obj"))
+        self.refuses(["folder.obj", "folder"], scene="folder.obj")
+
+    def test_unknown_kind(self):
+        self.write("scene.txt", "hello")
+        self.refuses(["scene.txt", ".gltf", ".obj"], scene="scene.txt")
+
+    def test_empty(self):
+        for extension in ("obj", "ply", "stl", "off", "3ds", "gltf", "glb"):
+            name = self.write(f"empty.{extension}", "")
+            self.refuses([name, "is empty"], scene=name)
+
+    def test_garbage(self):
+        for extension in ("obj", "ply", "stl", "off", "3ds", "gltf", "glb"):
+            name = self.write(f"garbage.{extension}", bytes(range(256)) * 4)
+            self.refuses(name, scene=name)
+
+    def test_truncated(self):
+        name = self.write("cut.gltf", gltf()[:-40])
+        self.refuses(name, scene=name)
+        name = self.write("cut.off", "OFF\n4 4 6\n0 0 0\n1 0")
+        self.refuses(name, scene=name)
+
+    def test_malformed(self):
+        for content in (TETRAHEDRON + "f 1 2 99\n", TETRAHEDRON.replace("v 1 0 0", "v nan 0 0"), "v 0 0 0\n",
+                        "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"):
+            name = self.write("bad.obj", content)
+            self.refuses(name, scene=name)
+
+    def test_missing_buffer(self):
+        self.write("a.gltf", gltf(buffers=[{"byteLength": 36, "uri": "gone.bin"}]))
+        self.refuses(["a.gltf", "gone.bin", "no such file"], scene="a.gltf")
+
+    def test_required_extension(self):
+        name = "KHR_draco_mesh_compression"
+        self.write("a.gltf", gltf(extensionsRequired=[name], extensionsUsed=[name]))
+        self.refuses(["a.gltf", name], scene="a.gltf")
+
+    def test_ignored_extension_is_a_warning(self):
+        self.write("a.gltf", gltf(extensionsUsed=["KHR_materials_sheen"]))
+        result = self.render("a.gltf", "--json", "out.json")
+        self.assert_rendered(result)
+        self.assertRegex(result.stderr, r"\Apellucid: warning: [^\n]*KHR_materials_sheen[^\n]*\n\Z")
+        self.assertIn("KHR_materials_sheen", " ".join(json.loads(self.read("out.json"))["warnings"]))
+
+    def test_names_need_not_be_utf8(self):
+        name = os.fsdecode(b"gla\xdf.obj")
+        self.write(name, TETRAHEDRON)
+        self.assert_rendered(self.render(name, "--json", "out.json"))
+        json.loads(self.read("out.json").decode())
+
+
+class Cameras(CliTest):
+    def picture(self, *arguments):
+        self.assert_rendered(self.render("a.gltf", *arguments))
+        return self.read("out.png")
+
+    def test_choice(self):
+        self.write("a.gltf", gltf())
+        first = self.picture()
+        self.assertEqual(first, self.picture("--camera", "front"))
+        self.assertNotEqual(first, self.picture("--camera", "orbit:90,0,3"))
+        self.refuses(["back", "known: front, orbit:AZ,EL,DIST"], "--camera", "back", scene="a.gltf")
+
+
+class Environments(CliTest):
+    def test_bad_files(self):
+        self.refuses(["gone.hdr", "no such file"], "--environment", "gone.hdr")
+        for name, content in (("empty.hdr", b""), ("text.exr", b"hello"), ("cut.hdr", b"#?RADIANCE\n")):
+            self.refuses(self.write(name, content), "--environment", name)
+
+
+class CollectedFiles(CliTest):
+    """Whatever the collected files hold: a picture without NaN, or one line."""
+
+    def check(self, file):
+        for old in self.files():
+            os.remove(self.path(old))
+        result = self.render(file, output="out.exr", size="32x32")
+        if result.returncode == 0:
+            self.assert_rendered(result, "out.exr")
+            self.assertTrue(all(map(math.isfinite, read_exr(self.read("out.exr")).pixels)))
+            for line in result.stderr.splitlines():
+                self.assertTrue(line.startswith("pellucid: warning: "), line)
+        else:
+            self.assert_refused(result, os.path.basename(file))
+            self.assertEqual(self.files(), [])
+
+    def test_all(self):
+        data = os.environ.get("PELLUCID_TEST_DATA", "")
+        if not os.path.isdir(os.path.join(data, "bad")):
+            self.skipTest("PELLUCID_TEST_DATA names no folder with bad/")
+        for folder, _, names in sorted(os.walk(os.path.join(data, "bad"))):
+            for name in sorted(names):
+                with self.subTest(name):
+                    self.check(os.path.join(folder, name))
+
+
+if __name__ == "__main__":
+    cli.main()

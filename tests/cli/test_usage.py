@@ -1,0 +1,139 @@
+"""Arguments: what is not understood is refused, and what is known is said."""
+import json
+
+import cli
+from cli import CliTest
+
+
+class Commands(CliTest):
+    def test_version(self):
+        result = self.run_cli("--version")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stdout, r"\A\d+\.\d+\.\d+\n\Z")
+
+    def test_help(self):
+        for arguments in (["--help"], ["render", "--help"], ["info", "--help"]):
+            result = self.run_cli(*arguments)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("Exit codes", result.stdout + self.run_cli("--help").stdout)
+
+    def test_no_or_unknown_command(self):
+        self.assert_refused(self.run_cli(), "subcommand")
+        self.assert_refused(self.run_cli("paint"), "paint", "known: ", "render", "info")
+        self.assert_refused(self.run_cli("--paint"), "--help")
+
+    def test_missing_arguments(self):
+        self.assert_refused(self.run_cli("render"), "scene")
+        self.assert_refused(self.run_cli("render", "shape:sphere"), "--output")
+        self.assert_refused(self.run_cli("render", "shape:sphere", "-o"), "--output")
+
+    def test_too_many_arguments(self):
+        self.refuses("--colour", "--colour", "red")
+        self.refuses("shape:torus", "shape:torus")
+        self.refuses("--samples", "--samples", "2", "--samples", "3")
+
+    def test_exit_code_does_not_need_stderr(self):
+        with open("/dev/full", "w", encoding="ascii") as full:
+            self.assertEqual(self.run_cli("render", "nowhere.obj", "-o", "out.png", stdout=full, stderr=full).returncode, 2)
+
+
+class Registry(CliTest):
+    """Help shows what the registry of techniques has."""
+
+    def test_techniques_and_parameters(self):
+        text = self.run_cli("render", "--help").stdout
+        techniques = self.known_names("--technique", "?")
+        self.assertGreaterEqual(len(techniques), 2)
+        for technique in techniques:
+            self.assertIn(f"{technique} (", text)
+            self.assert_rendered(self.render("shape:sphere", "--technique", technique, "--json", "out.json"))
+            for name, value in json.loads(self.read("out.json"))["parameters"].items():
+                self.assertRegex(text, rf"(?s)Parameters of [^\n]*{technique}.*--{name} [^\n]*default {value:g}")
+
+    def test_aovs_and_shapes(self):
+        text = self.run_cli("render", "--help").stdout
+        for aov in self.known_names("--aov", "?=out.exr"):
+            self.assertIn(f"{aov}: ", text)
+        self.assertIn("sphere", text)
+
+    def test_parameters_are_used(self):
+        self.assert_rendered(self.render("shape:sphere", "--technique", "wang-2014", "--steps", "7", "--json", "out.json"))
+        self.assertEqual(json.loads(self.read("out.json"))["parameters"]["steps"], 7)
+
+
+class Names(CliTest):
+    """An unknown name is refused with the known ones."""
+
+    def test_unknown(self):
+        self.refuses(["glas", "known: ", "one-interface", "wang-2014"], "--technique", "glas")
+        self.refuses(["front", "known: ", "orbit:AZ,EL,DIST"], "--camera", "front")
+        self.refuses(["xray", "known: ", "radiance", "analysis"], "--view", "xray")
+        self.refuses(["filmic", "known: ", "none", "reinhard", "aces", "neutral"], "--tonemap", "filmic")
+        self.refuses(["guess", "known: ", "single-pass", "depth-peeling"], "--layer-builder", "guess")
+        self.refuses(["cave", "studio", "checker", "sky", ".hdr", ".exr"], "--environment", "cave")
+        self.refuses(["Voodoo", "found: "], "--device", "Voodoo")
+        self.refuses("edge", scene="shape:cube,edge=1")
+        self.refuses(["teapot", "sphere", "goblet"], scene="shape:teapot")
+        aovs = ["exit-direction", "exit-position", "path-length", "events", "status", "layers", "depth", "normal", "object"]
+        self.refuses(["albedo", "known: ", *aovs], "--aov", "albedo=a.exr")
+
+    def test_parameter_of_another_technique(self):
+        self.refuses(["one-interface", "steps"], "--technique", "one-interface", "--steps", "3")
+
+    def test_empty_names(self):
+        for flag in ("--technique", "--camera", "--view", "--tonemap", "--environment", "--attenuation-color"):
+            self.refuses("''", flag, "")
+        self.refuses("", "--json", "")
+        self.refuses("''", output="")
+        self.refuses("", scene="")
+
+
+class Sizes(CliTest):
+    def test_refused(self):
+        for size in ("0x0", "512", "512x", "x512", "-1x5", "5x-1", "1x1x1", "axb", "4.5x4", "512X512", " 5x5", "",
+                     "99999999999x5", "0x5", "5x0"):
+            self.refuses(["--size", f"'{size}'"], size=size)
+        self.refuses("100000x100000", size="100000x100000")
+
+    def test_rendered(self):
+        for size in ("1x1", "17x13", "4001x3", "3x401"):
+            with self.subTest(size):
+                self.assert_rendered(self.render("shape:goblet", "--json", "out.json", size=size))
+                described = json.loads(self.read("out.json"))
+                self.assertEqual(f"{described['width']}x{described['height']}", size)
+
+
+class Numbers(CliTest):
+    def test_not_a_number(self):
+        for flag in ("--samples", "--exposure", "--ior", "--fov", "--attenuation-distance", "--crease-angle", "--steps"):
+            for value in ("abc", "", "1x", "1e999", "nan", "inf"):
+                self.refuses(flag, flag, value)
+
+    def test_out_of_range(self):
+        for value in ("0", "-1", "4294967296", "1.5"):
+            self.refuses("samples", "--samples", value)
+        for value in ("0", "-1.5", "0.99"):
+            self.refuses("ior", "--ior", value)
+        for value in ("0", "-40", "180"):
+            self.refuses("--fov", "--fov", value)
+        for value in ("-1", "181"):
+            self.refuses("--crease-angle", "--crease-angle", value)
+        for value in ("0", "-1"):
+            self.refuses("attenuation", "--attenuation-distance", value)
+        for value in ("0", "-3", "2.5", "1e9"):
+            self.refuses(["wang-2014", "steps"], "--steps", value)
+
+    def test_lists(self):
+        for value in ("1,2", "1,1,1,1", "1;1;1", "1,,1", "2,0,0", "-1,0,0", "nan,1,1", "1,1,"):
+            self.refuses("attenuation", "--attenuation-color", value)
+        for value in ("orbit:", "orbit:1,2", "orbit:1,2,3,4", "orbit:a,b,c", "orbit:0,91,3", "orbit:0,0,1", "orbit:0,0,-3",
+                      "orbit:nan,0,3"):
+            self.refuses("--camera", "--camera", value)
+
+    def test_negative_ones_are_values(self):
+        self.assert_rendered(self.render("shape:sphere", "--exposure", "-1.5", "--camera", "orbit:-30,-20,3.5",
+                                         "--attenuation-color", "0.5,1,1"))
+
+
+if __name__ == "__main__":
+    cli.main()
