@@ -18,9 +18,9 @@ struct DeviceOptions {
 /// A Vulkan device as the loader reports it.
 struct DeviceInfo {
     std::string name;
-    std::string driver;       ///< driver name and version
-    std::string type;         ///< discrete, integrated, virtual, software, other
-    std::string api_version;  ///< Vulkan version of the device, "1.3.224"
+    std::string driver;                ///< driver name and version
+    std::string type;                  ///< discrete, integrated, virtual, software, other
+    std::string api_version;           ///< Vulkan version of the device, "1.3.224"
     std::vector<std::string> missing;  ///< what Pellucid needs and the device lacks; empty: usable
     std::vector<std::string> absent;   ///< optional features it lacks, with what happens instead
 };

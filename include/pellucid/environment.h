@@ -20,7 +20,7 @@ struct Environment {
     enum class Kind : std::uint32_t { kMap, kStudio, kChecker, kSky, kUniform };
 
     Kind kind = Kind::kStudio;
-    Image map;                        ///< kMap: 3 channels, linear radiance, finite and >= 0
+    Image map;                         ///< kMap: 3 channels, linear radiance, finite and >= 0
     glm::vec3 uniform_radiance{1.0f};  ///< kUniform: the same from everywhere
 };
 

@@ -42,7 +42,6 @@ Image decode_image(const void* bytes, std::size_t size, const std::string& name)
 void write_image(const std::filesystem::path& file, const Image& image);
 
 /// As above with a name for every channel (EXR keeps them; the default is Y, or R, G, B, A).
-void write_image(const std::filesystem::path& file, const Image& image,
-                 const std::vector<std::string>& channel_names);
+void write_image(const std::filesystem::path& file, const Image& image, const std::vector<std::string>& channel_names);
 
 }  // namespace pellucid

@@ -41,16 +41,16 @@ enum class ToneMap {
 };
 
 struct RenderSettings {
-    std::uint32_t width = 512;   ///< pixels, >= 1
+    std::uint32_t width = 512;  ///< pixels, >= 1
     std::uint32_t height = 512;
     std::string technique = "wang-2014";
-    ParameterMap parameters;     ///< of the technique
+    ParameterMap parameters;  ///< of the technique
     LayerBuilder layer_builder = LayerBuilder::kSinglePass;
     View view = View::kRadiance;
     /// Jittered frames, averaged in linear light. 1 samples pixel centres. AOVs always do.
     std::uint32_t samples = 1;
     ToneMap tonemap = ToneMap::kNeutral;
-    float exposure_ev = 0.0f;    ///< stops; radiance is multiplied by 2^exposure_ev
+    float exposure_ev = 0.0f;       ///< stops; radiance is multiplied by 2^exposure_ev
     std::vector<std::string> aovs;  ///< names of aov_infos() wanted in RenderResult::aovs
 };
 
@@ -75,7 +75,7 @@ struct RenderResult {
     /// One entry per sample; empty where the device has no timestamps. On the software driver the
     /// first frame of a size includes compiling the shaders.
     std::vector<std::vector<PassTime>> frames;
-    std::uint64_t covered = 0;  ///< pixels whose first surface is refracting glass
+    std::uint64_t covered = 0;                         ///< pixels whose first surface is refracting glass
     std::array<std::uint64_t, kStatusCount> status{};  ///< covered pixels by Status
     std::uint64_t side_conflicts = 0;  ///< covered pixels where shading and geometric normal disagreed about the side
     std::vector<std::string> warnings;

@@ -19,11 +19,11 @@ enum class Wrap : std::uint32_t { kRepeat, kMirror, kClamp };
 
 /// A reference from a material to one of Scene::images.
 struct Texture {
-    int image = -1;                  ///< index into Scene::images, -1 for none
-    int texcoord_set = 0;            ///< 0 or 1: which of Mesh::texcoords
+    int image = -1;        ///< index into Scene::images, -1 for none
+    int texcoord_set = 0;  ///< 0 or 1: which of Mesh::texcoords
     Wrap wrap_u = Wrap::kRepeat;
     Wrap wrap_v = Wrap::kRepeat;
-    bool nearest = false;            ///< true: no interpolation between texels
+    bool nearest = false;              ///< true: no interpolation between texels
     glm::mat3 uv_from_texcoord{1.0f};  ///< KHR_texture_transform; applied to (u, v, 1)
 };
 
@@ -31,21 +31,21 @@ struct Texture {
 struct Material {
     std::string name;
 
-    glm::vec4 base_color{1.0f};      ///< linear RGB 0..1, alpha 0..1; tints what is transmitted
-    Texture base_color_texture;      ///< multiplies base_color; its image is sRGB-encoded
-    float metallic = 0.0f;           ///< 0..1
-    float roughness = 0.0f;          ///< perceptual, 0..1
-    glm::vec3 emission{0.0f};        ///< linear radiance, emissive strength included
-    Texture emission_texture;        ///< multiplies emission; its image is sRGB-encoded
-    float alpha_cutoff = 0.0f;       ///< fragments with less alpha are left out; 0 keeps all
-    bool unlit = false;              ///< shows base_color itself
+    glm::vec4 base_color{1.0f};  ///< linear RGB 0..1, alpha 0..1; tints what is transmitted
+    Texture base_color_texture;  ///< multiplies base_color; its image is sRGB-encoded
+    float metallic = 0.0f;       ///< 0..1
+    float roughness = 0.0f;      ///< perceptual, 0..1
+    glm::vec3 emission{0.0f};    ///< linear radiance, emissive strength included
+    Texture emission_texture;    ///< multiplies emission; its image is sRGB-encoded
+    float alpha_cutoff = 0.0f;   ///< fragments with less alpha are left out; 0 keeps all
+    bool unlit = false;          ///< shows base_color itself
     bool double_sided = false;
 
-    float transmission = 0.0f;       ///< 0..1; share of the light that enters instead of scattering at the surface
-    Texture transmission_texture;    ///< red channel multiplies transmission (linear)
-    float ior = 1.5f;                ///< index of refraction at the Fraunhofer d line, >= 1
-    float dispersion = 0.0f;         ///< KHR_materials_dispersion: 20 / Abbe number; 0 for none
-    float thickness = 0.0f;          ///< KHR_materials_volume thicknessFactor; 0: thin-walled, does not bend light
+    float transmission = 0.0f;          ///< 0..1; share of the light that enters instead of scattering at the surface
+    Texture transmission_texture;       ///< red channel multiplies transmission (linear)
+    float ior = 1.5f;                   ///< index of refraction at the Fraunhofer d line, >= 1
+    float dispersion = 0.0f;            ///< KHR_materials_dispersion: 20 / Abbe number; 0 for none
+    float thickness = 0.0f;             ///< KHR_materials_volume thicknessFactor; 0: thin-walled, does not bend light
     glm::vec3 attenuation_color{1.0f};  ///< 0..1, what is left of white light after attenuation_distance
     float attenuation_distance = std::numeric_limits<float>::infinity();  ///< metres, > 0
 
@@ -60,10 +60,10 @@ struct Material {
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;        ///< unit, one per position
-    std::vector<glm::vec2> texcoords[2];   ///< empty, or one per position; v runs downwards (glTF)
-    std::vector<glm::vec4> colors;         ///< empty, or one linear RGBA per position
-    std::vector<glm::uvec3> triangles;     ///< counter-clockwise seen from outside
+    std::vector<glm::vec3> normals;       ///< unit, one per position
+    std::vector<glm::vec2> texcoords[2];  ///< empty, or one per position; v runs downwards (glTF)
+    std::vector<glm::vec4> colors;        ///< empty, or one linear RGBA per position
+    std::vector<glm::uvec3> triangles;    ///< counter-clockwise seen from outside
 };
 
 /// One placement of a mesh.
@@ -71,23 +71,23 @@ struct Object {
     std::string name;
     int mesh = 0;
     int material = 0;
-    glm::mat4 world_from_object{1.0f};     ///< affine, invertible; may mirror
+    glm::mat4 world_from_object{1.0f};  ///< affine, invertible; may mirror
 };
 
 /// A camera: right-handed, looking along its own -Z with +Y up.
 struct Camera {
     std::string name;
-    glm::mat4 world_from_view{1.0f};       ///< rigid
-    float vertical_fov = 0.5235988f;       ///< radians, 0 < fov < pi (30 degrees)
-    float near_plane = 0.0f;               ///< metres, > 0; 0: chosen from the scene
-    float far_plane = 0.0f;                ///< metres, > near_plane; 0: chosen from the scene
+    glm::mat4 world_from_view{1.0f};  ///< rigid
+    float vertical_fov = 0.5235988f;  ///< radians, 0 < fov < pi (30 degrees)
+    float near_plane = 0.0f;          ///< metres, > 0; 0: chosen from the scene
+    float far_plane = 0.0f;           ///< metres, > near_plane; 0: chosen from the scene
     bool orthographic = false;
-    float vertical_extent = 0.0f;          ///< orthographic: height of the view volume in metres
+    float vertical_extent = 0.0f;  ///< orthographic: height of the view volume in metres
 };
 
 /// A checked scene: every index is in range, every number finite, every normal of unit length.
 struct Scene {
-    std::string source;                    ///< what load_scene was given
+    std::string source;  ///< what load_scene was given
     std::vector<Image> images;
     std::vector<std::string> image_names;  ///< one per image, for messages
     std::vector<Material> materials;
@@ -108,9 +108,9 @@ Bounds scene_bounds(const Scene& scene);
 
 /// How files without materials of their own become glass, and how meshes are repaired.
 struct LoadOptions {
-    std::optional<float> ior;                      ///< >= 1; overrides every refractive material
-    std::optional<glm::vec3> attenuation_color;    ///< 0..1; likewise
-    std::optional<float> attenuation_distance;     ///< metres, > 0; likewise
+    std::optional<float> ior;                    ///< >= 1; overrides every refractive material
+    std::optional<glm::vec3> attenuation_color;  ///< 0..1; likewise
+    std::optional<float> attenuation_distance;   ///< metres, > 0; likewise
     /// Made normals are shared across edges bent less than this (radians, 0..pi).
     float crease_angle = 3.14159265f;
     /// Replace normals that a mesh file brings along by made ones.
@@ -144,8 +144,7 @@ const std::vector<ShapeInfo>& shape_infos();
 /// Camera on a sphere around `bounds`, looking at its centre.
 /// azimuth_deg 0 looks along -Z from +Z, growing towards +X; elevation_deg -90..90;
 /// distance in bounding-sphere radii, > 1.
-Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg, float distance,
-                    float vertical_fov);
+Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg, float distance, float vertical_fov);
 
 /// Distance, in radii, at which a sphere fills `share` of the image height (0 < share < 1).
 float framing_distance(float vertical_fov, float share);

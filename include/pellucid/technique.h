@@ -10,13 +10,13 @@ namespace pellucid {
 
 /// One number that a technique can be given.
 struct ParameterInfo {
-    std::string_view name;   ///< as on the command line, "steps"
-    std::string_view unit;   ///< "m", "px", or "" for a plain number
+    std::string_view name;  ///< as on the command line, "steps"
+    std::string_view unit;  ///< "m", "px", or "" for a plain number
     double default_value;
     double minimum;
     double maximum;
-    bool whole;              ///< whole numbers only
-    std::string_view doc;    ///< one line
+    bool whole;            ///< whole numbers only
+    std::string_view doc;  ///< one line
 };
 
 /// The publication that a technique follows; empty authors: none.

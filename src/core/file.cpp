@@ -48,8 +48,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& file) {
     // A pipe would block and a device may never end.
     if (!std::filesystem::is_regular_file(status)) fail(file, "is not a regular file");
 
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"),
-                                                                 &std::fclose);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
     if (!stream) fail(file, std::strerror(errno));
     const auto size = std::filesystem::file_size(file, error);
     if (error) fail(file, error.message());
@@ -69,17 +68,15 @@ void check_writable(const std::filesystem::path& file) {
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         fail(file, "cannot write: is not a regular file");
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (!std::filesystem::exists(folder, error))
-        fail(file, "cannot write: there is no folder " + folder.string());
+    if (!std::filesystem::exists(folder, error)) fail(file, "cannot write: there is no folder " + folder.string());
     if (!std::filesystem::is_directory(folder, error))
         fail(file, "cannot write: " + folder.string() + " is not a folder");
     if (access(folder.c_str(), W_OK | X_OK) != 0)
         fail(file, "cannot write into folder " + folder.string() + ": " + std::strerror(errno));
 }
 
-void write_file_atomically(
-    const std::filesystem::path& file,
-    const std::function<void(const std::filesystem::path& temporary)>& write) {
+void write_file_atomically(const std::filesystem::path& file,
+                           const std::function<void(const std::filesystem::path& temporary)>& write) {
     check_writable(file);
     std::error_code no_link;
     const std::filesystem::path target = std::filesystem::is_symlink(file, no_link) ? link_target(file) : file;

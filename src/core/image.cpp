@@ -37,8 +37,7 @@ Image read_pixels(OIIO::ImageInput& input, const std::string& name) {
     if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1 || spec.deep)
         fail(name, "is not a flat two-dimensional image");
     if (std::int64_t(spec.width) * spec.height > kMaxPixels)
-        fail(name, fmt::format("image of {} x {} pixels is larger than 2^28 pixels", spec.width,
-                               spec.height));
+        fail(name, fmt::format("image of {} x {} pixels is larger than 2^28 pixels", spec.width, spec.height));
     Image image(spec.width, spec.height, spec.nchannels);
     if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()))
         fail(name, "damaged image: " + cause_or(input.geterror(), "pixels cannot be read"));
@@ -78,12 +77,11 @@ std::vector<std::uint8_t> display_bytes(const Image& image) {
     return bytes;
 }
 
-void write_pixels(const std::filesystem::path& file, const std::filesystem::path& temporary,
-                  const Image& image, const OIIO::ImageSpec& spec, const void* pixels) {
+void write_pixels(const std::filesystem::path& file, const std::filesystem::path& temporary, const Image& image,
+                  const OIIO::ImageSpec& spec, const void* pixels) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.string());
     if (!output) fail(file, "cannot write: " + cause_or(OIIO::geterror(), "no writer"));
-    if (!output->open(temporary.string(), spec) || !output->write_image(spec.format, pixels) ||
-        !output->close())
+    if (!output->open(temporary.string(), spec) || !output->write_image(spec.format, pixels) || !output->close())
         fail(file, fmt::format("cannot write {} x {} pixels: {}", image.width, image.height,
                                cause_or(output->geterror(), "unknown cause")));
 }
@@ -117,8 +115,7 @@ void write_image(const std::filesystem::path& file, const Image& image) {
     write_image(file, image, default_channel_names(image.channels));
 }
 
-void write_image(const std::filesystem::path& file, const Image& image,
-                 const std::vector<std::string>& channel_names) {
+void write_image(const std::filesystem::path& file, const Image& image, const std::vector<std::string>& channel_names) {
     const std::string extension = lower_extension(file);
     const bool png = extension == ".png";
     if (!png && extension != ".exr")
@@ -126,10 +123,8 @@ void write_image(const std::filesystem::path& file, const Image& image,
     if (image.width <= 0 || image.height <= 0 || image.channels <= 0)
         fail(file, "cannot write an image without pixels");
     if (channel_names.size() != std::size_t(image.channels))
-        fail(file, fmt::format("{} channel names for an image of {} channels", channel_names.size(),
-                               image.channels));
-    if (png && image.channels > 4)
-        fail(file, fmt::format("a PNG file has at most 4 channels, not {}", image.channels));
+        fail(file, fmt::format("{} channel names for an image of {} channels", channel_names.size(), image.channels));
+    if (png && image.channels > 4) fail(file, fmt::format("a PNG file has at most 4 channels, not {}", image.channels));
 
     OIIO::ImageSpec spec(image.width, image.height, image.channels,
                          png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
@@ -142,9 +137,8 @@ void write_image(const std::filesystem::path& file, const Image& image,
     }
     const std::vector<std::uint8_t> bytes = png ? display_bytes(image) : std::vector<std::uint8_t>();
     const void* pixels = png ? static_cast<const void*>(bytes.data()) : image.pixels.data();
-    write_file_atomically(file, [&](const std::filesystem::path& temporary) {
-        write_pixels(file, temporary, image, spec, pixels);
-    });
+    write_file_atomically(
+        file, [&](const std::filesystem::path& temporary) { write_pixels(file, temporary, image, spec, pixels); });
 }
 
 }  // namespace pellucid

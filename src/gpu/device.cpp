@@ -15,8 +15,7 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                               VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
     return VK_FALSE;
@@ -29,11 +28,16 @@ std::string version_text(std::uint32_t version) {
 
 std::string type_name(vk::PhysicalDeviceType type) {
     switch (type) {
-        case vk::PhysicalDeviceType::eDiscreteGpu: return "discrete";
-        case vk::PhysicalDeviceType::eIntegratedGpu: return "integrated";
-        case vk::PhysicalDeviceType::eVirtualGpu: return "virtual";
-        case vk::PhysicalDeviceType::eCpu: return "software";
-        default: return "other";
+        case vk::PhysicalDeviceType::eDiscreteGpu:
+            return "discrete";
+        case vk::PhysicalDeviceType::eIntegratedGpu:
+            return "integrated";
+        case vk::PhysicalDeviceType::eVirtualGpu:
+            return "virtual";
+        case vk::PhysicalDeviceType::eCpu:
+            return "software";
+        default:
+            return "other";
     }
 }
 
@@ -66,8 +70,10 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     info.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
 
     const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
-    if (!features.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering) info.missing.push_back("dynamicRendering");
-    if (!features.get<vk::PhysicalDeviceVulkan13Features>().synchronization2) info.missing.push_back("synchronization2");
+    if (!features.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering)
+        info.missing.push_back("dynamicRendering");
+    if (!features.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
+        info.missing.push_back("synchronization2");
     if (!universal_queue_family(physical)) info.missing.push_back("a queue with graphics and compute");
     if (!features.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics) {
         info.absent.push_back("fragmentStoresAndAtomics: layers are built by depth peeling");
@@ -89,8 +95,8 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
     }
     const auto available = context.enumerateInstanceExtensionProperties();
     debug_utils = validation || std::any_of(available.begin(), available.end(), [](const vk::ExtensionProperties& e) {
-        return std::string_view(e.extensionName) == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-    });
+                      return std::string_view(e.extensionName) == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+                  });
     if (debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
     const std::array checks = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
@@ -197,7 +203,8 @@ void Device::create_device(const vk::raii::PhysicalDevice& physical) {
     const std::uint32_t timestamp_bits = physical.getQueueFamilyProperties()[queue_family_].timestampValidBits;
     timestamp_period_ns_ = timestamp_bits > 0 ? double(limits_.timestampPeriod) : 0.0;
 
-    vk::PhysicalDeviceVulkan13Features features13{.synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+    vk::PhysicalDeviceVulkan13Features features13{
+        .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
     const vk::PhysicalDeviceFeatures2 features{.pNext = &features13,
                                                .features = {.fragmentStoresAndAtomics = fragment_atomics_}};
     const float priority = 1.0f;

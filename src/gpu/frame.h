@@ -9,7 +9,7 @@ namespace pellucid {
 struct Frame {
     Workspace& workspace;
     const GpuScene& scene;
-    const Buffer& constants;     ///< one gpu::FrameConstants, bound as "Frame"
+    const Buffer& constants;      ///< one gpu::FrameConstants, bound as "Frame"
     const GpuImage& environment;  ///< map, or one texel if the environment is a formula
     vk::Extent2D extent;
 };

@@ -119,7 +119,8 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
     const VertexStreams streams = expand_meshes(scene);
     TextureTable texture_table(scene);
     std::vector<gpu::MaterialRecord> material_records;
-    for (const Material& material : scene.materials) material_records.push_back(material_record(material, texture_table));
+    for (const Material& material : scene.materials)
+        material_records.push_back(material_record(material, texture_table));
 
     std::vector<gpu::ObjectRecord> object_records;
     for (const Object& object : scene.objects) {
@@ -134,7 +135,8 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
         record.first_vertex = streams.first_vertex[std::size_t(object.mesh)];
         record.mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0f ? 1u : 0u;
 
-        const DrawCall call{record.first_vertex, std::uint32_t(3 * mesh.triangles.size()), std::uint32_t(object_records.size())};
+        const DrawCall call{record.first_vertex, std::uint32_t(3 * mesh.triangles.size()),
+                            std::uint32_t(object_records.size())};
         auto& list = material.refractive() ? refractive : material.transmissive() ? thin_walled : opaque;
         list.push_back(call);
         if (material.refractive()) {

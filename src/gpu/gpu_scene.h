@@ -27,9 +27,9 @@ struct GpuScene {
     std::uint32_t object_count = 0;
     std::uint64_t triangle_count = 0;
     std::vector<std::uint32_t> first_triangles;  ///< per object; ascending
-    std::vector<DrawCall> refractive;   ///< solids of glass
-    std::vector<DrawCall> textured_refractive;  ///< those of them whose surface varies in colour or transmission
-    std::vector<DrawCall> thin_walled;  ///< transmissive surfaces that do not bend light
+    std::vector<DrawCall> refractive;            ///< solids of glass
+    std::vector<DrawCall> textured_refractive;   ///< those of them whose surface varies in colour or transmission
+    std::vector<DrawCall> thin_walled;           ///< transmissive surfaces that do not bend light
     std::vector<DrawCall> opaque;
     Bounds bounds;
     std::vector<glm::vec3> refractive_corners;  ///< corners of the refractive objects' boxes, world

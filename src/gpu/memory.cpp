@@ -23,15 +23,16 @@ vk::raii::DeviceMemory allocate(const Device& device, const std::string& name, c
                                 vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred) {
     if (needs.size > device.max_allocation()) {
         throw Error(fmt::format("{} needs {:.2f} GiB, more than the {:.2f} GiB that {} allocates at once", name,
-                                double(needs.size) / double(1u << 30), double(device.max_allocation()) / double(1u << 30),
-                                device.info().name));
+                                double(needs.size) / double(1u << 30),
+                                double(device.max_allocation()) / double(1u << 30), device.info().name));
     }
     try {
         return device.handle().allocateMemory(
             {.allocationSize = needs.size,
              .memoryTypeIndex = device.memory_type(needs.memoryTypeBits, required, preferred)});
     } catch (const vk::OutOfDeviceMemoryError&) {
-        throw Error(fmt::format("{}: out of device memory for {:.2f} GiB", name, double(needs.size) / double(1u << 30)));
+        throw Error(
+            fmt::format("{}: out of device memory for {:.2f} GiB", name, double(needs.size) / double(1u << 30)));
     }
 }
 
@@ -47,7 +48,8 @@ void submit_once(const Device& device, const std::function<void(const vk::raii::
     const vk::raii::Fence fence = handle.createFence({});
     const vk::CommandBuffer command = *commands[0];
     device.queue().submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &command}, *fence);
-    while (handle.waitForFences(*fence, true, ~0ull) == vk::Result::eTimeout) {}
+    while (handle.waitForFences(*fence, true, ~0ull) == vk::Result::eTimeout) {
+    }
 }
 
 Buffer staging_buffer(const Device& device, vk::DeviceSize size) {
@@ -59,7 +61,8 @@ vk::ImageAspectFlags aspect_of(vk::Format format) {
     return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
 }
 
-void change_layout(const vk::raii::CommandBuffer& commands, const GpuImage& image, vk::ImageLayout from, vk::ImageLayout to) {
+void change_layout(const vk::raii::CommandBuffer& commands, const GpuImage& image, vk::ImageLayout from,
+                   vk::ImageLayout to) {
     const auto everything = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
     const vk::ImageMemoryBarrier2 barrier{
         .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
@@ -98,11 +101,15 @@ std::uint32_t texel_size(vk::Format format) {
         case vk::Format::eR8G8B8A8Unorm:
         case vk::Format::eR32Sfloat:
         case vk::Format::eR32Uint:
-        case vk::Format::eD32Sfloat: return 4;
+        case vk::Format::eD32Sfloat:
+            return 4;
         case vk::Format::eR32G32Uint:
-        case vk::Format::eR16G16B16A16Sfloat: return 8;
-        case vk::Format::eR32G32B32A32Sfloat: return 16;
-        default: throw std::logic_error("texel_size: unexpected format " + vk::to_string(format));
+        case vk::Format::eR16G16B16A16Sfloat:
+            return 8;
+        case vk::Format::eR32G32B32A32Sfloat:
+            return 16;
+        default:
+            throw std::logic_error("texel_size: unexpected format " + vk::to_string(format));
     }
 }
 
@@ -123,8 +130,8 @@ Buffer::Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::
     if (host_visible) mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
 }
 
-GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent2D extent,
-                   std::uint32_t layers, vk::ImageUsageFlags usage)
+GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent2D extent, std::uint32_t layers,
+                   vk::ImageUsageFlags usage)
     : name_(std::move(name)), format_(format), extent_(extent), id_(next_resource_id()) {
     const std::uint32_t limit = device.limits().maxImageDimension2D;
     if (extent.width == 0 || extent.height == 0 || extent.width > limit || extent.height > limit) {
@@ -154,13 +161,12 @@ GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk
     image_.bindMemory(*memory_, 0);
 
     const auto view = [&](vk::ImageViewType type, std::uint32_t first, std::uint32_t count) {
-        return device.handle().createImageView({.image = *image_,
-                                                .viewType = type,
-                                                .format = format,
-                                                .subresourceRange = {.aspectMask = aspect_of(format),
-                                                                     .levelCount = 1,
-                                                                     .baseArrayLayer = first,
-                                                                     .layerCount = count}});
+        return device.handle().createImageView(
+            {.image = *image_,
+             .viewType = type,
+             .format = format,
+             .subresourceRange = {
+                 .aspectMask = aspect_of(format), .levelCount = 1, .baseArrayLayer = first, .layerCount = count}});
     };
     array_view_ = view(vk::ImageViewType::e2DArray, 0, layers);
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
@@ -185,7 +191,8 @@ void upload(const Device& device, const Buffer& buffer, std::span<const std::byt
 
 void upload(const Device& device, const GpuImage& image, std::uint32_t layer, std::span<const std::byte> data) {
     const std::size_t row_bytes = std::size_t(image.extent().width) * texel_size(image.format());
-    const Buffer staging = staging_buffer(device, std::max<vk::DeviceSize>(row_bytes, std::min(kStagingSize, data.size())));
+    const Buffer staging =
+        staging_buffer(device, std::max<vk::DeviceSize>(row_bytes, std::min(kStagingSize, data.size())));
     for_each_band(image, [&](std::uint32_t row, std::uint32_t rows) {
         std::memcpy(staging.mapped(), data.data() + row * row_bytes, rows * row_bytes);
         submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
@@ -204,7 +211,8 @@ void upload(const Device& device, const GpuImage& image, std::uint32_t layer, st
 std::vector<std::byte> download(const Device& device, const GpuImage& image, std::uint32_t layer) {
     const std::size_t row_bytes = std::size_t(image.extent().width) * texel_size(image.format());
     std::vector<std::byte> data(row_bytes * image.extent().height);
-    const Buffer staging = staging_buffer(device, std::max<vk::DeviceSize>(row_bytes, std::min(kStagingSize, data.size())));
+    const Buffer staging =
+        staging_buffer(device, std::max<vk::DeviceSize>(row_bytes, std::min(kStagingSize, data.size())));
     for_each_band(image, [&](std::uint32_t row, std::uint32_t rows) {
         submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
             const vk::BufferImageCopy2 region = copy_region(image, layer, row, rows);

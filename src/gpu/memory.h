@@ -41,8 +41,8 @@ private:
 class GpuImage {
 public:
     GpuImage() = default;
-    GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent2D extent,
-             std::uint32_t layers, vk::ImageUsageFlags usage);
+    GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent2D extent, std::uint32_t layers,
+             vk::ImageUsageFlags usage);
 
     vk::Image handle() const { return *image_; }
     vk::ImageView array_view() const { return *array_view_; }  ///< all layers, as a 2D array

@@ -23,11 +23,13 @@ vk::PipelineShaderStageCreateInfo stage_info(vk::ShaderStageFlagBits stage, cons
 void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
     const spirv_cross::Compiler compiler(shader.words.data(), shader.words.size());
     const spirv_cross::ShaderResources resources = compiler.get_shader_resources();
-    const auto add = [&](const spirv_cross::Resource& resource, vk::DescriptorType type, const spirv_cross::Bitset& flags) {
+    const auto add = [&](const spirv_cross::Resource& resource, vk::DescriptorType type,
+                         const spirv_cross::Bitset& flags) {
         const std::string instance = compiler.get_name(resource.id);
         const std::string name = instance.empty() ? resource.name : instance;
         const std::uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
-        const auto same = std::find_if(slots_.begin(), slots_.end(), [&](const BindingSlot& s) { return s.binding == binding; });
+        const auto same =
+            std::find_if(slots_.begin(), slots_.end(), [&](const BindingSlot& s) { return s.binding == binding; });
         const bool writable = type != vk::DescriptorType::eSampledImage && !flags.get(spv::DecorationNonWritable);
         const bool readable = !flags.get(spv::DecorationNonReadable);
         if (same == slots_.end()) {
@@ -59,7 +61,7 @@ void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
     }
     if (stage == vk::ShaderStageFlagBits::eCompute) {
         workgroup_ = vk::Extent2D{compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, 0),
-                      compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, 1)};
+                                  compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, 1)};
     }
     stages_ |= stage;
 }
@@ -67,10 +69,8 @@ void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
 void Program::make_layouts(const Device& device) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (const BindingSlot& slot : slots_) {
-        bindings.push_back({.binding = slot.binding,
-                            .descriptorType = slot.type,
-                            .descriptorCount = 1,
-                            .stageFlags = slot.stages});
+        bindings.push_back(
+            {.binding = slot.binding, .descriptorType = slot.type, .descriptorCount = 1, .stageFlags = slot.stages});
     }
     set_layout_ = device.handle().createDescriptorSetLayout(
         {.bindingCount = std::uint32_t(bindings.size()), .pBindings = bindings.data()});
@@ -126,9 +126,8 @@ Program Program::graphics(const Device& device, const Graphics& state) {
                                                           .frontFace = vk::FrontFace::eCounterClockwise,
                                                           .lineWidth = 1.0f};
     const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples = vk::SampleCountFlagBits::e1};
-    const vk::PipelineDepthStencilStateCreateInfo depth{.depthTestEnable = state.depth,
-                                                        .depthWriteEnable = state.depth,
-                                                        .depthCompareOp = vk::CompareOp::eLess};
+    const vk::PipelineDepthStencilStateCreateInfo depth{
+        .depthTestEnable = state.depth, .depthWriteEnable = state.depth, .depthCompareOp = vk::CompareOp::eLess};
     using Component = vk::ColorComponentFlagBits;
     const vk::PipelineColorBlendAttachmentState blend{
         .blendEnable = state.blend != Blend::kReplace,

@@ -43,10 +43,10 @@ public:
     struct Graphics {
         ShaderCode vertex;
         ShaderCode fragment;
-        std::vector<std::uint32_t> stream_strides;   ///< bytes per vertex of each vertex buffer
-        std::vector<VertexAttribute> attributes;     ///< location = index
-        std::vector<vk::Format> colors;              ///< attachments; empty draws without any
-        bool depth = false;                          ///< D32 attachment, nearest fragment wins
+        std::vector<std::uint32_t> stream_strides;  ///< bytes per vertex of each vertex buffer
+        std::vector<VertexAttribute> attributes;    ///< location = index
+        std::vector<vk::Format> colors;             ///< attachments; empty draws without any
+        bool depth = false;                         ///< D32 attachment, nearest fragment wins
         Blend blend = Blend::kReplace;
     };
     static Program graphics(const Device& device, const Graphics& state);

@@ -47,9 +47,11 @@ void check_access(const Program& program, const BindingSlot& slot, const Binding
 }
 
 const Binding& binding_of(const Program& program, const BindingSlot& slot, std::span<const Binding> bindings) {
-    const auto match = std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == slot.name; });
+    const auto match =
+        std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == slot.name; });
     if (match == bindings.end()) {
-        throw std::logic_error(fmt::format("{}: the shader declares '{}', the pass binds no such name", program.name(), slot.name));
+        throw std::logic_error(
+            fmt::format("{}: the shader declares '{}', the pass binds no such name", program.name(), slot.name));
     }
     const bool wants_buffer = slot.type == vk::DescriptorType::eStorageBuffer;
     if (wants_buffer != (match->buffer != nullptr)) {
@@ -120,18 +122,15 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
     const vk::DescriptorSetLayout layout = program.set_layout();
     for (bool fresh = false;; ++descriptor_pool_) {
         if (descriptor_pool_ == descriptor_pools_.size()) {
-            const std::array sizes = {
-                vk::DescriptorPoolSize{vk::DescriptorType::eStorageBuffer, kDescriptorsPerPool},
-                vk::DescriptorPoolSize{vk::DescriptorType::eStorageImage, kDescriptorsPerPool},
-                vk::DescriptorPoolSize{vk::DescriptorType::eSampledImage, kDescriptorsPerPool}};
-            descriptor_pools_.push_back(handle.createDescriptorPool({.maxSets = kSetsPerPool,
-                                                                     .poolSizeCount = std::uint32_t(sizes.size()),
-                                                                     .pPoolSizes = sizes.data()}));
+            const std::array sizes = {vk::DescriptorPoolSize{vk::DescriptorType::eStorageBuffer, kDescriptorsPerPool},
+                                      vk::DescriptorPoolSize{vk::DescriptorType::eStorageImage, kDescriptorsPerPool},
+                                      vk::DescriptorPoolSize{vk::DescriptorType::eSampledImage, kDescriptorsPerPool}};
+            descriptor_pools_.push_back(handle.createDescriptorPool(
+                {.maxSets = kSetsPerPool, .poolSizeCount = std::uint32_t(sizes.size()), .pPoolSizes = sizes.data()}));
             fresh = true;
         }
-        const vk::DescriptorSetAllocateInfo info{.descriptorPool = *descriptor_pools_[descriptor_pool_],
-                                                 .descriptorSetCount = 1,
-                                                 .pSetLayouts = &layout};
+        const vk::DescriptorSetAllocateInfo info{
+            .descriptorPool = *descriptor_pools_[descriptor_pool_], .descriptorSetCount = 1, .pSetLayouts = &layout};
         // Sets are freed with their pool, so the plain handle is wanted here, not the RAII one.
         VkDescriptorSet set = VK_NULL_HANDLE;
         const VkDescriptorSetAllocateInfo& plain = info;
@@ -144,9 +143,9 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
 void Recorder::bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
                     std::vector<Use>& uses) {
     if (bindings.size() != program.slots().size() || push.size() != program.push_size()) {
-        throw std::logic_error(fmt::format("{}: the shader has {} bindings and {} bytes of push constants, the pass {} and {}",
-                                           program.name(), program.slots().size(), program.push_size(), bindings.size(),
-                                           push.size()));
+        throw std::logic_error(
+            fmt::format("{}: the shader has {} bindings and {} bytes of push constants, the pass {} and {}",
+                        program.name(), program.slots().size(), program.push_size(), bindings.size(), push.size()));
     }
     std::vector<vk::WriteDescriptorSet> set_writes;
     std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
@@ -156,10 +155,12 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
         const Binding& binding = binding_of(program, slot, bindings);
         const std::size_t i = set_writes.size();
         if (binding.buffer) {
-            buffers[i] = vk::DescriptorBufferInfo{.buffer = binding.buffer->handle(), .offset = 0, .range = VK_WHOLE_SIZE};
+            buffers[i] =
+                vk::DescriptorBufferInfo{.buffer = binding.buffer->handle(), .offset = 0, .range = VK_WHOLE_SIZE};
         } else {
-            images[i] = vk::DescriptorImageInfo{.imageView = binding.layer ? binding.image->layer_view(*binding.layer) : binding.image->array_view(),
-                         .imageLayout = vk::ImageLayout::eGeneral};
+            images[i] = vk::DescriptorImageInfo{
+                .imageView = binding.layer ? binding.image->layer_view(*binding.layer) : binding.image->array_view(),
+                .imageLayout = vk::ImageLayout::eGeneral};
         }
         set_writes.push_back({.dstSet = set,
                               .dstBinding = slot.binding,
@@ -180,13 +181,14 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
     }
 }
 
-void Recorder::compute_bytes(const Program& program, std::span<const Binding> bindings,
-                             std::span<const std::byte> push, vk::Extent2D threads) {
+void Recorder::compute_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+                             vk::Extent2D threads) {
     std::vector<Use> uses;
     bind(program, bindings, push, uses);
     synchronise(uses);
     const vk::Extent2D group = program.workgroup();
-    commands_.dispatch((threads.width + group.width - 1) / group.width, (threads.height + group.height - 1) / group.height, 1);
+    commands_.dispatch((threads.width + group.width - 1) / group.width,
+                       (threads.height + group.height - 1) / group.height, 1);
 }
 
 void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
@@ -256,7 +258,8 @@ void Recorder::write_timestamp(Stage stage) {
     const std::uint32_t pool = timestamps_ / kQueriesPerPool;
     const std::uint32_t query = timestamps_ % kQueriesPerPool;
     if (pool == query_pools_.size()) {
-        query_pools_.push_back(device_.handle().createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = kQueriesPerPool}));
+        query_pools_.push_back(
+            device_.handle().createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = kQueriesPerPool}));
     }
     if (query == 0) commands_.resetQueryPool(*query_pools_[pool], 0, kQueriesPerPool);
     commands_.writeTimestamp2(stage, *query_pools_[pool], query);
@@ -288,7 +291,8 @@ std::vector<PassTime> Recorder::read_times() const {
     std::vector<PassTime> times;
     for (std::size_t i = 0; 2 * i + 1 < ticks.size(); ++i) {
         const double ms = double(ticks[2 * i + 1] - ticks[2 * i]) * device_.timestamp_period_ns() * 1e-6;
-        const auto same = std::find_if(times.begin(), times.end(), [&](const PassTime& t) { return t.name == scopes_[i]; });
+        const auto same =
+            std::find_if(times.begin(), times.end(), [&](const PassTime& t) { return t.name == scopes_[i]; });
         if (same == times.end()) {
             times.push_back({scopes_[i], ms});
         } else {
@@ -307,7 +311,8 @@ std::vector<PassTime> Recorder::submit_and_wait() {
     commands_.end();
     const vk::CommandBuffer command = *commands_;
     device_.queue().submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &command}, *fence_);
-    while (device_.handle().waitForFences(*fence_, true, ~0ull) == vk::Result::eTimeout) {}
+    while (device_.handle().waitForFences(*fence_, true, ~0ull) == vk::Result::eTimeout) {
+    }
     device_.handle().resetFences(*fence_);
     std::vector<PassTime> times = read_times();
     restart();

@@ -82,7 +82,8 @@ public:
 
     /// Runs at least `threads.width` x `threads.height` invocations; the shader drops the surplus.
     template <class Push>
-    void compute(const Program& program, std::initializer_list<Binding> bindings, const Push& push, vk::Extent2D threads) {
+    void compute(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
+                 vk::Extent2D threads) {
         compute_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads);
     }
     void compute(const Program& program, std::initializer_list<Binding> bindings, vk::Extent2D threads) {
@@ -130,7 +131,8 @@ private:
     void compute_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
                        vk::Extent2D threads);
     void draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
-                    const RenderTarget& target, std::span<const Buffer* const> streams, std::span<const DrawCall> calls);
+                    const RenderTarget& target, std::span<const Buffer* const> streams,
+                    std::span<const DrawCall> calls);
     void synchronise(std::span<const Use> uses);
     void bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
               std::vector<Use>& uses);
@@ -145,7 +147,7 @@ private:
     std::vector<vk::raii::DescriptorPool> descriptor_pools_;
     std::size_t descriptor_pool_ = 0;
     std::vector<vk::raii::QueryPool> query_pools_;
-    std::vector<std::string> scopes_;   // one per pair of timestamps
+    std::vector<std::string> scopes_;  // one per pair of timestamps
     std::uint32_t timestamps_ = 0;
     std::map<ResourceId, State> states_;
 };

@@ -4,8 +4,8 @@
 #define PELLUCID_GPU_STRUCTS_H
 
 #ifdef __cplusplus
-#include "core/math.h"
 #include <cstdint>
+#include "core/math.h"
 namespace pellucid::gpu {
 using vec4 = glm::vec4;
 using mat4 = glm::mat4;
@@ -30,11 +30,11 @@ struct FrameConstants {
     vec4 film;
     float near_plane;
     float far_plane;
-    float glass_near;   // depth range that refracting objects span, metres
+    float glass_near;  // depth range that refracting objects span, metres
     float glass_far;
     float depth_scale;  // power of two that brings depths below 1, so that scaling is exact
     uint orthographic;
-    uint width;         // pixels
+    uint width;  // pixels
     uint height;
     uint object_count;
     uint environment_kind;
@@ -55,8 +55,8 @@ struct ObjectRecord {
 
 struct MaterialRecord {
     vec4 base_color;
-    vec4 emission;       // rgb, radiance
-    vec4 sigma_a;        // rgb, 1/m
+    vec4 emission;  // rgb, radiance
+    vec4 sigma_a;   // rgb, 1/m
     float ior;
     float transmission;
     float alpha_cutoff;
@@ -72,11 +72,11 @@ struct TextureRecord {
     vec4 uv_row0;  // u = dot(row0.xyz, (texcoord, 1))
     vec4 uv_row1;
     uint page;
-    uint x;        // of the top left texel on the page
+    uint x;  // of the top left texel on the page
     uint y;
     uint width;
     uint height;
-    uint wrap_u;   // pellucid::Wrap
+    uint wrap_u;  // pellucid::Wrap
     uint wrap_v;
     uint flags;
 };

@@ -66,10 +66,13 @@ void paint(const Image& image, const Placement& place, std::uint32_t size, std::
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
             const float* source = image.at(x, y);
-            std::uint8_t* texel = &page[4 * (std::size_t(place.y + std::uint32_t(y)) * size + place.x + std::uint32_t(x))];
+            std::uint8_t* texel =
+                &page[4 * (std::size_t(place.y + std::uint32_t(y)) * size + place.x + std::uint32_t(x))];
             for (int c = 0; c < 4; ++c) {
                 const bool grey = image.channels < 3;
-                const float value = c == 3 ? (image.channels == 4 ? source[3] : image.channels == 2 ? source[1] : 1.0f)
+                const float value = c == 3 ? (image.channels == 4   ? source[3]
+                                              : image.channels == 2 ? source[1]
+                                                                    : 1.0f)
                                            : source[grey ? 0 : c];
                 texel[c] = std::uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
             }
@@ -102,8 +105,8 @@ GpuImage TextureTable::upload_pages(const Device& device) {
     const std::uint32_t size = page_size(device, scene_, used);
     std::uint32_t page_count = 0;
     const std::map<int, Placement> placements = place_images(scene_, used, size, page_count);
-    GpuImage pages(device, "the scene's texture pages", vk::Format::eR8G8B8A8Unorm, {size, size}, std::max(page_count, 1u),
-                   vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
+    GpuImage pages(device, "the scene's texture pages", vk::Format::eR8G8B8A8Unorm, {size, size},
+                   std::max(page_count, 1u), vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
     for (std::uint32_t page = 0; page < pages.layers(); ++page) {
         std::vector<std::uint8_t> texels(4 * std::size_t(size) * size);
         for (const auto& [index, place] : placements) {

@@ -33,7 +33,9 @@ const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::E
         format == vk::Format::eD32Sfloat
             ? vk::ImageUsageFlags(Usage::eDepthStencilAttachment)
             : Usage::eStorage | Usage::eColorAttachment | Usage::eTransferSrc | Usage::eTransferDst;
-    return images_.emplace(std::string(name), Entry<GpuImage>{GpuImage(device_, std::string(name), format, extent, layers, usage)})
+    return images_
+        .emplace(std::string(name),
+                 Entry<GpuImage>{GpuImage(device_, std::string(name), format, extent, layers, usage)})
         .first->second.resource;
 }
 
@@ -48,9 +50,9 @@ const Buffer& Workspace::buffer(std::string_view name, vk::DeviceSize size, bool
     }
     using Usage = vk::BufferUsageFlagBits;
     return buffers_
-        .emplace(std::string(name), Entry<Buffer>{Buffer(device_, std::string(name), size,
-                                                         Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
-                                                         host_visible)})
+        .emplace(std::string(name),
+                 Entry<Buffer>{Buffer(device_, std::string(name), size,
+                                      Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst, host_visible)})
         .first->second.resource;
 }
 

@@ -34,17 +34,16 @@ Layers peel_layers(Recorder& recorder, const Frame& frame, std::uint32_t count, 
     const std::array<const Buffer*, 1> streams = {&frame.scene.geometry};
     for (std::uint32_t layer = 0; layer < count; ++layer) {
         const std::uint32_t last = layer > 0 ? layer - 1 : 0;
-        const RenderTarget target{
-            .extent = frame.extent,
-            .colors = {{&depth, layer, no_depth}, {&surface, layer, no_triangle}},
-            .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-            .scissor = {}};
-        recorder.draw(program,
-                      {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                       reads("opaque_depth", opaque_depth),
-                       reads_layer("last_depth", layer > 0 ? depth : opaque_depth, last),
-                       reads_layer("last_surface", layer > 0 ? surface : no_surface, last)},
-                      layer, target, streams, frame.scene.refractive);
+        const RenderTarget target{.extent = frame.extent,
+                                  .colors = {{&depth, layer, no_depth}, {&surface, layer, no_triangle}},
+                                  .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
+                                  .scissor = {}};
+        recorder.draw(
+            program,
+            {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+             reads("opaque_depth", opaque_depth), reads_layer("last_depth", layer > 0 ? depth : opaque_depth, last),
+             reads_layer("last_surface", layer > 0 ? surface : no_surface, last)},
+            layer, target, streams, frame.scene.refractive);
     }
     return {depth, surface, count};
 }

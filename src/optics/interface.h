@@ -38,8 +38,7 @@ Real transmitted_cosine_squared(Real cos_theta_i, Real eta) {
 /// Snell's law. Writes the unit refracted direction to `refracted` and returns true, or returns
 /// false and leaves `refracted` alone under total internal reflection.
 template <class Real>
-bool refract_direction(Vec3<Real> direction, Vec3<Real> normal, std::type_identity_t<Real> eta,
-                       Vec3<Real>& refracted) {
+bool refract_direction(Vec3<Real> direction, Vec3<Real> normal, std::type_identity_t<Real> eta, Vec3<Real>& refracted) {
     const Real cos_theta_i = incident_cosine(direction, normal);
     const Real cos_squared_t = transmitted_cosine_squared(cos_theta_i, Real(eta));
     if (cos_squared_t < Real(0)) return false;  // total internal reflection

@@ -13,7 +13,8 @@ namespace pellucid {
 namespace {
 
 constexpr std::array kAovs = {
-    AovInfo{"exit-direction", 3, "unit world direction in which the path leaves the glass; the view ray where there is none"},
+    AovInfo{"exit-direction", 3,
+            "unit world direction in which the path leaves the glass; the view ray where there is none"},
     AovInfo{"exit-position", 3, "world position of the path's last interface, m; the eye where there is no glass"},
     AovInfo{"path-length", 1, "length of the path inside glass, m"},
     AovInfo{"events", 2, "interface events on the path; total internal reflections among them"},
@@ -39,7 +40,9 @@ struct Surface {
 
 /// Twin of unpack_unit_vector() in octahedral.glsl.
 glm::vec3 unpack_unit_vector(std::uint32_t packed) {
-    const auto snorm = [](std::uint32_t bits) { return std::max(float(std::int16_t(std::uint16_t(bits))) / 32767.0f, -1.0f); };
+    const auto snorm = [](std::uint32_t bits) {
+        return std::max(float(std::int16_t(std::uint16_t(bits))) / 32767.0f, -1.0f);
+    };
     const glm::vec2 p(snorm(packed & 0xffffu), snorm(packed >> 16));
     glm::vec3 n(p, 1.0f - std::abs(p.x) - std::abs(p.y));
     if (n.z < 0.0f) {
@@ -68,7 +71,8 @@ Image layer_count_image(const Device& device, const Layers& layers) {
     Image image(int(layers.depth.extent().width), int(layers.depth.extent().height), 1);
     for (std::uint32_t layer = 0; layer < layers.count; ++layer) {
         const auto depth = read<float>(device, layers.depth, layer);
-        for (std::size_t i = 0; i < depth.size(); ++i) image.pixels[i] += depth[i] < float(PELLUCID_EMPTY_DEPTH) ? 1.0f : 0.0f;
+        for (std::size_t i = 0; i < depth.size(); ++i)
+            image.pixels[i] += depth[i] < float(PELLUCID_EMPTY_DEPTH) ? 1.0f : 0.0f;
     }
     return image;
 }
@@ -80,27 +84,32 @@ float object_of_triangle(const std::vector<std::uint32_t>& first_triangles, std:
     return float(after - first_triangles.begin() - 1);
 }
 
-Image surface_aov(const Device& device, std::string_view name, const Layers& layers, const std::vector<std::uint32_t>& first_triangles) {
+Image surface_aov(const Device& device, std::string_view name, const Layers& layers,
+                  const std::vector<std::uint32_t>& first_triangles) {
     const vk::Extent2D extent = layers.depth.extent();
     if (name == "depth") {
         const auto depth = read<float>(device, layers.depth);
-        return scalar_image(extent, [&](std::size_t i) { return depth[i] < float(PELLUCID_EMPTY_DEPTH) ? depth[i] : 0.0f; });
+        return scalar_image(extent,
+                            [&](std::size_t i) { return depth[i] < float(PELLUCID_EMPTY_DEPTH) ? depth[i] : 0.0f; });
     }
     const auto surface = read<Surface>(device, layers.surface);
     if (name == "object") {
-        return scalar_image(extent, [&](std::size_t i) { return object_of_triangle(first_triangles, surface[i].triangle); });
+        return scalar_image(extent,
+                            [&](std::size_t i) { return object_of_triangle(first_triangles, surface[i].triangle); });
     }
     std::vector<glm::vec4> normals(surface.size(), glm::vec4(0.0f));
     for (std::size_t i = 0; i < surface.size(); ++i) {
-        if (surface[i].triangle != PELLUCID_NO_TRIANGLE) normals[i] = glm::vec4(unpack_unit_vector(surface[i].normal), 0.0f);
+        if (surface[i].triangle != PELLUCID_NO_TRIANGLE)
+            normals[i] = glm::vec4(unpack_unit_vector(surface[i].normal), 0.0f);
     }
     return vector_image(extent, normals);
 }
 
-Image make_aov(const Device& device, std::string_view name, const FrameImages& images, const std::vector<PathEvents>& events,
-               const std::vector<std::uint32_t>& first_triangles) {
+Image make_aov(const Device& device, std::string_view name, const FrameImages& images,
+               const std::vector<PathEvents>& events, const std::vector<std::uint32_t>& first_triangles) {
     const vk::Extent2D extent = images.layers.depth.extent();
-    if (name == "exit-direction") return vector_image(extent, read<glm::vec4>(device, images.refraction.exit_direction));
+    if (name == "exit-direction")
+        return vector_image(extent, read<glm::vec4>(device, images.refraction.exit_direction));
     if (name == "exit-position") return vector_image(extent, read<glm::vec4>(device, images.refraction.exit_position));
     if (name == "path-length") {
         const auto directions = read<glm::vec4>(device, images.refraction.exit_direction);

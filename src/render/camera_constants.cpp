@@ -67,7 +67,8 @@ void set_camera(gpu::FrameConstants& constants, const Camera& camera, std::uint3
 
     const float extent = camera.orthographic ? camera.vertical_extent : 2.0f * std::tan(0.5f * camera.vertical_fov);
     const float pixel = extent / float(height);
-    constants.film = glm::vec4((-0.5f * float(width) + jitter.x) * pixel, (0.5f * float(height) - jitter.y) * pixel, pixel, pixel);
+    constants.film =
+        glm::vec4((-0.5f * float(width) + jitter.x) * pixel, (0.5f * float(height) - jitter.y) * pixel, pixel, pixel);
 
     const Range clip = clip_range(camera, bounds);
     constants.near_plane = clip.low;
@@ -82,7 +83,8 @@ void set_camera(gpu::FrameConstants& constants, const Camera& camera, std::uint3
 glm::vec2 sample_jitter(std::uint32_t index) {
     constexpr double kPlastic = 1.32471795724474602596;
     const double n = double(index) + 1.0;
-    return {float(std::fmod(0.5 + n / kPlastic, 1.0) - 0.5), float(std::fmod(0.5 + n / (kPlastic * kPlastic), 1.0) - 0.5)};
+    return {float(std::fmod(0.5 + n / kPlastic, 1.0) - 0.5),
+            float(std::fmod(0.5 + n / (kPlastic * kPlastic), 1.0) - 0.5)};
 }
 
 }  // namespace pellucid

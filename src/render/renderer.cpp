@@ -20,7 +20,8 @@ namespace {
 constexpr std::uint32_t kMaxSamples = 1u << 20;
 
 template <class Enum, std::size_t kCount>
-Enum parse_name(std::string_view what, std::string_view name, const std::array<std::pair<std::string_view, Enum>, kCount>& known) {
+Enum parse_name(std::string_view what, std::string_view name,
+                const std::array<std::pair<std::string_view, Enum>, kCount>& known) {
     std::vector<std::string_view> names;
     for (const auto& [text, value] : known) {
         if (text == name) return value;
@@ -32,7 +33,8 @@ Enum parse_name(std::string_view what, std::string_view name, const std::array<s
 void check_settings(const RenderSettings& settings, const Device& device) {
     const std::uint32_t limit = device.limits().maxImageDimension2D;
     if (settings.width == 0 || settings.height == 0 || settings.width > limit || settings.height > limit) {
-        throw Error(fmt::format("size {}x{}: {} draws 1x1 to {}x{}", settings.width, settings.height, device.info().name, limit, limit));
+        throw Error(fmt::format("size {}x{}: {} draws 1x1 to {}x{}", settings.width, settings.height,
+                                device.info().name, limit, limit));
     }
     if (settings.samples == 0 || settings.samples > kMaxSamples) {
         throw Error(fmt::format("samples must be 1 to {}, not {}", kMaxSamples, settings.samples));
@@ -46,7 +48,8 @@ void check_settings(const RenderSettings& settings, const Device& device) {
 GpuImage upload_environment(const Device& device, const Environment& environment) {
     const bool map = environment.kind == Environment::Kind::kMap;
     const Image& image = environment.map;
-    const vk::Extent2D extent = map ? vk::Extent2D{std::uint32_t(image.width), std::uint32_t(image.height)} : vk::Extent2D{1, 1};
+    const vk::Extent2D extent =
+        map ? vk::Extent2D{std::uint32_t(image.width), std::uint32_t(image.height)} : vk::Extent2D{1, 1};
     GpuImage result(device, "the environment map", vk::Format::eR32G32B32A32Sfloat, extent, 1,
                     vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
     std::vector<glm::vec4> texels(std::size_t(extent.width) * extent.height, glm::vec4(0.0f));
@@ -70,7 +73,8 @@ Image rgb_image(vk::Extent2D extent, const std::vector<std::byte>& data, float s
 Image display_image(vk::Extent2D extent, const std::vector<std::byte>& data) {
     Image image(int(extent.width), int(extent.height), 3);
     for (std::size_t i = 0; i < std::size_t(extent.width) * extent.height; ++i) {
-        for (std::size_t c = 0; c < 3; ++c) image.pixels[3 * i + c] = float(std::to_integer<int>(data[4 * i + c])) / 255.0f;
+        for (std::size_t c = 0; c < 3; ++c)
+            image.pixels[3 * i + c] = float(std::to_integer<int>(data[4 * i + c])) / 255.0f;
     }
     return image;
 }
@@ -111,17 +115,20 @@ Camera Renderer::Impl::camera_for(const RenderSettings& settings) const {
 
 FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, RenderResult& result) const {
     const TechniqueInfo& info = find_technique(settings.technique);
-    FrameSettings chosen{technique_of(info), ParameterValues(info, settings.parameters), settings.layer_builder, settings.view};
+    FrameSettings chosen{technique_of(info), ParameterValues(info, settings.parameters), settings.layer_builder,
+                         settings.view};
     if (chosen.layer_builder == LayerBuilder::kSinglePass && !device.fragment_atomics()) {
         chosen.layer_builder = LayerBuilder::kDepthPeeling;
-        result.warnings.push_back(fmt::format("{} has no fragment-shader atomics: layers are built by depth peeling", device.info().name));
+        result.warnings.push_back(
+            fmt::format("{} has no fragment-shader atomics: layers are built by depth peeling", device.info().name));
     }
     return chosen;
 }
 
 void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jitter) {
     gpu::FrameConstants values = environment_constants;
-    pellucid::set_camera(values, camera_for(settings), settings.width, settings.height, jitter, scene->bounds, scene->refractive_corners);
+    pellucid::set_camera(values, camera_for(settings), settings.width, settings.height, jitter, scene->bounds,
+                         scene->refractive_corners);
     values.object_count = scene->object_count;
     std::memcpy(constants->mapped(), &values, sizeof(values));
 }
@@ -173,7 +180,8 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     check_settings(settings, impl.device);
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result);
-    const Frame frame{impl.workspace, *impl.scene, *impl.constants, *impl.environment, {settings.width, settings.height}};
+    const Frame frame{
+        impl.workspace, *impl.scene, *impl.constants, *impl.environment, {settings.width, settings.height}};
     impl.workspace.trim();
 
     // The frame through pixel centres gives the AOVs and counts; alone, it is the picture too.
@@ -197,7 +205,8 @@ RenderResult Renderer::render(const RenderSettings& settings) {
         }
     }
     const float mean = 1.0f / float(settings.samples);
-    const GpuImage& display = tonemap(impl.recorder, frame, *radiance, mean * std::exp2(settings.exposure_ev), settings.tonemap);
+    const GpuImage& display =
+        tonemap(impl.recorder, frame, *radiance, mean * std::exp2(settings.exposure_ev), settings.tonemap);
     impl.recorder.submit_and_wait();
     result.radiance = rgb_image(frame.extent, download(impl.device, *radiance, 0), mean);
     result.display = display_image(frame.extent, download(impl.device, display, 0));
@@ -212,13 +221,17 @@ View parse_view(std::string_view name) {
 }
 
 LayerBuilder parse_layer_builder(std::string_view name) {
-    return parse_name<LayerBuilder, 2>("layer builder", name,
-                                       {{{"single-pass", LayerBuilder::kSinglePass}, {"depth-peeling", LayerBuilder::kDepthPeeling}}});
+    return parse_name<LayerBuilder, 2>(
+        "layer builder", name,
+        {{{"single-pass", LayerBuilder::kSinglePass}, {"depth-peeling", LayerBuilder::kDepthPeeling}}});
 }
 
 ToneMap parse_tonemap(std::string_view name) {
     return parse_name<ToneMap, 4>("tone map", name,
-                                  {{{"none", ToneMap::kNone}, {"reinhard", ToneMap::kReinhard}, {"aces", ToneMap::kAces}, {"neutral", ToneMap::kNeutral}}});
+                                  {{{"none", ToneMap::kNone},
+                                    {"reinhard", ToneMap::kReinhard},
+                                    {"aces", ToneMap::kAces},
+                                    {"neutral", ToneMap::kNeutral}}});
 }
 
 std::string_view version() { return PELLUCID_VERSION; }

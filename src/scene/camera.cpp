@@ -18,8 +18,7 @@ void check_fov(float vertical_fov) {
 
 }  // namespace
 
-Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg, float distance,
-                    float vertical_fov) {
+Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg, float distance, float vertical_fov) {
     check_fov(vertical_fov);
     if (!std::isfinite(azimuth_deg)) throw Error("azimuth of the camera must be finite");
     if (!(std::abs(elevation_deg) <= 90.0f))

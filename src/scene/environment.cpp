@@ -16,8 +16,8 @@ namespace pellucid {
 namespace {
 
 namespace formulas {
-using glm::abs, glm::acos, glm::atan, glm::clamp, glm::dot, glm::exp, glm::floor, glm::length, glm::max,
-    glm::min, glm::mix, glm::pow, glm::smoothstep;
+using glm::abs, glm::acos, glm::atan, glm::clamp, glm::dot, glm::exp, glm::floor, glm::length, glm::max, glm::min,
+    glm::mix, glm::pow, glm::smoothstep;
 using glm::vec2, glm::vec3, glm::uint;
 #include "scene/environment_formulas.glsl"
 
@@ -41,8 +41,7 @@ Image to_rgb(const Image& image) {
     const bool grey = image.channels < 3;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
-            for (int channel = 0; channel < 3; ++channel)
-                rgb.at(x, y)[channel] = image.at(x, y)[grey ? 0 : channel];
+            for (int channel = 0; channel < 3; ++channel) rgb.at(x, y)[channel] = image.at(x, y)[grey ? 0 : channel];
     return rgb;
 }
 
@@ -76,8 +75,7 @@ Environment load_map(const std::string& file, std::string* warning) {
                            ", not about 2:1 as an equirectangular map is");
     if (warning) {
         warning->clear();
-        for (const std::string& line : warnings)
-            *warning += (warning->empty() ? one_line(file) + ": " : "; ") + line;
+        for (const std::string& line : warnings) *warning += (warning->empty() ? one_line(file) + ": " : "; ") + line;
     }
     return environment;
 }
@@ -133,8 +131,7 @@ Coefficients project_map(const Image& map) {
         const double colatitude = (y + 0.5) / map.height * kPiDouble;
         const double half_step = 0.5 * kPiDouble / map.height;
         // Between the two parallels that bound the row, shared by its texels.
-        const double solid_angle =
-            2.0 * std::sin(colatitude) * std::sin(half_step) * (2.0 * kPiDouble / map.width);
+        const double solid_angle = 2.0 * std::sin(colatitude) * std::sin(half_step) * (2.0 * kPiDouble / map.width);
         const double height = std::cos(colatitude), radius = std::sin(colatitude);
         for (int x = 0; x < map.width; ++x) {
             const glm::dvec2 around = cos_sin[std::size_t(x)] * radius;
@@ -181,16 +178,15 @@ Environment load_environment(const std::string& name_or_file, std::string* warni
 
 glm::vec3 radiance(const Environment& environment, glm::vec3 direction) {
     if (environment.kind == Environment::Kind::kMap) return map_radiance(environment.map, direction);
-    return formulas::procedural_radiance(glm::uint(environment.kind), environment.uniform_radiance,
-                                         direction);
+    return formulas::procedural_radiance(glm::uint(environment.kind), environment.uniform_radiance, direction);
 }
 
 std::array<glm::vec3, 9> irradiance_coefficients(const Environment& environment) {
     // The clamped cosine scales order l by A_l (Ramamoorthi & Hanrahan 2001, equation 8).
     constexpr double kPiDouble = std::numbers::pi;
     constexpr double kCosineByOrder[] = {kPiDouble, 2.0 * kPiDouble / 3.0, kPiDouble / 4.0};
-    const Coefficients sum = environment.kind == Environment::Kind::kMap ? project_map(environment.map)
-                                                                         : project_formula(environment);
+    const Coefficients sum =
+        environment.kind == Environment::Kind::kMap ? project_map(environment.map) : project_formula(environment);
     std::array<glm::vec3, 9> result;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const std::size_t order = i == 0 ? 0 : i < 4 ? 1 : 2;

@@ -38,18 +38,17 @@ std::size_t element_size(const GltfFile& gltf, int component_type, int component
 }
 
 /// Places `elements` into a buffer view after checking that all of them fit.
-void place(const GltfFile& gltf, int buffer_view, std::size_t offset, std::size_t size,
-           Elements& elements, const std::string& user) {
+void place(const GltfFile& gltf, int buffer_view, std::size_t offset, std::size_t size, Elements& elements,
+           const std::string& user) {
     const std::span<const std::byte> bytes = gltf.view(buffer_view, user);
     const std::size_t stride = gltf.model.bufferViews[std::size_t(buffer_view)].byteStride;
     elements.stride = stride == 0 ? size : stride;
     if (elements.stride < size)
         fail(gltf.path, fmt::format("{}: byteStride {} is less than the element size {}", user, stride, size));
-    if (elements.count > 0 &&
-        (offset > bytes.size() || size > bytes.size() - offset ||
-         elements.count - 1 > (bytes.size() - offset - size) / elements.stride))
-        fail(gltf.path, fmt::format("{}: {} elements reach beyond the {} bytes of buffer view {}", user,
-                                    elements.count, bytes.size(), buffer_view));
+    if (elements.count > 0 && (offset > bytes.size() || size > bytes.size() - offset ||
+                               elements.count - 1 > (bytes.size() - offset - size) / elements.stride))
+        fail(gltf.path, fmt::format("{}: {} elements reach beyond the {} bytes of buffer view {}", user, elements.count,
+                                    bytes.size(), buffer_view));
     elements.data = bytes.data() + offset;
 }
 
@@ -94,12 +93,18 @@ void convert_as(const Elements& elements, float* out) {
 void convert(const Elements& elements, float* out) {
     if (!elements.data) return;
     switch (elements.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return convert_as<std::int8_t>(elements, out);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return convert_as<std::uint8_t>(elements, out);
-        case TINYGLTF_COMPONENT_TYPE_SHORT: return convert_as<std::int16_t>(elements, out);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return convert_as<std::uint16_t>(elements, out);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return convert_as<std::uint32_t>(elements, out);
-        default: return convert_as<float>(elements, out);
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return convert_as<std::int8_t>(elements, out);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return convert_as<std::uint8_t>(elements, out);
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return convert_as<std::int16_t>(elements, out);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return convert_as<std::uint16_t>(elements, out);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return convert_as<std::uint32_t>(elements, out);
+        default:
+            return convert_as<float>(elements, out);
     }
 }
 
@@ -113,17 +118,24 @@ std::vector<std::uint32_t> integers(const GltfFile& gltf, const Elements& elemen
         }
     };
     switch (elements.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: copy(std::uint8_t()); break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: copy(std::uint16_t()); break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: copy(std::uint32_t()); break;
-        default: fail(gltf.path, fmt::format("{}: indices must be unsigned integers", user));
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            copy(std::uint8_t());
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            copy(std::uint16_t());
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            copy(std::uint32_t());
+            break;
+        default:
+            fail(gltf.path, fmt::format("{}: indices must be unsigned integers", user));
     }
     return values;
 }
 
 /// Replaces the elements that a sparse accessor lists.
-void replace_sparse(const GltfFile& gltf, const tinygltf::Accessor& accessor, const Elements& base,
-                    float* out, const std::string& user) {
+void replace_sparse(const GltfFile& gltf, const tinygltf::Accessor& accessor, const Elements& base, float* out,
+                    const std::string& user) {
     const auto& sparse = accessor.sparse;
     if (sparse.count < 0 || std::size_t(sparse.count) > base.count || sparse.indices.byteOffset < 0 ||
         sparse.values.byteOffset < 0)

@@ -22,8 +22,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, 8> kSupportedExtensions = {
-    "KHR_materials_transmission", "KHR_materials_volume",  "KHR_materials_ior",
-    "KHR_materials_dispersion",   "KHR_materials_unlit",   "KHR_materials_emissive_strength",
+    "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_ior",
+    "KHR_materials_dispersion",   "KHR_materials_unlit",  "KHR_materials_emissive_strength",
     "KHR_texture_transform",      "KHR_mesh_quantization"};
 
 std::string_view text_of(std::span<const std::byte> bytes) {
@@ -37,8 +37,8 @@ std::uint32_t u32_at(std::span<const std::byte> bytes, std::size_t offset) {
 }
 
 /// Splits the file into its JSON text and the binary chunk, which only .glb files have.
-void split_container(const std::filesystem::path& path, std::span<const std::byte> file,
-                     std::string_view& text, std::span<const std::byte>& binary) {
+void split_container(const std::filesystem::path& path, std::span<const std::byte> file, std::string_view& text,
+                     std::span<const std::byte>& binary) {
     constexpr std::uint32_t kJson = 0x4e4f534a, kBin = 0x004e4942;
     if (file.empty()) fail(path, "is empty");
     text = text_of(file);
@@ -85,8 +85,7 @@ json parse_json(const std::filesystem::path& path, std::string_view text) {
 
 void check_version(const std::filesystem::path& path, const json& root) {
     const auto asset = root.find("asset");
-    if (asset == root.end() || !asset->is_object() || !asset->contains("version") ||
-        !(*asset)["version"].is_string())
+    if (asset == root.end() || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
         fail(path, "is no glTF file: asset.version is missing");
     const std::string version = (*asset)["version"];
     if (!version.starts_with("2.")) fail(path, fmt::format("glTF version {} is not supported, only 2", version));
@@ -158,9 +157,9 @@ void read_buffers(GltfFile& gltf, const json& root, std::span<const std::byte> b
             bytes.assign(binary.begin(), binary.end());
         }
         if (bytes.size() < length)
-            fail(gltf.path, fmt::format("buffer {}{} has {} bytes, {} are needed", i,
-                                        uri.empty() || uri.starts_with("data:") ? "" : " (" + uri + ")",
-                                        bytes.size(), length));
+            fail(gltf.path,
+                 fmt::format("buffer {}{} has {} bytes, {} are needed", i,
+                             uri.empty() || uri.starts_with("data:") ? "" : " (" + uri + ")", bytes.size(), length));
         bytes.resize(length);
         gltf.buffers.push_back(std::move(bytes));
     }
@@ -201,8 +200,8 @@ void parse_model(GltfFile& gltf, json root, Warnings& warnings) {
     const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
     std::string problem, remark;
     tinygltf::TinyGLTF parser;
-    if (!parser.LoadASCIIFromString(&gltf.model, &problem, &remark, text.data(),
-                                    static_cast<unsigned>(text.size()), ""))
+    if (!parser.LoadASCIIFromString(&gltf.model, &problem, &remark, text.data(), static_cast<unsigned>(text.size()),
+                                    ""))
         fail(gltf.path, problem.empty() ? "malformed glTF" : problem);
     if (!problem.empty() || !remark.empty())
         warnings.add(fmt::format("{}: {} {}", gltf.path.filename().string(), problem, remark));

@@ -32,7 +32,7 @@ private:
     const GltfFile& gltf_;
     Scene& scene_;
     Warnings& warnings_;
-    std::vector<int> index_;      ///< into Scene::images; kUnknown before the first use
+    std::vector<int> index_;  ///< into Scene::images; kUnknown before the first use
     std::vector<char> warned_;
 };
 

@@ -101,8 +101,7 @@ private:
         for (int k = 0; k < 3 && from.emissiveFactor.size() == 3; ++k)
             material.emission[k] = static_cast<float>(
                 strength * double(in_range(from.emissiveFactor[std::size_t(k)], 0.0, kBrightest, "emissiveFactor")));
-        if (material.emission != glm::vec3(0.0f))
-            material.emission_texture = texture(from.emissiveTexture, "emission");
+        if (material.emission != glm::vec3(0.0f)) material.emission_texture = texture(from.emissiveTexture, "emission");
         material.unlit = Properties(from.extensions, "KHR_materials_unlit").present();
         material.double_sided = from.doubleSided;
     }
@@ -167,7 +166,8 @@ private:
         const Properties transform(info.extensions, "KHR_texture_transform");
         texture.texcoord_set = static_cast<int>(std::clamp(transform.number("texCoord", info.texCoord), -1.0, 9.0));
         if (texture.texcoord_set < 0 || texture.texcoord_set > 1) {
-            warnings_.add(fmt::format("{}: {} texture left out: only texture coordinates 0 and 1 are read", user_, what));
+            warnings_.add(
+                fmt::format("{}: {} texture left out: only texture coordinates 0 and 1 are read", user_, what));
             return {};
         }
         texture.image = images_.index(image_of(info), user_);

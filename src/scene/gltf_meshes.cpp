@@ -22,8 +22,7 @@ std::vector<glm::uvec3> triangles_of(int mode, const std::vector<std::uint32_t>&
         for (std::size_t i = 0; i + 2 < v.size(); i += 3) triangles.emplace_back(v[i], v[i + 1], v[i + 2]);
     } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
         // Every second triangle is turned, so that all have the same winding.
-        for (std::size_t i = 0; i + 2 < v.size(); ++i)
-            triangles.emplace_back(v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]);
+        for (std::size_t i = 0; i + 2 < v.size(); ++i) triangles.emplace_back(v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]);
     } else {
         for (std::size_t i = 0; i + 2 < v.size(); ++i) triangles.emplace_back(v[i + 1], v[i + 2], v[0]);
     }
@@ -101,8 +100,8 @@ Mesh GltfMeshes::read_triangles(const tinygltf::Primitive& from, const std::stri
         vertices = read_indices(gltf_, from.indices, user + " indices");
         for (std::size_t i = 0; i < vertices.size(); ++i)
             if (vertices[i] >= mesh.positions.size())
-                fail(gltf_.path, fmt::format("{}: index {} refers to vertex {}, there are {}", user, i,
-                                             vertices[i], mesh.positions.size()));
+                fail(gltf_.path, fmt::format("{}: index {} refers to vertex {}, there are {}", user, i, vertices[i],
+                                             mesh.positions.size()));
     } else {
         vertices.resize(mesh.positions.size());
         std::iota(vertices.begin(), vertices.end(), 0u);
@@ -121,8 +120,8 @@ void GltfMeshes::read_attributes(const tinygltf::Primitive& from, const std::str
             values.resize(mesh.positions.size());
             return;
         }
-        warnings_.add(fmt::format("{}: {} left out: {} values for {} vertices", user, attribute,
-                                  values.size(), mesh.positions.size()));
+        warnings_.add(fmt::format("{}: {} left out: {} values for {} vertices", user, attribute, values.size(),
+                                  mesh.positions.size()));
         values.clear();
     };
     if (const int normal = accessor_of(from, "NORMAL"); normal >= 0) {

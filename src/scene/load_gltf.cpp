@@ -28,10 +28,13 @@ public:
         : gltf_(gltf), scene_(scene), warnings_(warnings), meshes_(gltf, options, scene, warnings) {}
 
     void read() {
-        struct Placed { int node; glm::dmat4 world_from_parent; };
+        struct Placed {
+            int node;
+            glm::dmat4 world_from_parent;
+        };
         std::vector<Placed> open;  // a stack of our own: files nest as deeply as they like
-        for (const int root : roots()) open.push_back({root, glm::dmat4(1.0)});
-        std::reverse(open.begin(), open.end());
+        const std::vector<int> tops = roots();
+        for (auto top = tops.rbegin(); top != tops.rend(); ++top) open.push_back({*top, glm::dmat4(1.0)});
         std::vector<char> visited(gltf_.model.nodes.size(), 0);
         while (!open.empty()) {
             const Placed placed = open.back();
@@ -44,7 +47,8 @@ public:
                 fail(gltf_.path, fmt::format("node {} has more than one parent, or is its own ancestor", placed.node));
             const tinygltf::Node& node = gltf_.model.nodes[std::size_t(placed.node)];
             const glm::dmat4 world = placed.world_from_parent * local_matrix(node, placed.node);
-            if (!finite(world)) fail(gltf_.path, fmt::format("{}: transform is not finite", name_of(node, placed.node)));
+            if (!finite(world))
+                fail(gltf_.path, fmt::format("{}: transform is not finite", name_of(node, placed.node)));
             add_objects(node, placed.node, world);
             add_camera(node, placed.node, world);
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
@@ -131,8 +135,8 @@ private:
         const double near_plane = camera.orthographic ? from.orthographic.znear : from.perspective.znear;
         const double far_plane = camera.orthographic ? from.orthographic.zfar : from.perspective.zfar;
         const double yfov = from.perspective.yfov, height = 2.0 * std::abs(from.orthographic.ymag);
-        const bool usable = camera.orthographic ? height > 0.0 && height < 1e15
-                                                : yfov > 0.0 && static_cast<float>(yfov) < kPi;
+        const bool usable =
+            camera.orthographic ? height > 0.0 && height < 1e15 : yfov > 0.0 && static_cast<float>(yfov) < kPi;
         // A camera's scale has no meaning; what is left must be a rotation.
         const glm::dvec3 z = glm::normalize(glm::dvec3(world[2]));
         const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(world[1]), z));

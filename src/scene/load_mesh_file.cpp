@@ -7,11 +7,11 @@
 #include "scene/mesh_file_checks.h"
 #include "scene/mesh_repair.h"
 
-#include <assimp/IOSystem.hpp>
-#include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
 
 #include <cmath>
 #include <limits>
@@ -32,8 +32,7 @@ public:
 std::string cause_of(const Assimp::Importer& importer) {
     std::string cause = importer.GetErrorString();
     // assimp reads from memory here and reports a name that it made up for that.
-    for (std::size_t at; (at = cause.find("$$$___magic___$$$")) != cause.npos;)
-        cause.replace(at, 17, "file");
+    for (std::size_t at; (at = cause.find("$$$___magic___$$$")) != cause.npos;) cause.replace(at, 17, "file");
     return cause.empty() ? "cannot be read" : cause;
 }
 
@@ -44,15 +43,13 @@ void check_parts(const std::filesystem::path& file, const aiScene& scene) {
         for (unsigned v = 0; v < part.mNumVertices; ++v) {
             const aiVector3D& p = part.mVertices[v];
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                fail(file, fmt::format("mesh \"{}\": position of vertex {} is not finite",
-                                       part.mName.C_Str(), v));
+                fail(file, fmt::format("mesh \"{}\": position of vertex {} is not finite", part.mName.C_Str(), v));
         }
         for (unsigned f = 0; f < part.mNumFaces; ++f)
             for (unsigned k = 0; k < part.mFaces[f].mNumIndices; ++k)
                 if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
-                    fail(file, fmt::format("mesh \"{}\": face {} refers to vertex {}, there are {}",
-                                           part.mName.C_Str(), f, part.mFaces[f].mIndices[k],
-                                           part.mNumVertices));
+                    fail(file, fmt::format("mesh \"{}\": face {} refers to vertex {}, there are {}", part.mName.C_Str(),
+                                           f, part.mFaces[f].mIndices[k], part.mNumVertices));
     }
 }
 
@@ -75,8 +72,8 @@ void correct_primitive_types(const aiScene& scene) {
 
 glm::dmat4 matrix_of(const aiMatrix4x4& m) {
     // aiMatrix4x4 lists rows.
-    return glm::transpose(glm::dmat4(m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2,
-                                     m.c3, m.c4, m.d1, m.d2, m.d3, m.d4));
+    return glm::transpose(
+        glm::dmat4(m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4));
 }
 
 /// What has fewer than three corners after triangulation.
@@ -85,12 +82,11 @@ struct Leftovers {
     std::uint64_t lines = 0;
 };
 
-void append_part(const std::filesystem::path& file, const aiMesh& part, const glm::dmat4& placed,
-                 bool with_normals, Mesh& mesh, Leftovers& leftovers) {
+void append_part(const std::filesystem::path& file, const aiMesh& part, const glm::dmat4& placed, bool with_normals,
+                 Mesh& mesh, Leftovers& leftovers) {
     if (!part.HasFaces()) return;
     const std::size_t base = mesh.positions.size();
-    if (base + part.mNumVertices > std::numeric_limits<std::uint32_t>::max())
-        fail(file, "more than 2^32 vertices");
+    if (base + part.mNumVertices > std::numeric_limits<std::uint32_t>::max()) fail(file, "more than 2^32 vertices");
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
         const aiVector3D& p = part.mVertices[v];
         mesh.positions.emplace_back(placed * glm::dvec4(p.x, p.y, p.z, 1.0));
@@ -121,7 +117,10 @@ Mesh merge_parts(const std::filesystem::path& file, const aiScene& scene, Leftov
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         with_normals = with_normals && (scene.mMeshes[m]->HasNormals() || !scene.mMeshes[m]->HasFaces());
 
-    struct Placed { const aiNode* node; glm::dmat4 world_from_parent; };
+    struct Placed {
+        const aiNode* node;
+        glm::dmat4 world_from_parent;
+    };
     std::vector<Placed> open = {{scene.mRootNode, glm::dmat4(1.0)}};
     while (!open.empty()) {
         const Placed placed = open.back();
@@ -130,8 +129,7 @@ Mesh merge_parts(const std::filesystem::path& file, const aiScene& scene, Leftov
         const glm::dmat4 world = placed.world_from_parent * matrix_of(placed.node->mTransformation);
         for (unsigned i = 0; i < placed.node->mNumMeshes; ++i)
             append_part(file, *scene.mMeshes[placed.node->mMeshes[i]], world, with_normals, mesh, leftovers);
-        for (unsigned i = placed.node->mNumChildren; i-- > 0;)
-            open.push_back({placed.node->mChildren[i], world});
+        for (unsigned i = placed.node->mNumChildren; i-- > 0;) open.push_back({placed.node->mChildren[i], world});
     }
     for (const glm::vec3 p : mesh.positions)
         if (!std::isfinite(p.x + p.y + p.z)) fail(file, "a transformed position is not finite");
@@ -148,8 +146,7 @@ Mesh load_mesh_file(const std::filesystem::path& file, Warnings& warnings) {
     Assimp::Importer importer;
     importer.SetIOHandler(new NoFiles);  // the importer owns it
     // Polygons become triangles only after check_parts: triangulation believes every index.
-    const aiScene* scene =
-        importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
+    const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
     if (!scene || scene->mNumMeshes == 0) {
         const std::string cause = scene ? "contains no mesh" : cause_of(importer);
         fail(file, cause);
@@ -167,8 +164,7 @@ Mesh load_mesh_file(const std::filesystem::path& file, Warnings& warnings) {
     mesh.name = file.stem().string();
     if (mesh.triangles.empty()) fail(file, "contains no triangles");
     if (leftovers.points + leftovers.lines > 0)
-        warnings.add(fmt::format("{}: {} points and {} lines left out", mesh.name, leftovers.points,
-                                 leftovers.lines));
+        warnings.add(fmt::format("{}: {} points and {} lines left out", mesh.name, leftovers.points, leftovers.lines));
     join_identical_vertices(mesh);
     return mesh;
 }

@@ -32,8 +32,7 @@ void check(const LoadOptions& options) {
                 throw Error(fmt::format("attenuation colour {} {} {}: must be within 0..1", c.x, c.y, c.z));
     }
     if (options.attenuation_distance && !(*options.attenuation_distance > 0.0f))
-        throw Error(fmt::format("attenuation distance {}: must be greater than 0",
-                                *options.attenuation_distance));
+        throw Error(fmt::format("attenuation distance {}: must be greater than 0", *options.attenuation_distance));
     // The constant is pi rounded to a float, as is the option's default.
     if (!(options.crease_angle >= 0.0f && options.crease_angle <= kPi))
         throw Error(fmt::format("crease angle {}: must be within 0..pi radians", options.crease_angle));
@@ -72,8 +71,8 @@ Scene load_by_kind(const std::string& source, const LoadOptions& options, Warnin
         Mesh mesh = load_mesh_file(file, warnings);
         return glass_scene(std::move(mesh), options, !options.remake_normals, warnings);
     }
-    fail(file, fmt::format("unknown kind of file \"{}\" (known: .gltf, .glb, {}, or shape:NAME)",
-                           extension, fmt::join(kMeshExtensions, ", ")));
+    fail(file, fmt::format("unknown kind of file \"{}\" (known: .gltf, .glb, {}, or shape:NAME)", extension,
+                           fmt::join(kMeshExtensions, ", ")));
 }
 
 void apply_overrides(Scene& scene, const LoadOptions& options) {

@@ -17,6 +17,9 @@ class OffLines {
 public:
     OffLines(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
 
+    /// How far has been read.
+    std::size_t at() const { return std::min(at_, text_.size()); }
+
     std::string_view next() {
         while (at_ < text_.size()) {
             const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
@@ -43,7 +46,8 @@ bool take_number(std::string_view& line, std::uint64_t& number) {
     return error == std::errc() && (line.empty() || line[0] == ' ' || line[0] == '\t');
 }
 
-std::uint64_t check_off(const std::filesystem::path& file, std::string_view text) {
+std::uint64_t check_off(const std::filesystem::path& file, std::vector<std::byte>& bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     OffLines lines(file, text);
     std::string_view head = lines.next();
     const std::size_t magic = head.find("OFF");
@@ -58,8 +62,7 @@ std::uint64_t check_off(const std::filesystem::path& file, std::string_view text
     if (!take_number(head, vertices) || !take_number(head, faces) || !take_number(head, edges))
         fail(file, "OFF: the line with the numbers of vertices, faces and edges is malformed");
     if (vertices > text.size() || faces > text.size())
-        fail(file, fmt::format("OFF: {} vertices and {} faces in a file of {} bytes", vertices, faces,
-                               text.size()));
+        fail(file, fmt::format("OFF: {} vertices and {} faces in a file of {} bytes", vertices, faces, text.size()));
     for (std::uint64_t v = 0; v < vertices; ++v) lines.next();
     for (std::uint64_t f = 0; f < faces; ++f) {
         std::string_view line = lines.next();
@@ -72,6 +75,9 @@ std::uint64_t check_off(const std::filesystem::path& file, std::string_view text
                 fail(file, fmt::format("OFF: face {} refers to vertex {}, there are {}", f, index, vertices));
         }
     }
+    // For every face that it skips (none or more than nine corners) assimp takes one off the count and
+    // reads on, at last below none.
+    bytes.resize(lines.at());
     return faces;
 }
 
@@ -102,19 +108,17 @@ void check_3ds(const std::filesystem::path& file, std::string_view text) {
         std::memcpy(&length, text.data() + 2, 4);
     }
     if (id != 0x4d4d) fail(file, "is no 3DS file: its first chunk is not 0x4D4D");
-    if (length > text.size())
-        fail(file, fmt::format("3DS: the file ends early: {} of {} bytes", text.size(), length));
+    if (length > text.size()) fail(file, fmt::format("3DS: the file ends early: {} of {} bytes", text.size(), length));
 }
 
 }  // namespace
 
-std::optional<std::uint64_t> check_mesh_file(const std::filesystem::path& file,
-                                             const std::string& extension,
+std::optional<std::uint64_t> check_mesh_file(const std::filesystem::path& file, const std::string& extension,
                                              std::vector<std::byte>& bytes) {
     if (bytes.empty()) fail(file, "is empty");
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (extension == ".ply") return check_ply(file, bytes);
-    if (extension == ".off") return check_off(file, text);
+    if (extension == ".off") return check_off(file, bytes);
     if (extension == ".stl") check_stl(file, text);
     if (extension == ".3ds") check_3ds(file, text);
     if (extension == ".obj") check_obj(file, bytes);

@@ -15,8 +15,7 @@ namespace pellucid {
 /// Also rewrites, in `bytes`, what formats allow but assimp does not read.
 /// Returns the number of polygons that the file announces, if its format does.
 /// Throws Error naming `file`.
-std::optional<std::uint64_t> check_mesh_file(const std::filesystem::path& file,
-                                             const std::string& extension,
+std::optional<std::uint64_t> check_mesh_file(const std::filesystem::path& file, const std::string& extension,
                                              std::vector<std::byte>& bytes);
 
 /// The same for one format each, where that is more than a few lines.

@@ -14,12 +14,10 @@ namespace {
 /// Normals of the triangles, as long as twice their area.
 std::vector<glm::dvec3> area_vectors(const Mesh& mesh) {
     std::vector<glm::dvec3> vectors(mesh.triangles.size());
-    std::transform(mesh.triangles.begin(), mesh.triangles.end(), vectors.begin(),
-                   [&](glm::uvec3 t) {
-                       const glm::dvec3 a = mesh.positions[t.x];
-                       return glm::cross(glm::dvec3(mesh.positions[t.y]) - a,
-                                         glm::dvec3(mesh.positions[t.z]) - a);
-                   });
+    std::transform(mesh.triangles.begin(), mesh.triangles.end(), vectors.begin(), [&](glm::uvec3 t) {
+        const glm::dvec3 a = mesh.positions[t.x];
+        return glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
+    });
     return vectors;
 }
 
@@ -40,8 +38,7 @@ std::vector<glm::vec3> smooth_normals(const Mesh& mesh, const std::vector<std::u
             const std::uint32_t v = weld[mesh.triangles[t][k]];
             sums[v] += areas[t];
             total[v] += area;
-            if (area >= glm::length(areas[largest[v]]) || total[v] == area)
-                largest[v] = static_cast<std::uint32_t>(t);
+            if (area >= glm::length(areas[largest[v]]) || total[v] == area) largest[v] = static_cast<std::uint32_t>(t);
         }
     }
     std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 1.0f));
@@ -73,9 +70,8 @@ std::uint32_t root_of(std::vector<Corner>& corners, std::uint32_t i) {
 }
 
 /// Joins the corners around one vertex across every edge that is bent less than the crease angle.
-void group_corners(const Mesh& mesh, const std::vector<std::uint32_t>& weld,
-                   const std::vector<glm::dvec3>& areas, double cos_crease,
-                   std::vector<Corner>& corners, std::vector<Spoke>& spokes) {
+void group_corners(const Mesh& mesh, const std::vector<std::uint32_t>& weld, const std::vector<glm::dvec3>& areas,
+                   double cos_crease, std::vector<Corner>& corners, std::vector<Spoke>& spokes) {
     spokes.clear();
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
         const glm::uvec3 t = mesh.triangles[corners[i].triangle];
@@ -90,8 +86,7 @@ void group_corners(const Mesh& mesh, const std::vector<std::uint32_t>& weld,
         const glm::dvec3 a = areas[corners[spokes[s - 1].corner].triangle];
         const glm::dvec3 b = areas[corners[spokes[s].corner].triangle];
         if (glm::dot(a, b) > cos_crease * glm::length(a) * glm::length(b))
-            corners[root_of(corners, spokes[s].corner)].group =
-                root_of(corners, spokes[s - 1].corner);
+            corners[root_of(corners, spokes[s].corner)].group = root_of(corners, spokes[s - 1].corner);
     }
     for (std::uint32_t i = 0; i < corners.size(); ++i) corners[i].group = root_of(corners, i);
 }
@@ -130,14 +125,11 @@ void make_creased_normals(Mesh& mesh, const std::vector<std::uint32_t>& weld, fl
     for (std::size_t v = 0; v + 1 < table.first.size(); ++v) {
         corners.clear();
         for (std::uint32_t i = table.first[v]; i < table.first[v + 1]; ++i)
-            corners.push_back({table.corner[i] / 3, table.corner[i] % 3,
-                               static_cast<std::uint32_t>(corners.size())});
+            corners.push_back({table.corner[i] / 3, table.corner[i] % 3, static_cast<std::uint32_t>(corners.size())});
         group_corners(mesh, weld, areas, cos_crease, corners, spokes);
 
         // One new vertex for each pair of group and old vertex.
-        const auto old_vertex = [&](const Corner& c) {
-            return mesh.triangles[c.triangle][int(c.slot)];
-        };
+        const auto old_vertex = [&](const Corner& c) { return mesh.triangles[c.triangle][int(c.slot)]; };
         std::sort(corners.begin(), corners.end(), [&](const Corner& a, const Corner& b) {
             return a.group != b.group ? a.group < b.group : old_vertex(a) < old_vertex(b);
         });
@@ -151,8 +143,7 @@ void make_creased_normals(Mesh& mesh, const std::vector<std::uint32_t>& weld, fl
                     source.push_back(old_vertex(corners[i]));
                     normals.push_back(normal);
                 }
-                triangles[corners[i].triangle][int(corners[i].slot)] =
-                    static_cast<std::uint32_t>(source.size() - 1);
+                triangles[corners[i].triangle][int(corners[i].slot)] = static_cast<std::uint32_t>(source.size() - 1);
             }
         }
     }

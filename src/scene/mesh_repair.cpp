@@ -45,8 +45,7 @@ template <typename T>
 void gather(std::vector<T>& values, const std::vector<std::uint32_t>& source) {
     if (values.empty()) return;
     std::vector<T> gathered(source.size());
-    std::transform(source.begin(), source.end(), gathered.begin(),
-                   [&](std::uint32_t i) { return values[i]; });
+    std::transform(source.begin(), source.end(), gathered.begin(), [&](std::uint32_t i) { return values[i]; });
     values = std::move(gathered);
 }
 
@@ -82,16 +81,18 @@ void check_solid(Mesh& mesh, Warnings& warnings) {
     // in the surface, though its neighbours no longer share an edge.
     const EdgeCounts edges = count_edges(mesh.triangles, weld_positions(mesh.positions));
     if (const std::size_t dropped = drop_zero_area_triangles(mesh))
-        warnings.add(fmt::format("{}: {} triangle{} without area left out", mesh.name, dropped,
-                                 dropped == 1 ? "" : "s"));
+        warnings.add(
+            fmt::format("{}: {} triangle{} without area left out", mesh.name, dropped, dropped == 1 ? "" : "s"));
     if (edges.boundary + edges.non_manifold > 0)
-        warnings.add(fmt::format("{}: {} boundary edges, {} non-manifold edges: not a closed solid, "
-                                 "refraction there is approximate",
-                                 mesh.name, edges.boundary, edges.non_manifold));
+        warnings.add(
+            fmt::format("{}: {} boundary edges, {} non-manifold edges: not a closed solid, "
+                        "refraction there is approximate",
+                        mesh.name, edges.boundary, edges.non_manifold));
     if (edges.miswound > 0)
-        warnings.add(fmt::format("{}: {} edges between triangles wound against each other: inside "
-                                 "and outside are mixed up there",
-                                 mesh.name, edges.miswound));
+        warnings.add(
+            fmt::format("{}: {} edges between triangles wound against each other: inside "
+                        "and outside are mixed up there",
+                        mesh.name, edges.miswound));
 
     // The whole mesh is judged, not each of its parts: the inner wall of a hollow body is rightly
     // wound the other way round. An open sheet has no volume whose sign could be believed.
@@ -120,8 +121,7 @@ void gather_vertices(Mesh& mesh, const std::vector<std::uint32_t>& source) {
 void join_identical_vertices(Mesh& mesh) {
     std::size_t width = 0;
     const std::vector<float> rows = vertex_rows(mesh, width);
-    const std::vector<std::uint32_t> first =
-        first_equal_row(rows.data(), mesh.positions.size(), width);
+    const std::vector<std::uint32_t> first = first_equal_row(rows.data(), mesh.positions.size(), width);
     for (glm::uvec3& t : mesh.triangles) t = {first[t.x], first[t.y], first[t.z]};
     drop_unused_vertices(mesh);
 }

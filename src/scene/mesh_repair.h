@@ -57,8 +57,8 @@ bool normals_oppose_winding(const Mesh& mesh);
 
 /// What is known about a mesh that comes from a file.
 struct MeshOrigin {
-    bool refractive = false;       ///< bounds a solid of glass, so inside and outside matter
-    bool make_normals = false;     ///< Mesh::normals is ignored and made anew
+    bool refractive = false;           ///< bounds a solid of glass, so inside and outside matter
+    bool make_normals = false;         ///< Mesh::normals is ignored and made anew
     float crease_angle = 3.14159265f;  ///< for made normals, radians
 };
 /// Makes what a file contains usable: winding, normals, no leftovers. Everything that was changed

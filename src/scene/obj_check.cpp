@@ -54,8 +54,8 @@ struct References {
 
 /// Reads the corners "v", "v/t", "v//n" or "v/t/n" of a face. What is no number ends the line: it
 /// is left to assimp to complain.
-void check_face(const std::filesystem::path& file, std::string_view line, std::size_t line_number,
-                References& vertices, References& normals) {
+void check_face(const std::filesystem::path& file, std::string_view line, std::size_t line_number, References& vertices,
+                References& normals) {
     const char* at = line.data();
     const char* const end = at + line.size();
     const auto number = [&](std::int64_t& value) {

@@ -17,8 +17,8 @@ namespace {
 constexpr std::string_view kBlank = " \t\r\n\v\f";
 
 struct Property {
-    char type = 0;       ///< of the value: i u f, followed by the size in the next field
-    int size = 0;        ///< bytes
+    char type = 0;  ///< of the value: i u f, followed by the size in the next field
+    int size = 0;   ///< bytes
     bool list = false;
     char count_type = 0;
     int count_size = 0;
@@ -40,12 +40,15 @@ struct Header {
 };
 
 bool parse_type(std::string_view name, char& type, int& size) {
-    struct Name { std::string_view name; char type; int size; };
-    static constexpr Name kNames[] = {
-        {"char", 'i', 1}, {"int8", 'i', 1}, {"uchar", 'u', 1}, {"uint8", 'u', 1},
-        {"short", 'i', 2}, {"int16", 'i', 2}, {"ushort", 'u', 2}, {"uint16", 'u', 2},
-        {"int", 'i', 4}, {"int32", 'i', 4}, {"uint", 'u', 4}, {"uint32", 'u', 4},
-        {"float", 'f', 4}, {"float32", 'f', 4}, {"double", 'f', 8}, {"float64", 'f', 8}};
+    struct Name {
+        std::string_view name;
+        char type;
+        int size;
+    };
+    static constexpr Name kNames[] = {{"char", 'i', 1},  {"int8", 'i', 1},    {"uchar", 'u', 1},  {"uint8", 'u', 1},
+                                      {"short", 'i', 2}, {"int16", 'i', 2},   {"ushort", 'u', 2}, {"uint16", 'u', 2},
+                                      {"int", 'i', 4},   {"int32", 'i', 4},   {"uint", 'u', 4},   {"uint32", 'u', 4},
+                                      {"float", 'f', 4}, {"float32", 'f', 4}, {"double", 'f', 8}, {"float64", 'f', 8}};
     for (const Name& n : kNames) {
         if (n.name != name) continue;
         type = n.type;
@@ -70,13 +73,10 @@ Property parse_property(const std::filesystem::path& file, const std::vector<std
     property.list = w.size() == 5 && w[1] == "list";
     const std::string_view type = property.list ? w[3] : w.size() == 3 ? w[1] : "";
     if (!parse_type(type, property.type, property.size) ||
-        (property.list && !parse_type(w[2], property.count_type, property.count_size)) ||
-        property.count_type == 'f')
+        (property.list && !parse_type(w[2], property.count_type, property.count_size)) || property.count_type == 'f')
         fail(file, "PLY header: a property is malformed");
-    property.vertex_indices =
-        property.list && (w[4] == "vertex_indices" || w[4] == "vertex_index");
-    if (property.vertex_indices && property.type == 'f')
-        fail(file, "PLY header: vertex indices must be integers");
+    property.vertex_indices = property.list && (w[4] == "vertex_indices" || w[4] == "vertex_index");
+    if (property.vertex_indices && property.type == 'f') fail(file, "PLY header: vertex indices must be integers");
     return property;
 }
 
@@ -189,8 +189,8 @@ std::uint64_t check_ply(const std::filesystem::path& file, std::vector<std::byte
         if (element.name == "face") faces = element.count;
         // Every element takes at least one byte, so a longer count cannot be true.
         if (element.count > bytes.size())
-            fail(file, fmt::format("PLY header: {} elements \"{}\" in a file of {} bytes", element.count,
-                                   element.name, bytes.size()));
+            fail(file, fmt::format("PLY header: {} elements \"{}\" in a file of {} bytes", element.count, element.name,
+                                   bytes.size()));
         if (element.count > 0 && element.properties.empty())
             fail(file, fmt::format("PLY header: element \"{}\" has no properties", element.name));
     }
@@ -207,8 +207,8 @@ std::uint64_t check_ply(const std::filesystem::path& file, std::vector<std::byte
                 for (std::int64_t k = 0; k < count; ++k) {
                     const std::int64_t index = values.integer(p.type, p.size);
                     if (index < 0 || std::uint64_t(index) >= vertices)
-                        fail(file, fmt::format("PLY: {} {} refers to vertex {}, there are {}",
-                                               element.name, i, index, vertices));
+                        fail(file, fmt::format("PLY: {} {} refers to vertex {}, there are {}", element.name, i, index,
+                                               vertices));
                 }
             }
         }

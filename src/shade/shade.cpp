@@ -58,10 +58,11 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     const GpuImage& nearest = workspace.image("opaque depth test", vk::Format::eD32Sfloat, frame.extent);
 
     const Recorder::Scope scope(recorder, "opaque");
-    const RenderTarget target{.extent = frame.extent,
-                              .colors = {{&radiance, 0, clear_to(0.0f)}, {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))}},
-                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-                              .scissor = {}};
+    const RenderTarget target{
+        .extent = frame.extent,
+        .colors = {{&radiance, 0, clear_to(0.0f)}, {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))}},
+        .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
+        .scissor = {}};
     recorder.draw(program,
                   {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
                    reads("Materials", frame.scene.materials), reads("Textures", frame.scene.textures),
@@ -72,35 +73,39 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
 
 SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers) {
     Workspace& workspace = frame.workspace;
-    const Program& glass = workspace.graphics(surface_program({"glass_tint.frag", kGlassTint}, {kLookFormat}, Blend::kReplace, false));
-    const Program& tint = workspace.graphics(surface_program({"thin_tint.frag", kThinTint}, {kLookFormat}, Blend::kMultiply, false));
-    const Program& reflection =
-        workspace.graphics(surface_program({"thin_reflection.frag", kThinReflection}, {kLookFormat}, Blend::kAdd, false));
+    const Program& glass =
+        workspace.graphics(surface_program({"glass_tint.frag", kGlassTint}, {kLookFormat}, Blend::kReplace, false));
+    const Program& tint =
+        workspace.graphics(surface_program({"thin_tint.frag", kThinTint}, {kLookFormat}, Blend::kMultiply, false));
+    const Program& reflection = workspace.graphics(
+        surface_program({"thin_reflection.frag", kThinReflection}, {kLookFormat}, Blend::kAdd, false));
     const GpuImage& glass_tint = workspace.image("glass tint", kLookFormat, frame.extent);
     const GpuImage& thin_tint = workspace.image("thin tint", kLookFormat, frame.extent);
     const GpuImage& thin_reflection = workspace.image("thin reflection", kLookFormat, frame.extent);
     const auto target = [&](const GpuImage& image, float clear) {
-        return RenderTarget{.extent = frame.extent, .colors = {{&image, 0, clear_to(clear)}}, .depth = {}, .scissor = {}};
+        return RenderTarget{
+            .extent = frame.extent, .colors = {{&image, 0, clear_to(clear)}}, .depth = {}, .scissor = {}};
     };
     const auto streams = surface_streams(frame);
     const GpuScene& scene = frame.scene;
 
     const Recorder::Scope scope(recorder, "surface look");
     recorder.draw(glass,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
-                   reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages),
-                   reads("layer_surface", layers.surface)},
+                  {reads("Frame", frame.constants), reads("Objects", scene.objects),
+                   reads("Materials", scene.materials), reads("Textures", scene.textures),
+                   reads("texture_pages", scene.texture_pages), reads("layer_surface", layers.surface)},
                   target(glass_tint, 1.0f), streams, scene.textured_refractive);
-    recorder.draw(tint,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
-                   reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages),
-                   reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
-                  target(thin_tint, 1.0f), streams, scene.thin_walled);
+    recorder.draw(
+        tint,
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
+         reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages),
+         reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
+        target(thin_tint, 1.0f), streams, scene.thin_walled);
     recorder.draw(reflection,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
-                   reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages),
-                   reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth),
-                   reads_layer("environment_map", frame.environment, 0)},
+                  {reads("Frame", frame.constants), reads("Objects", scene.objects),
+                   reads("Materials", scene.materials), reads("Textures", scene.textures),
+                   reads("texture_pages", scene.texture_pages), reads("opaque_depth", opaque.depth),
+                   reads("layer_depth", layers.depth), reads_layer("environment_map", frame.environment, 0)},
                   target(thin_reflection, 0.0f), streams, scene.thin_walled);
     return {glass_tint, thin_tint, thin_reflection};
 }
@@ -109,15 +114,16 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
                       const SurfaceLook& look, const Refraction& refraction, View view) {
     const GpuImage& radiance = frame.workspace.image("radiance", kRadianceFormat, frame.extent);
     const Recorder::Scope scope(recorder, "shade");
-    recorder.compute(frame.workspace.compute({"shade.comp", kShade}),
-                     {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                      reads("Materials", frame.scene.materials), reads_layer("environment_map", frame.environment, 0),
-                      reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth),
-                      reads("layer_surface", layers.surface), reads("glass_tint", look.glass_tint),
-                      reads("thin_tint", look.thin_tint), reads("thin_reflection", look.thin_reflection),
-                      reads("exit_direction", refraction.exit_direction), reads("transmittance", refraction.transmittance),
-                      reads("path_events", refraction.events), writes("radiance", radiance)},
-                     view == View::kAnalysis ? 1u : 0u, frame.extent);
+    recorder.compute(
+        frame.workspace.compute({"shade.comp", kShade}),
+        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+         reads("Materials", frame.scene.materials), reads_layer("environment_map", frame.environment, 0),
+         reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth),
+         reads("layer_surface", layers.surface), reads("glass_tint", look.glass_tint),
+         reads("thin_tint", look.thin_tint), reads("thin_reflection", look.thin_reflection),
+         reads("exit_direction", refraction.exit_direction), reads("transmittance", refraction.transmittance),
+         reads("path_events", refraction.events), writes("radiance", radiance)},
+        view == View::kAnalysis ? 1u : 0u, frame.extent);
     return radiance;
 }
 
@@ -136,8 +142,9 @@ const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& 
     };
     const GpuImage& display = frame.workspace.image("display", vk::Format::eR8G8B8A8Unorm, frame.extent);
     const Recorder::Scope scope(recorder, "tonemap");
-    recorder.compute(frame.workspace.compute({"tonemap.comp", kTonemap}), {reads("radiance", radiance), writes("display", display)},
-                     Push{scale, std::uint32_t(curve)}, frame.extent);
+    recorder.compute(frame.workspace.compute({"tonemap.comp", kTonemap}),
+                     {reads("radiance", radiance), writes("display", display)}, Push{scale, std::uint32_t(curve)},
+                     frame.extent);
     return display;
 }
 

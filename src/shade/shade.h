@@ -19,8 +19,8 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame);
 
 /// What textures on the nearest refracting surface, and thin walls in front, do to light on its way.
 struct SurfaceLook {
-    const GpuImage& glass_tint;      ///< RGBA16F: factor on the base colour; a: on the transmission, 0..1
-    const GpuImage& thin_tint;       ///< RGBA16F: transmittance of all thin walls in front
+    const GpuImage& glass_tint;       ///< RGBA16F: factor on the base colour; a: on the transmission, 0..1
+    const GpuImage& thin_tint;        ///< RGBA16F: transmittance of all thin walls in front
     const GpuImage& thin_reflection;  ///< RGBA16F: environment that they reflect
 };
 

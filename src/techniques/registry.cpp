@@ -26,9 +26,11 @@ constexpr auto kInfos = [] {
 }();
 
 void check_value(const TechniqueInfo& technique, const ParameterInfo& parameter, double value) {
-    if (!(value >= parameter.minimum && value <= parameter.maximum) || (parameter.whole && value != std::floor(value))) {
+    if (!(value >= parameter.minimum && value <= parameter.maximum) ||
+        (parameter.whole && value != std::floor(value))) {
         throw Error(fmt::format("{}: {} must be {} {} to {}, not {}", technique.name, parameter.name,
-                                parameter.whole ? "a whole number from" : "from", parameter.minimum, parameter.maximum, value));
+                                parameter.whole ? "a whole number from" : "from", parameter.minimum, parameter.maximum,
+                                value));
     }
 }
 
@@ -46,11 +48,13 @@ const TechniqueInfo& find_technique(std::string_view name) {
 }
 
 const Technique& technique_of(const TechniqueInfo& info) {
-    return **std::find_if(kTechniques.begin(), kTechniques.end(), [&](const Technique* t) { return t->info.name == info.name; });
+    return **std::find_if(kTechniques.begin(), kTechniques.end(),
+                          [&](const Technique* t) { return t->info.name == info.name; });
 }
 
 std::string_view status_name(Status status) {
-    constexpr std::array<std::string_view, kStatusCount> kNames = {"ok", "missing_layer", "left_screen", "step_limit", "event_limit"};
+    constexpr std::array<std::string_view, kStatusCount> kNames = {"ok", "missing_layer", "left_screen", "step_limit",
+                                                                   "event_limit"};
     return kNames.at(std::size_t(status));
 }
 
@@ -79,7 +83,8 @@ double ParameterValues::operator[](std::string_view name) const {
 Refraction allocate_refraction(const Frame& frame) {
     Workspace& workspace = frame.workspace;
     const auto vectors = vk::Format::eR32G32B32A32Sfloat;
-    return {workspace.image("exit direction", vectors, frame.extent), workspace.image("exit position", vectors, frame.extent),
+    return {workspace.image("exit direction", vectors, frame.extent),
+            workspace.image("exit position", vectors, frame.extent),
             workspace.image("transmittance", vectors, frame.extent),
             workspace.image("path events", vk::Format::eR32Uint, frame.extent)};
 }

@@ -22,10 +22,10 @@ Refraction allocate_refraction(const Frame& frame);
 
 /// The word in Refraction::events; twin of pack_events in refraction.glsl.
 struct PathEvents {
-    std::uint32_t interfaces;     ///< refractions and reflections, the first interface included
-    std::uint32_t reflections;    ///< total internal reflections among them
+    std::uint32_t interfaces;   ///< refractions and reflections, the first interface included
+    std::uint32_t reflections;  ///< total internal reflections among them
     Status status;
-    bool side_conflict;           ///< somewhere the shading normal faced the other side than the surface
+    bool side_conflict;  ///< somewhere the shading normal faced the other side than the surface
 };
 PathEvents unpack_events(std::uint32_t word);
 
@@ -46,7 +46,8 @@ private:
 struct Technique {
     TechniqueInfo info;
     std::uint32_t (*layer_count)(const ParameterValues& parameters);
-    Refraction (*record)(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters);
+    Refraction (*record)(Recorder& recorder, const Frame& frame, const Layers& layers,
+                         const ParameterValues& parameters);
 };
 const Technique& technique_of(const TechniqueInfo& info);
 

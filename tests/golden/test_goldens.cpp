@@ -28,7 +28,8 @@ TEST_P(Goldens, PictureIsUnchanged) {
     settings.view = golden.view;
     const Image picture = renderer().render(settings).display;
 
-    const std::filesystem::path file = std::filesystem::path(PELLUCID_GOLDEN_FOLDER) / (std::string(golden.name) + ".png");
+    const std::filesystem::path file =
+        std::filesystem::path(PELLUCID_GOLDEN_FOLDER) / (std::string(golden.name) + ".png");
     if (std::getenv("PELLUCID_UPDATE_GOLDENS")) write_image(file, picture);
     const Image expected = read_image(file);
     ASSERT_EQ(picture.pixels.size(), expected.pixels.size());
@@ -45,13 +46,14 @@ TEST_P(Goldens, PictureIsUnchanged) {
     EXPECT_LT(double(different) / double(picture.pixels.size()), 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Goldens,
-                         ::testing::Values(Golden{"goblet_one_interface", "shape:goblet", "studio", "one-interface", View::kRadiance},
-                                           Golden{"goblet_wang_2014", "shape:goblet", "studio", "wang-2014", View::kRadiance},
-                                           Golden{"knot_wang_2014", "shape:knot", "sky", "wang-2014", View::kRadiance},
-                                           Golden{"gem_wang_2014", "shape:gem", "checker", "wang-2014", View::kRadiance},
-                                           Golden{"knot_analysis", "shape:knot", "studio", "wang-2014", View::kAnalysis}),
-                         [](const auto& golden) { return std::string(golden.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    All, Goldens,
+    ::testing::Values(Golden{"goblet_one_interface", "shape:goblet", "studio", "one-interface", View::kRadiance},
+                      Golden{"goblet_wang_2014", "shape:goblet", "studio", "wang-2014", View::kRadiance},
+                      Golden{"knot_wang_2014", "shape:knot", "sky", "wang-2014", View::kRadiance},
+                      Golden{"gem_wang_2014", "shape:gem", "checker", "wang-2014", View::kRadiance},
+                      Golden{"knot_analysis", "shape:knot", "studio", "wang-2014", View::kAnalysis}),
+    [](const auto& golden) { return std::string(golden.param.name); });
 
 }  // namespace
 }  // namespace pellucid::test

@@ -26,7 +26,8 @@ Environment noise_map(int width, int height) {
 Camera turned(float yaw, float pitch) {
     Camera camera;
     camera.vertical_fov = 1.2f;
-    camera.world_from_view = glm::rotate(glm::mat4(1.0f), yaw, glm::vec3(0, 1, 0)) * glm::rotate(glm::mat4(1.0f), pitch, glm::vec3(1, 0, 0));
+    camera.world_from_view =
+        glm::rotate(glm::mat4(1.0f), yaw, glm::vec3(0, 1, 0)) * glm::rotate(glm::mat4(1.0f), pitch, glm::vec3(1, 0, 0));
     return camera;
 }
 
@@ -52,12 +53,14 @@ TEST_F(EnvironmentTest, BackgroundAgreesWithTheCpu) {
     }};
     for (const auto& [name, environment] : environments) {
         int differing = 0, pixels = 0;
-        for (const glm::vec2 turn : {glm::vec2(0.0f, 0.0f), glm::vec2(1.6f, 0.5f), glm::vec2(3.0f, -1.4f), glm::vec2(-1.5f, 1.5f)}) {
+        for (const glm::vec2 turn :
+             {glm::vec2(0.0f, 0.0f), glm::vec2(1.6f, 0.5f), glm::vec2(3.0f, -1.4f), glm::vec2(-1.5f, 1.5f)}) {
             const Camera camera = turned(turn.x, turn.y);
             const Image image = background(environment, camera, kSize);
             for (int y = 0; y < kSize; ++y) {
                 for (int x = 0; x < kSize; ++x) {
-                    const glm::vec3 expected = radiance(environment, glm::vec3(pixel_ray(camera, kSize, kSize, x, y).direction));
+                    const glm::vec3 expected =
+                        radiance(environment, glm::vec3(pixel_ray(camera, kSize, kSize, x, y).direction));
                     const float scale = 1.0f + glm::length(expected);
                     ++pixels;
                     differing += glm::distance(rgb(image, x, y), expected) > 2e-3f * scale ? 1 : 0;
@@ -104,7 +107,8 @@ TEST_F(EnvironmentTest, SolidSphereShowsItUpsideDown) {
     const float fov = 0.5235988f;
     const Bounds bounds{glm::vec3(0.0f), 1.0f};
     // Looking along -Z with the mark 45 degrees to the right, so that it appears on the ball's left.
-    const Image image = background(oriented_map(24), orbit_camera(bounds, 0.0f, 0.0f, framing_distance(fov, 0.7f), fov), kSize);
+    const Image image =
+        background(oriented_map(24), orbit_camera(bounds, 0.0f, 0.0f, framing_distance(fov, 0.7f), fov), kSize);
     EXPECT_GT(rgb(image, 64, 10).r, 0.9f);  // above the ball
     EXPECT_GT(rgb(image, 64, 64 - 25).b, 3.0f * rgb(image, 64, 64 - 25).r);
     EXPECT_GT(rgb(image, 64, 64 + 25).r, 3.0f * rgb(image, 64, 64 + 25).b);

@@ -30,7 +30,8 @@ protected:
         scene_.emplace(device(), scene);
         camera_ = orbit_camera(scene_->bounds, azimuth_deg, 15.0f, framing_distance(0.5236f, 0.8f), 0.5236f);
         gpu::FrameConstants values{};
-        set_camera(values, camera_, extent.width, extent.height, {0.0f, 0.0f}, scene_->bounds, scene_->refractive_corners);
+        set_camera(values, camera_, extent.width, extent.height, {0.0f, 0.0f}, scene_->bounds,
+                   scene_->refractive_corners);
         values.object_count = scene_->object_count;
         constants_.emplace(device(), "constants", sizeof(values), vk::BufferUsageFlagBits::eStorageBuffer, true);
         std::memcpy(constants_->mapped(), &values, sizeof(values));
@@ -51,7 +52,10 @@ protected:
     }
 
 private:
-    Frame frame() { return {workspace(), *scene_, *constants_, workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1}), extent_}; }
+    Frame frame() {
+        return {workspace(), *scene_, *constants_,
+                workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1}), extent_};
+    }
     const GpuImage& opaque_depth(float value) {
         const GpuImage& image = workspace().image("opaque depth", vk::Format::eR32Sfloat, extent_);
         recorder().clear(image, vk::ClearColorValue(std::array{value, 0.0f, 0.0f, 0.0f}));
@@ -88,13 +92,15 @@ Scene glass_scene(std::vector<Mesh> meshes) {
 
 std::size_t fragments(const HostLayers& layers) {
     std::size_t count = 0;
-    for (const auto& layer : layers.depth) count += std::size_t(std::count_if(layer.begin(), layer.end(), [](float d) { return d < 1e29f; }));
+    for (const auto& layer : layers.depth)
+        count += std::size_t(std::count_if(layer.begin(), layer.end(), [](float d) { return d < 1e29f; }));
     return count;
 }
 
 void expect_sorted(const HostLayers& layers) {
     for (std::size_t k = 1; k < layers.depth.size(); ++k) {
-        for (std::size_t i = 0; i < layers.depth[k].size(); ++i) ASSERT_LE(layers.depth[k - 1][i], layers.depth[k][i]) << k << " " << i;
+        for (std::size_t i = 0; i < layers.depth[k].size(); ++i)
+            ASSERT_LE(layers.depth[k - 1][i], layers.depth[k][i]) << k << " " << i;
     }
 }
 
@@ -109,7 +115,8 @@ struct Crossing {
 std::vector<Crossing> cast_ray(const Mesh& mesh, const WorldRay& ray, glm::dvec3 forward, bool& ambiguous) {
     std::vector<Crossing> crossings;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const glm::dvec3 a(mesh.positions[mesh.triangles[t].x]), b(mesh.positions[mesh.triangles[t].y]), c(mesh.positions[mesh.triangles[t].z]);
+        const glm::dvec3 a(mesh.positions[mesh.triangles[t].x]), b(mesh.positions[mesh.triangles[t].y]),
+            c(mesh.positions[mesh.triangles[t].z]);
         const glm::dvec3 p = glm::cross(ray.direction, c - a);
         const double determinant = glm::dot(b - a, p);
         if (determinant == 0.0) continue;
@@ -120,9 +127,11 @@ std::vector<Crossing> cast_ray(const Mesh& mesh, const WorldRay& ray, glm::dvec3
         if (std::abs(inside) < 1e-3) ambiguous = true;
         if (inside < 0.0) continue;
         const double distance = glm::dot(c - a, q) / determinant;
-        if (distance > 0.0) crossings.push_back({distance * glm::dot(ray.direction, forward), std::uint32_t(t), determinant < 0.0});
+        if (distance > 0.0)
+            crossings.push_back({distance * glm::dot(ray.direction, forward), std::uint32_t(t), determinant < 0.0});
     }
-    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.depth < b.depth; });
+    std::sort(crossings.begin(), crossings.end(),
+              [](const Crossing& a, const Crossing& b) { return a.depth < b.depth; });
     return crossings;
 }
 
@@ -148,10 +157,13 @@ TEST_F(LayersTest, AgreeWithRayCasting) {
                     continue;
                 }
                 ++crossed;
-                EXPECT_EQ(record.triangle & ~PELLUCID_BACK_FACE, expected[k].triangle) << x << "," << y << " layer " << k;
-                EXPECT_EQ((record.triangle & PELLUCID_BACK_FACE) != 0, expected[k].back) << x << "," << y << " layer " << k;
+                EXPECT_EQ(record.triangle & ~PELLUCID_BACK_FACE, expected[k].triangle)
+                    << x << "," << y << " layer " << k;
+                EXPECT_EQ((record.triangle & PELLUCID_BACK_FACE) != 0, expected[k].back)
+                    << x << "," << y << " layer " << k;
                 // Rasterised depth is interpolated in single precision.
-                EXPECT_NEAR(layers.depth[k][i], expected[k].depth, 2e-5 * expected[k].depth) << x << "," << y << " layer " << k;
+                EXPECT_NEAR(layers.depth[k][i], expected[k].depth, 2e-5 * expected[k].depth)
+                    << x << "," << y << " layer " << k;
             }
         }
     }
@@ -160,7 +172,8 @@ TEST_F(LayersTest, AgreeWithRayCasting) {
 }
 
 TEST_F(LayersTest, BuildersAgreeOnShapes) {
-    for (const char* shape : {"shape:sphere", "shape:goblet", "shape:gem", "shape:hollow-sphere", "shape:infinity-ring"}) {
+    for (const char* shape :
+         {"shape:sphere", "shape:goblet", "shape:gem", "shape:hollow-sphere", "shape:infinity-ring"}) {
         set_scene(load_scene(shape), {131, 77});
         for (const std::uint32_t count : {1u, 2u, 5u, 11u}) {
             const HostLayers peeled = peel(count);

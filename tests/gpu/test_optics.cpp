@@ -23,7 +23,9 @@ std::vector<Case> random_cases(std::size_t count) {
     std::mt19937 generator(1);
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
-    const auto unit = [&] { return glm::normalize(glm::vec3(normal(generator), normal(generator), normal(generator))); };
+    const auto unit = [&] {
+        return glm::normalize(glm::vec3(normal(generator), normal(generator), normal(generator)));
+    };
     std::vector<Case> cases;
     for (std::size_t i = 0; i < count; ++i) {
         const glm::vec3 n = unit();
@@ -42,8 +44,8 @@ TEST_F(OpticsTwin, ShaderAgreesWithCpp) {
     const Buffer& input = workspace().buffer("cases", cases.size() * sizeof(Case), true);
     const Buffer& output = workspace().buffer("answers", cases.size() * sizeof(Answer), true);
     std::memcpy(input.mapped(), cases.data(), input.size());
-    recorder().compute(workspace().compute({"optics_twin.comp", kShader}), {reads("Cases", input), writes("Answers", output)},
-                       {std::uint32_t(cases.size()), 1});
+    recorder().compute(workspace().compute({"optics_twin.comp", kShader}),
+                       {reads("Cases", input), writes("Answers", output)}, {std::uint32_t(cases.size()), 1});
     recorder().submit_and_wait();
     const std::vector<Answer> answers = read_back<Answer>(output);
 

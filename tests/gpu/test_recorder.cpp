@@ -27,11 +27,18 @@ TEST_F(RecorderTest, MismatchesNameShaderAndPass) {
                 ThrowsMessage<std::logic_error>(AllOf(HasSubstr("optics_twin.comp"), HasSubstr("Answers"))));
     EXPECT_THAT([&] { record(reads("Answers", buffer)); },
                 ThrowsMessage<std::logic_error>(AllOf(HasSubstr("shader writes 'Answers'"), HasSubstr("pass reads"))));
-    EXPECT_THAT([&] { record(writes("Answers", image)); }, ThrowsMessage<std::logic_error>(HasSubstr("the other kind")));
-    EXPECT_THAT([&] { recorder().compute(program, {reads("Cases", buffer)}, {1, 1}); },
-                ThrowsMessage<std::logic_error>(HasSubstr("2 bindings")));
-    EXPECT_THAT([&] { recorder().compute(program, {reads("Cases", buffer), writes("Answers", buffer)}, 1.0f, {1, 1}); },
-                ThrowsMessage<std::logic_error>(HasSubstr("push constants")));
+    EXPECT_THAT([&] { record(writes("Answers", image)); },
+                ThrowsMessage<std::logic_error>(HasSubstr("the other kind")));
+    EXPECT_THAT(
+        [&] {
+            recorder().compute(program, {reads("Cases", buffer)}, {1, 1});
+        },
+        ThrowsMessage<std::logic_error>(HasSubstr("2 bindings")));
+    EXPECT_THAT(
+        [&] {
+            recorder().compute(program, {reads("Cases", buffer), writes("Answers", buffer)}, 1.0f, {1, 1});
+        },
+        ThrowsMessage<std::logic_error>(HasSubstr("push constants")));
     recorder().restart();
 }
 

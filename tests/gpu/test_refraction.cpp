@@ -15,7 +15,8 @@ RenderSettings settings_for(std::string technique, std::uint32_t size) {
     RenderSettings settings;
     settings.width = settings.height = size;
     settings.technique = std::move(technique);
-    settings.aovs = {"exit-direction", "exit-position", "path-length", "events", "status", "depth", "normal", "object", "layers"};
+    settings.aovs = {"exit-direction", "exit-position", "path-length", "events", "status",
+                     "depth",          "normal",        "object",      "layers"};
     return settings;
 }
 
@@ -40,7 +41,8 @@ std::optional<SphereExit> through_unit_sphere(WorldRay ray) {
 
 class Refraction : public RendererTest {
 protected:
-    RenderResult render(const std::string& scene, const RenderSettings& settings, const Camera& camera, const LoadOptions& options = {}) {
+    RenderResult render(const std::string& scene, const RenderSettings& settings, const Camera& camera,
+                        const LoadOptions& options = {}) {
         renderer().set_scene(load_scene(scene, options));
         renderer().set_camera(camera);
         renderer().set_environment(uniform_environment());
@@ -58,8 +60,8 @@ Camera parallel_camera(float angle, float extent) {
     Camera camera;
     camera.orthographic = true;
     camera.vertical_extent = extent;
-    camera.world_from_view = glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0)) *
-                             glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 10));
+    camera.world_from_view =
+        glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0)) * glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 10));
     return camera;
 }
 
@@ -81,7 +83,8 @@ TEST_F(Refraction, SphereExitsWhereTheFormulaSays) {
             const bool good = angle_deg(rgb(result.aovs.at("exit-direction"), x, y), exact->direction) <= 1.0;
             right += good ? 1 : 0;
             if (!good) continue;
-            worst_position = std::max(worst_position, glm::distance(glm::dvec3(rgb(result.aovs.at("exit-position"), x, y)), exact->position));
+            worst_position = std::max(
+                worst_position, glm::distance(glm::dvec3(rgb(result.aovs.at("exit-position"), x, y)), exact->position));
             EXPECT_NEAR(*result.aovs.at("path-length").at(x, y), exact->length, 0.05);
         }
     }
@@ -144,8 +147,8 @@ TEST_F(Refraction, AbsorptionAndFresnelThroughASlab) {
     options.attenuation_color = glm::vec3(0.2f, 0.5f, 0.9f);
     options.attenuation_distance = 0.5f;
     const double thickness = 0.3;
-    const RenderResult result =
-        render("shape:slab,width=2,height=2,thickness=0.3", settings_for("wang-2014", 33), parallel_camera(0.0f, 0.4f), options);
+    const RenderResult result = render("shape:slab,width=2,height=2,thickness=0.3", settings_for("wang-2014", 33),
+                                       parallel_camera(0.0f, 0.4f), options);
     const double reflectance = std::pow((kIor - 1.0) / (kIor + 1.0), 2.0);
     for (int c = 0; c < 3; ++c) {
         const double absorbed = std::pow(double((*options.attenuation_color)[c]), thickness / 0.5);
@@ -182,7 +185,8 @@ TEST_F(Refraction, StatusIsSetWhereAnInterfaceIsMissing) {
     EXPECT_EQ(inside.covered, 32u * 32u);
     EXPECT_EQ(inside.status[std::size_t(Status::kMissingLayer)], inside.covered);
     // So close that paths leave the picture inside the glass.
-    const RenderResult close = render("shape:torus", settings_for("wang-2014", 64), framing("shape:torus", 0.0f, 0.0f, 0.99f));
+    const RenderResult close =
+        render("shape:torus", settings_for("wang-2014", 64), framing("shape:torus", 0.0f, 0.0f, 0.99f));
     EXPECT_GT(close.status[std::size_t(Status::kOk)], 0u);
     std::uint64_t sum = 0;
     for (const std::uint64_t count : close.status) sum += count;

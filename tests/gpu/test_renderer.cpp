@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <unistd.h>
+#include <fstream>
 
 namespace pellucid::test {
 namespace {
@@ -31,7 +31,8 @@ using RendererSuite = RendererTest;
 
 TEST_F(RendererSuite, AnySizeInAnyOrder) {
     renderer().set_scene(load_scene("shape:torus"));
-    for (const auto& [width, height] : {std::pair{17u, 13u}, {1u, 1u}, {4001u, 3u}, {3u, 1501u}, {64u, 64u}, {17u, 13u}}) {
+    for (const auto& [width, height] :
+         {std::pair{17u, 13u}, {1u, 1u}, {4001u, 3u}, {3u, 1501u}, {64u, 64u}, {17u, 13u}}) {
         for (const LayerBuilder builder : {LayerBuilder::kSinglePass, LayerBuilder::kDepthPeeling}) {
             RenderSettings settings = sized(width, height);
             settings.layer_builder = builder;
@@ -100,7 +101,8 @@ TEST_F(RendererSuite, EveryPixelHasAStatusAndNoNanWhateverTheMesh) {
     std::vector<std::string> scenes = {"shape:gem", "shape:knot", "shape:hollow-sphere", "shape:cube", "shape:slab"};
     if (!data_folder().empty()) {
         // Open, non-manifold and inverted meshes.
-        for (const char* model : {"teapot.obj", "suzanne.obj", "f16.ply", "dragon_vrip_res3.ply", "horse.ply", "stanford-bunny.obj"}) {
+        for (const char* model :
+             {"teapot.obj", "suzanne.obj", "f16.ply", "dragon_vrip_res3.ply", "horse.ply", "stanford-bunny.obj"}) {
             scenes.push_back(data_folder() / "models" / model);
         }
     }
@@ -119,7 +121,9 @@ TEST_F(RendererSuite, EveryPixelHasAStatusAndNoNanWhateverTheMesh) {
             for (const auto& [name, image] : result.aovs) EXPECT_TRUE(all_finite(image)) << scene << " " << name;
             const Image& direction = result.aovs.at("exit-direction");
             for (std::size_t i = 0; i < direction.pixels.size(); i += 3) {
-                ASSERT_NEAR(glm::length(glm::vec3(direction.pixels[i], direction.pixels[i + 1], direction.pixels[i + 2])), 1.0f, 1e-4f);
+                ASSERT_NEAR(
+                    glm::length(glm::vec3(direction.pixels[i], direction.pixels[i + 1], direction.pixels[i + 2])), 1.0f,
+                    1e-4f);
             }
         }
     }
@@ -141,7 +145,8 @@ TEST_F(RendererSuite, SamplesConvergeAndAovsStay) {
     EXPECT_EQ(one.covered, many.covered);
     const auto rms = [](const Image& a, const Image& b) {
         double sum = 0.0;
-        for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2.0);
+        for (std::size_t i = 0; i < a.pixels.size(); ++i)
+            sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2.0);
         return std::sqrt(sum / double(a.pixels.size()));
     };
     EXPECT_LT(rms(many.radiance, more.radiance), 0.3 * rms(one.radiance, more.radiance));
@@ -203,8 +208,10 @@ TEST(RendererDevice, UnknownDeviceListsTheKnown) {
     } catch (const DeviceError& error) {
         GTEST_SKIP() << error.what();
     }
-    EXPECT_THAT([] { Renderer({.device = "no such device", .validation = false}); }, ThrowsMessage<Error>(HasSubstr("found: 0 (")));
-    EXPECT_THAT([] { Renderer({.device = "99", .validation = false}); }, ThrowsMessage<Error>(HasSubstr("unknown device '99'")));
+    EXPECT_THAT([] { Renderer({.device = "no such device", .validation = false}); },
+                ThrowsMessage<Error>(HasSubstr("found: 0 (")));
+    EXPECT_THAT([] { Renderer({.device = "99", .validation = false}); },
+                ThrowsMessage<Error>(HasSubstr("unknown device '99'")));
 }
 
 }  // namespace

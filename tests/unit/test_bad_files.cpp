@@ -43,7 +43,8 @@ const char kPly[] =
     "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
 const char kOff[] = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
 const char kStl[] =
-    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid "
+    "a\n";
 
 std::vector<std::pair<std::string, std::string>> good_files() {
     std::string binary_ply =
@@ -58,9 +59,10 @@ std::vector<std::pair<std::string, std::string>> good_files() {
     binary_stl.append(reinterpret_cast<const char*>(positions), sizeof positions).append(2, '\0');
     GltfBuilder gltf = GltfBuilder::triangle();
     const std::string glb = gltf.glb_bytes();
-    gltf.root["buffers"][0]["uri"] = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
-    return {{"a.obj", kObj}, {"a.ply", kPly}, {"b.ply", binary_ply}, {"a.off", kOff}, {"a.stl", kStl},
-            {"b.stl", binary_stl}, {"a.glb", glb}, {"a.gltf", gltf.root.dump()}};
+    gltf.root["buffers"][0]["uri"] =
+        "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    return {{"a.obj", kObj}, {"a.ply", kPly},       {"b.ply", binary_ply}, {"a.off", kOff},
+            {"a.stl", kStl}, {"b.stl", binary_stl}, {"a.glb", glb},        {"a.gltf", gltf.root.dump()}};
 }
 
 TEST(BadFiles, TheGoodOnesAreGood) {
@@ -130,30 +132,41 @@ TEST(BadFiles, NumbersThatAreNone) {
     EXPECT_NE(outcome(folder.file("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "nan.obj"), "");
     EXPECT_NE(outcome(folder.file("inf.obj", "v inf 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "inf.obj"), "");
     EXPECT_NE(outcome(folder.file("nan.off", "OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "nan.off"), "");
-    EXPECT_NE(outcome(folder.file("far.obj", "v 1e30 0 0\nv 0 1e30 0\nv 0 0 1e30\nf 1 2 3\n"), "far.obj").find("too large"), std::string::npos);
-    EXPECT_NE(outcome(folder.file("one.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"), "one.obj").find("no triangles"), std::string::npos);
+    EXPECT_NE(
+        outcome(folder.file("far.obj", "v 1e30 0 0\nv 0 1e30 0\nv 0 0 1e30\nf 1 2 3\n"), "far.obj").find("too large"),
+        std::string::npos);
+    EXPECT_NE(outcome(folder.file("one.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"), "one.obj").find("no triangles"),
+              std::string::npos);
     for (const float bad : {NAN, INFINITY}) {
         GltfBuilder b;
         b.mesh({{"POSITION", b.attribute<float>({0, 0, 0, 1, bad, 0, 0, 1, 0}, kFloat, "VEC3", 3)}});
         b.node({{"mesh", 0}});
-        EXPECT_NE(outcome(b.gltf(folder), "a.gltf").find("mesh thing primitive 0: a position is not finite"), std::string::npos);
+        EXPECT_NE(outcome(b.gltf(folder), "a.gltf").find("mesh thing primitive 0: a position is not finite"),
+                  std::string::npos);
     }
 }
 
 TEST(BadFiles, IndicesOutOfRange) {
     const TemporaryFolder folder;
-    for (const char* face : {"f 1 2 4", "f 0 1 2", "f -1 -2 -4", "f 1 2 99999999999999999999", "f 1 2 -2147483648",
-                             "f 1//1 2//1 3//7"})
-        EXPECT_NE(outcome(folder.file("i.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n" + std::string(face) + "\n"), "i.obj"), "") << face;
+    for (const char* face :
+         {"f 1 2 4", "f 0 1 2", "f -1 -2 -4", "f 1 2 99999999999999999999", "f 1 2 -2147483648", "f 1//1 2//1 3//7"})
+        EXPECT_NE(
+            outcome(folder.file("i.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n" + std::string(face) + "\n"), "i.obj"),
+            "")
+            << face;
     for (const char* face : {"3 0 1 3", "3 0 1 -1", "4 0 1 2", "3 0 1 99999999999999999999"})
-        EXPECT_NE(outcome(folder.file("i.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + std::string(face) + "\n"), "i.off"), "") << face;
+        EXPECT_NE(
+            outcome(folder.file("i.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + std::string(face) + "\n"), "i.off"), "")
+            << face;
     for (const char* index : {"4", "-1", "99999999999999999999", "1.5"})
-        EXPECT_NE(outcome(folder.file("i.ply", std::string(kPly, sizeof kPly - 3) + index + "\n"), "i.ply"), "") << index;
+        EXPECT_NE(outcome(folder.file("i.ply", std::string(kPly, sizeof kPly - 3) + index + "\n"), "i.ply"), "")
+            << index;
 }
 
 TEST(BadFiles, CountsThatTheFileIsTooShortFor) {
     const TemporaryFolder folder;
-    for (const char* count : {"5", "1000000", "353535235358", "18446744073709551615", "99999999999999999999999", "-1", "x"}) {
+    for (const char* count :
+         {"5", "1000000", "353535235358", "18446744073709551615", "99999999999999999999999", "-1", "x"}) {
         std::string ply = kPly, off = kOff;
         ply.replace(ply.find("vertex 4") + 7, 1, count);
         EXPECT_NE(outcome(folder.file("c.ply", ply), "c.ply"), "") << count;
@@ -184,7 +197,10 @@ TEST(BadFiles, GltfReferencesOutOfRange) {
     const auto primitive = [](json& root) -> json& { return root["meshes"][1]["primitives"][0]; };
     const std::function<void(json&)> changes[] = {
         [&](json& r) { primitive(r)["attributes"]["POSITION"] = 9; },
-        [&](json& r) { primitive(r)["attributes"]["POSITION"] = -1000; r["meshes"][0]["primitives"][0]["mode"] = 9; },
+        [&](json& r) {
+            primitive(r)["attributes"]["POSITION"] = -1000;
+            r["meshes"][0]["primitives"][0]["mode"] = 9;
+        },
         [&](json& r) { primitive(r)["attributes"]["NORMAL"] = 99; },
         [&](json& r) { primitive(r)["indices"] = 99; },
         [&](json& r) { primitive(r)["material"] = 0; },
@@ -193,7 +209,10 @@ TEST(BadFiles, GltfReferencesOutOfRange) {
         [&](json& r) { r["accessors"][0]["byteOffset"] = 18446744073709551615ull; },
         [&](json& r) { r["accessors"][0]["byteOffset"] = 1; },
         [&](json& r) { r["accessors"][0]["bufferView"] = 7; },
-        [&](json& r) { r["accessors"][0].erase("bufferView"); r["accessors"][0]["count"] = 1000000000000ull; },
+        [&](json& r) {
+            r["accessors"][0].erase("bufferView");
+            r["accessors"][0]["count"] = 1000000000000ull;
+        },
         [&](json& r) { r["accessors"][0]["componentType"] = 5130; },
         [&](json& r) { r["accessors"][0]["componentType"] = 5124; },
         [&](json& r) { r["accessors"][0]["componentType"] = 1; },
@@ -209,8 +228,17 @@ TEST(BadFiles, GltfReferencesOutOfRange) {
         [&](json& r) { r["buffers"][0]["byteLength"] = -1; },
         [&](json& r) { r["buffers"][0]["uri"] = "missing-a.bin"; },
         [&](json& r) { r["buffers"][0].erase("uri"); },
-        [&](json& r) { r["accessors"][0]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", 1}, {"componentType", kUnsignedShort}, {"byteOffset", 6}}}, {"values", {{"bufferView", 0}}}}; },
-        [&](json& r) { r["accessors"][0]["sparse"] = {{"count", -1}, {"indices", {{"bufferView", 1}, {"componentType", kUnsignedShort}}}, {"values", {{"bufferView", 0}}}}; },
+        [&](json& r) {
+            r["accessors"][0]["sparse"] = {
+                {"count", 1},
+                {"indices", {{"bufferView", 1}, {"componentType", kUnsignedShort}, {"byteOffset", 6}}},
+                {"values", {{"bufferView", 0}}}};
+        },
+        [&](json& r) {
+            r["accessors"][0]["sparse"] = {{"count", -1},
+                                           {"indices", {{"bufferView", 1}, {"componentType", kUnsignedShort}}},
+                                           {"values", {{"bufferView", 0}}}};
+        },
         [&](json& r) { r["nodes"][0]["mesh"] = 5; },
         [&](json& r) { r["nodes"][0]["camera"] = 5; },
         [&](json& r) { r["nodes"][0]["children"] = {-7}; },
@@ -231,15 +259,23 @@ TEST(BadFiles, GltfWithValuesOfWrongTypes) {
     b.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
     b.root["extensionsUsed"] = {"KHR_materials_volume"};
     const json info = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"offset", {0, 1}}}}}}};
-    b.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}, {"baseColorTexture", info}, {"metallicRoughnessTexture", {{"index", 1}}}}},
-                            {"normalTexture", {{"index", 1}}}, {"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", info},
-                            {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}, {"transmissionTexture", info}}},
-                                            {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationColor", {1, 1, 1}}}}}}}};
+    b.root["materials"] = {
+        {{"pbrMetallicRoughness",
+          {{"baseColorFactor", {1, 1, 1, 1}},
+           {"baseColorTexture", info},
+           {"metallicRoughnessTexture", {{"index", 1}}}}},
+         {"normalTexture", {{"index", 1}}},
+         {"emissiveFactor", {1, 1, 1}},
+         {"emissiveTexture", info},
+         {"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1}, {"transmissionTexture", info}}},
+           {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationColor", {1, 1, 1}}}}}}}};
     b.root["meshes"][0]["primitives"][0]["material"] = 0;
     b.node({{"camera", 0}, {"rotation", {0, 0, 0, 1}}, {"scale", {1, 1, 1}}});
     b.root["nodes"][0]["children"] = {1};
     b.gltf(folder);
-    const json substitutes[] = {nullptr, true, -1, 7, 1e300, "text", json::array(), {1, "two"}, json::object(), {{"a", 1}}};
+    const json substitutes[] = {nullptr,    true,           -1,        7, 1e300, "text", json::array(),
+                                {1, "two"}, json::object(), {{"a", 1}}};
     const json flat = b.root.flatten();
     std::set<std::string> places;
     for (const auto& [place, value] : flat.items())
@@ -261,7 +297,9 @@ TEST(BadFiles, JsonNestedTooDeeply) {
     const std::string deep(1000000, '[');
     EXPECT_NE(outcome(folder.file("d.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep), "d.gltf"), "");
     const std::string closed = deep + std::string(deep.size(), ']');
-    EXPECT_NE(outcome(folder.file("e.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + closed + "}"), "e.gltf").find("deep"), std::string::npos);
+    EXPECT_NE(outcome(folder.file("e.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + closed + "}"), "e.gltf")
+                  .find("deep"),
+              std::string::npos);
 }
 
 TEST(BadFiles, GlbHeadersThatLie) {
@@ -281,43 +319,42 @@ struct Known {
     const char* file;
     const char* error;  ///< part of the message; empty: loads
 };
-const Known kKnown[] = {
-    {"gltf/assimp_BoxBadNormals-glTF-Binary/BoxBadNormals.glb", ""},
-    {"gltf/assimp_BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "not finite"},
-    {"gltf/assimp_IncorrectVertexArrays/Cube.gltf", ""},
-    {"gltf/assimp_IndexOutOfRange/AllIndicesOutOfRange.gltf", "refers to vertex 65535"},
-    {"gltf/assimp_IndexOutOfRange/IndexOutOfRange.gltf", "refers to vertex 255"},
-    {"gltf/assimp_MissingBin/BoxTextured.gltf", "BoxTextured0.bin: no such file"},
-    {"gltf/assimp_RecursiveNodes/RecursiveNodes.gltf", "own ancestor"},
-    {"gltf/assimp_SchemaFailures/sceneWrongType.gltf", "BoxTextured0.bin: no such file"},
-    {"gltf/assimp_TestNoRootNode/NoScene.gltf", "no triangles"},
-    {"gltf/assimp_TestNoRootNode/SceneWithoutNodes.gltf", "no triangles"},
-    {"gltf/assimp_issue_3269/texcoord_crash.gltf", ""},
-    {"gltf/assimp_wrongTypes/badArray.gltf", "no triangles"},
-    {"gltf/assimp_wrongTypes/badExtension.gltf", ""},
-    {"gltf/assimp_wrongTypes/badNumber.gltf", ""},
-    {"gltf/assimp_wrongTypes/badObject.gltf", ""},
-    {"gltf/assimp_wrongTypes/badString.gltf", ""},
-    {"gltf/assimp_wrongTypes/badUint.gltf", ""},
-    {"ply_off/assimp_OutOfMemory.off", "353535235358 vertices"},
-    {"ply_off/assimp_crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply", "end_header"},
-    {"ply_off/assimp_empty.off", "is empty"},
-    {"ply_off/assimp_empty.ply", "is empty"},
-    {"ply_off/assimp_invalid.off", "OFF"},
-    {"obj/assimp_box_UTF16BE.obj", "contains no mesh"},
-    {"obj/assimp_empty.obj", "is empty"},
-    {"obj/assimp_malformed.obj", "line 28: face refers to a vertex"},
-    {"obj/assimp_number_formats.obj", "no triangles"},
-    {"obj/assimp_point_cloud.obj", "no triangles"},
-    {"obj/assimp_testline.obj", "no triangles"},
-    {"obj/tinyobj_invalid-face-definition.obj", "no triangles"},
-    {"obj/tinyobj_invalid-relative-texture-index.obj", "line 2: face refers to vertex 1"},
-    {"obj/tinyobj_invalid-relative-vertex-index.obj", "line 1: face refers to a vertex"},
-    {"obj/tinyobj_issue-140-zero-face-idx.obj", "line 16: face refers to a vertex"},
-    {"obj/tinyobj_issue-356-leading-spaces-newmtl.obj", "contains no mesh"},
-    {"obj/tinyobj_line-prim.obj", "no triangles"},
-    {"obj/tinyobj_points-prim.obj", "no triangles"},
-    {"obj/tinyobj_test-nan.obj", "not finite"}};
+const Known kKnown[] = {{"gltf/assimp_BoxBadNormals-glTF-Binary/BoxBadNormals.glb", ""},
+                        {"gltf/assimp_BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "not finite"},
+                        {"gltf/assimp_IncorrectVertexArrays/Cube.gltf", ""},
+                        {"gltf/assimp_IndexOutOfRange/AllIndicesOutOfRange.gltf", "refers to vertex 65535"},
+                        {"gltf/assimp_IndexOutOfRange/IndexOutOfRange.gltf", "refers to vertex 255"},
+                        {"gltf/assimp_MissingBin/BoxTextured.gltf", "BoxTextured0.bin: no such file"},
+                        {"gltf/assimp_RecursiveNodes/RecursiveNodes.gltf", "own ancestor"},
+                        {"gltf/assimp_SchemaFailures/sceneWrongType.gltf", "BoxTextured0.bin: no such file"},
+                        {"gltf/assimp_TestNoRootNode/NoScene.gltf", "no triangles"},
+                        {"gltf/assimp_TestNoRootNode/SceneWithoutNodes.gltf", "no triangles"},
+                        {"gltf/assimp_issue_3269/texcoord_crash.gltf", ""},
+                        {"gltf/assimp_wrongTypes/badArray.gltf", "no triangles"},
+                        {"gltf/assimp_wrongTypes/badExtension.gltf", ""},
+                        {"gltf/assimp_wrongTypes/badNumber.gltf", ""},
+                        {"gltf/assimp_wrongTypes/badObject.gltf", ""},
+                        {"gltf/assimp_wrongTypes/badString.gltf", ""},
+                        {"gltf/assimp_wrongTypes/badUint.gltf", ""},
+                        {"ply_off/assimp_OutOfMemory.off", "353535235358 vertices"},
+                        {"ply_off/assimp_crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply", "end_header"},
+                        {"ply_off/assimp_empty.off", "is empty"},
+                        {"ply_off/assimp_empty.ply", "is empty"},
+                        {"ply_off/assimp_invalid.off", "OFF"},
+                        {"obj/assimp_box_UTF16BE.obj", "contains no mesh"},
+                        {"obj/assimp_empty.obj", "is empty"},
+                        {"obj/assimp_malformed.obj", "line 28: face refers to a vertex"},
+                        {"obj/assimp_number_formats.obj", "no triangles"},
+                        {"obj/assimp_point_cloud.obj", "no triangles"},
+                        {"obj/assimp_testline.obj", "no triangles"},
+                        {"obj/tinyobj_invalid-face-definition.obj", "no triangles"},
+                        {"obj/tinyobj_invalid-relative-texture-index.obj", "line 2: face refers to vertex 1"},
+                        {"obj/tinyobj_invalid-relative-vertex-index.obj", "line 1: face refers to a vertex"},
+                        {"obj/tinyobj_issue-140-zero-face-idx.obj", "line 16: face refers to a vertex"},
+                        {"obj/tinyobj_issue-356-leading-spaces-newmtl.obj", "contains no mesh"},
+                        {"obj/tinyobj_line-prim.obj", "no triangles"},
+                        {"obj/tinyobj_points-prim.obj", "no triangles"},
+                        {"obj/tinyobj_test-nan.obj", "not finite"}};
 
 TEST(BadFiles, Collected) {
     const std::filesystem::path folder = data_folder() / "bad";
@@ -328,7 +365,8 @@ TEST(BadFiles, Collected) {
         const std::string name = std::filesystem::relative(entry.path(), folder).generic_string();
         SCOPED_TRACE(name);
         const std::string error = outcome(entry.path().string(), folder.string());
-        const auto known = std::find_if(std::begin(kKnown), std::end(kKnown), [&](const Known& k) { return name == k.file; });
+        const auto known =
+            std::find_if(std::begin(kKnown), std::end(kKnown), [&](const Known& k) { return name == k.file; });
         const std::string extension = entry.path().extension().string();
         if (known != std::end(kKnown)) {
             ++seen;

@@ -12,8 +12,8 @@ const Bounds kBounds{{1.0f, 2.0f, 3.0f}, 2.0f};
 constexpr float kFov = 0.5f;
 
 void expect_near(glm::vec3 a, glm::vec3 b) {
-    EXPECT_LT(glm::length(a - b), 1e-5f) << a.x << " " << a.y << " " << a.z << " instead of " << b.x << " "
-                                         << b.y << " " << b.z;
+    EXPECT_LT(glm::length(a - b), 1e-5f) << a.x << " " << a.y << " " << a.z << " instead of " << b.x << " " << b.y
+                                         << " " << b.z;
 }
 
 TEST(OrbitCamera, StandsWhereTheAnglesSay) {

@@ -40,8 +40,8 @@ glm::vec3 direction_at(double u, double v) {
 
 void expect_near(glm::vec3 actual, glm::vec3 expected, float tolerance) {
     EXPECT_LT(glm::length(actual - expected), tolerance)
-        << actual.x << ' ' << actual.y << ' ' << actual.z << " against " << expected.x << ' ' << expected.y
-        << ' ' << expected.z;
+        << actual.x << ' ' << actual.y << ' ' << actual.z << " against " << expected.x << ' ' << expected.y << ' '
+        << expected.z;
 }
 
 TEST(EnvironmentMap, OrientationOfTheAxes) {
@@ -59,8 +59,7 @@ TEST(EnvironmentMap, TexelCentresAreExact) {
     const Environment map = numbered_map();
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 8; ++x)
-            expect_near(radiance(map, direction_at((x + 0.5) / 8.0, (y + 0.5) / 4.0)),
-                        {float(x), float(y), 1}, 1e-5f);
+            expect_near(radiance(map, direction_at((x + 0.5) / 8.0, (y + 0.5) / 4.0)), {float(x), float(y), 1}, 1e-5f);
 }
 
 TEST(EnvironmentMap, SeamIsContinuous) {
@@ -76,8 +75,8 @@ TEST(EnvironmentMap, SmallestMapAndSlightlyLongDirections) {
     map.kind = Environment::Kind::kMap;
     map.map = Image(1, 1, 3);
     map.map.pixels = {1, 2, 3};
-    for (const glm::vec3 d : {glm::vec3(0, 1.0000001f, 0), glm::vec3(0, -1.0000001f, 0),
-                              glm::vec3(-1, 0, -0.0f), glm::vec3(-1, 0, 0)})
+    for (const glm::vec3 d :
+         {glm::vec3(0, 1.0000001f, 0), glm::vec3(0, -1.0000001f, 0), glm::vec3(-1, 0, -0.0f), glm::vec3(-1, 0, 0)})
         expect_near(radiance(map, d), {1, 2, 3}, 1e-6f);
 }
 
@@ -145,8 +144,8 @@ TEST(Irradiance, OfAUniformEnvironmentIsPiEverywhere) {
     std::fill(map.map.pixels.begin(), map.map.pixels.end(), 1.0f);
     for (const Environment& environment : {load_environment("uniform"), map}) {
         const auto coefficients = irradiance_coefficients(environment);
-        for (const glm::vec3 n : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, -1),
-                                  glm::normalize(glm::vec3(1, -2, 3))})
+        for (const glm::vec3 n :
+             {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, -1), glm::normalize(glm::vec3(1, -2, 3))})
             expect_near(irradiance(coefficients, n), glm::vec3(kPi), 2e-3f);
     }
 }
@@ -177,8 +176,7 @@ TEST(Irradiance, FormulaAndItsMapAgree) {
         map.map = Image(2048, 1024, 3);
         for (int y = 0; y < 1024; ++y)
             for (int x = 0; x < 2048; ++x) {
-                const glm::vec3 value =
-                    radiance(formula, direction_at((x + 0.5) / 2048.0, (y + 0.5) / 1024.0));
+                const glm::vec3 value = radiance(formula, direction_at((x + 0.5) / 2048.0, (y + 0.5) / 1024.0));
                 for (int channel = 0; channel < 3; ++channel) map.map.at(x, y)[channel] = value[channel];
             }
         const auto from_formula = irradiance_coefficients(formula);
@@ -191,8 +189,7 @@ TEST(Irradiance, FormulaAndItsMapAgree) {
 /// A file that is gone when the test is over.
 class TemporaryFile {
 public:
-    explicit TemporaryFile(const std::string& name)
-        : path_(std::filesystem::path(testing::TempDir()) / name) {}
+    explicit TemporaryFile(const std::string& name) : path_(std::filesystem::path(testing::TempDir()) / name) {}
     ~TemporaryFile() { std::filesystem::remove(path_); }
     std::string path() const { return path_.string(); }
 

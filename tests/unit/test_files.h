@@ -42,9 +42,7 @@ public:
         return (path_ / name).string();
     }
 
-    std::size_t size() const {
-        return std::size_t(std::distance(std::filesystem::directory_iterator(path_), {}));
-    }
+    std::size_t size() const { return std::size_t(std::distance(std::filesystem::directory_iterator(path_), {})); }
 
 private:
     std::filesystem::path path_;
@@ -101,12 +99,14 @@ inline std::string broken_promise(const Scene& scene) {
     }
     for (const Object& object : scene.objects) {
         if (object.mesh < 0 || std::size_t(object.mesh) >= scene.meshes.size()) return object.name + ": mesh";
-        if (object.material < 0 || std::size_t(object.material) >= scene.materials.size()) return object.name + ": material";
+        if (object.material < 0 || std::size_t(object.material) >= scene.materials.size())
+            return object.name + ": material";
         if (!(std::abs(glm::determinant(object.world_from_object)) > 0.0f)) return object.name + ": singular";
     }
     if (scene.images.size() != scene.image_names.size()) return "image names";
     for (const Material& material : scene.materials)
-        for (const Texture& texture : {material.base_color_texture, material.emission_texture, material.transmission_texture})
+        for (const Texture& texture :
+             {material.base_color_texture, material.emission_texture, material.transmission_texture})
             if (texture.image >= int(scene.images.size())) return material.name + ": image";
     for (const std::string& warning : scene.warnings)
         if (warning.empty() || warning.find('\n') != warning.npos) return "a warning is not one line";

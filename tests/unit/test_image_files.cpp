@@ -85,7 +85,8 @@ TEST(ImageFiles, TheSameImageGivesTheSameBytes) {
     for (const char* extension : {".png", ".exr"}) {
         write_image(folder / ("a" + std::string(extension)), image);
         write_image(folder / ("b" + std::string(extension)), image);
-        EXPECT_EQ(content_of(folder / ("a" + std::string(extension))), content_of(folder / ("b" + std::string(extension))));
+        EXPECT_EQ(content_of(folder / ("a" + std::string(extension))),
+                  content_of(folder / ("b" + std::string(extension))));
     }
 }
 
@@ -104,7 +105,8 @@ TEST(ImageFiles, RefusesWhatIsNoImage) {
     const TemporaryFolder folder;
     EXPECT_NE(error_of([] { decode_image("hello world", 11, "greeting"); }).find("greeting"), std::string::npos);
     EXPECT_NE(error_of([] { decode_image("", 0, "nothing"); }).find("nothing"), std::string::npos);
-    EXPECT_NE(error_of([&] { read_image(folder / "missing.png"); }).find("missing.png: no such file"), std::string::npos);
+    EXPECT_NE(error_of([&] { read_image(folder / "missing.png"); }).find("missing.png: no such file"),
+              std::string::npos);
     EXPECT_NE(error_of([&] { read_image(folder.path()); }), "");
     for (const char* name : {"text.png", "text.exr", "text.hdr", "text.jpg"})
         EXPECT_NE(error_of([&] { read_image(folder.file(name, "this is no image")); }).find(name), std::string::npos);
@@ -180,7 +182,8 @@ TEST(ImageFiles, FailedWriteKeepsTheOldFile) {
 
 TEST(ImageFiles, UnwritableFolder) {
     const TemporaryFolder folder;
-    std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+    std::filesystem::permissions(folder.path(),
+                                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
     if (access(folder.path().c_str(), W_OK) == 0) GTEST_SKIP() << "this user may write everywhere";
     EXPECT_NE(error_of([&] { write_image(folder / "a.png", Image(2, 2, 3)); }).find("cannot write into folder"),
               std::string::npos);

@@ -40,8 +40,10 @@ std::string ply_of(const Mesh& mesh, const std::string& format) {
         format, mesh.positions.size(), mesh.triangles.size());
     const bool big = format == "binary_big_endian";
     for (const glm::vec3 p : mesh.positions) {
-        if (format == "ascii") ply += fmt::format("{} {} {}\n", p.x, p.y, p.z);
-        else for (int k = 0; k < 3; ++k) put(ply, p[k], big);
+        if (format == "ascii")
+            ply += fmt::format("{} {} {}\n", p.x, p.y, p.z);
+        else
+            for (int k = 0; k < 3; ++k) put(ply, p[k], big);
     }
     for (const glm::uvec3 t : mesh.triangles) {
         if (format == "ascii") {
@@ -86,11 +88,14 @@ std::string off_of(const Mesh& mesh) {
 TEST(LoadMeshFile, EveryFormatGivesTheSameGlassCube) {
     const TemporaryFolder folder;
     const Mesh cube = test::cube();
-    const std::pair<const char*, std::string> files[] = {
-        {"cube.obj", obj_of(cube)}, {"cube.off", off_of(cube)},
-        {"ascii.ply", ply_of(cube, "ascii")}, {"little.ply", ply_of(cube, "binary_little_endian")},
-        {"big.ply", ply_of(cube, "binary_big_endian")}, {"UPPER.OBJ", obj_of(cube)},
-        {"ascii.stl", stl_of(cube, false)}, {"binary.stl", stl_of(cube, true)}};
+    const std::pair<const char*, std::string> files[] = {{"cube.obj", obj_of(cube)},
+                                                         {"cube.off", off_of(cube)},
+                                                         {"ascii.ply", ply_of(cube, "ascii")},
+                                                         {"little.ply", ply_of(cube, "binary_little_endian")},
+                                                         {"big.ply", ply_of(cube, "binary_big_endian")},
+                                                         {"UPPER.OBJ", obj_of(cube)},
+                                                         {"ascii.stl", stl_of(cube, false)},
+                                                         {"binary.stl", stl_of(cube, true)}};
     for (const auto& [name, content] : files) {
         SCOPED_TRACE(name);
         const Scene scene = load_scene(folder.file(name, content));
@@ -170,8 +175,8 @@ TEST(LoadMeshFile, PolygonsPartsPointsAndLines) {
     const TemporaryFolder folder;
     // Two quads as two objects with materials from a library that is not there; a line and a point.
     const Scene scene = load_scene(folder.file("parts.obj",
-        "mtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 -.5 2\n"
-        "o one\nusemtl a\nf 1 2 3 4\no two\nusemtl b\nf 4 3 2 1\nl 1 2\np 5\n"));
+                                               "mtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 -.5 2\n"
+                                               "o one\nusemtl a\nf 1 2 3 4\no two\nusemtl b\nf 4 3 2 1\nl 1 2\np 5\n"));
     EXPECT_EQ(broken_promise(scene), "");
     EXPECT_EQ(scene.triangle_count(), 4u);
     EXPECT_EQ(scene.meshes.size(), 1u);
@@ -185,8 +190,10 @@ TEST(LoadMeshFile, InvertedWindingIsTurnedWithAWarning) {
     const Scene scene = load_scene(folder.file("inverted.obj", obj_of(cube)));
     EXPECT_EQ(warnings_with(scene, "inverted: was wound inside out"), 1u);
     const Mesh& mesh = scene.meshes[0];
-    for (const glm::uvec3 t : mesh.triangles) EXPECT_GT(glm::dot(test::face_normal(mesh, t), mesh.positions[t.x]), 0.0f);
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) EXPECT_GT(glm::dot(mesh.normals[v], mesh.positions[v]), 0.0f);
+    for (const glm::uvec3 t : mesh.triangles)
+        EXPECT_GT(glm::dot(test::face_normal(mesh, t), mesh.positions[t.x]), 0.0f);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        EXPECT_GT(glm::dot(mesh.normals[v], mesh.positions[v]), 0.0f);
 }
 
 TEST(LoadMeshFile, ShapesAreGlassToo) {
@@ -208,22 +215,33 @@ TEST(LoadMeshFile, UnknownKindsListTheKnownOnes) {
 TEST(LoadMeshFile, RealMeshesHaveTheirCounts) {
     const std::filesystem::path folder = test::data_folder() / "models";
     if (test::data_folder().empty()) GTEST_SKIP() << "PELLUCID_TEST_DATA does not name a folder";
-    struct Known { const char* name; std::uint64_t triangles; std::size_t vertices; const char* warning; };
-    const Known table[] = {
-        {"bunny_closed_69664.obj", 69664, 34834, ""}, {"cow.obj", 5804, 2903, ""},
-        {"dragon_vrip_res3.ply", 47794, 22982, "0 boundary edges, 2094 non-manifold edges"},
-        {"f16.ply", 4428, 2537, "742 boundary edges, 56 non-manifold edges"},
-        {"gen_cube_12.obj", 12, 8, ""}, {"gen_hollow_sphere_3200.obj", 3200, 1604, ""},
-        {"gen_infinity_ring_2400.obj", 2400, 1200, ""}, {"gen_slab_12.obj", 12, 8, ""},
-        {"gen_sphere_1600.obj", 1600, 802, ""}, {"gen_sphere_512.obj", 512, 258, ""},
-        {"gen_torus_576.obj", 576, 288, ""}, {"homer.obj", 12000, 6002, ""},
-        {"horse.ply", 96966, 48485, "horse: was wound inside out, turned"},
-        {"libigl_armadillo.obj", 86482, 43243, ""}, {"libigl_bunny.off", 6966, 3485, ""},
-        {"libigl_screwdriver.off", 6786, 3395, ""}, {"photon_dragon.obj", 100000, 50000, ""},
-        {"spot.obj", 5856, 2930, ""},
-        {"stanford-bunny.obj", 69451, 34834, "223 boundary edges, 0 non-manifold edges"},
-        {"suzanne.obj", 968, 0, "42 boundary edges, 1 non-manifold edges"},
-        {"teapot.obj", 6320, 3241, "160 boundary edges, 0 non-manifold edges"}};
+    struct Known {
+        const char* name;
+        std::uint64_t triangles;
+        std::size_t vertices;
+        const char* warning;
+    };
+    const Known table[] = {{"bunny_closed_69664.obj", 69664, 34834, ""},
+                           {"cow.obj", 5804, 2903, ""},
+                           {"dragon_vrip_res3.ply", 47794, 22982, "0 boundary edges, 2094 non-manifold edges"},
+                           {"f16.ply", 4428, 2537, "742 boundary edges, 56 non-manifold edges"},
+                           {"gen_cube_12.obj", 12, 8, ""},
+                           {"gen_hollow_sphere_3200.obj", 3200, 1604, ""},
+                           {"gen_infinity_ring_2400.obj", 2400, 1200, ""},
+                           {"gen_slab_12.obj", 12, 8, ""},
+                           {"gen_sphere_1600.obj", 1600, 802, ""},
+                           {"gen_sphere_512.obj", 512, 258, ""},
+                           {"gen_torus_576.obj", 576, 288, ""},
+                           {"homer.obj", 12000, 6002, ""},
+                           {"horse.ply", 96966, 48485, "horse: was wound inside out, turned"},
+                           {"libigl_armadillo.obj", 86482, 43243, ""},
+                           {"libigl_bunny.off", 6966, 3485, ""},
+                           {"libigl_screwdriver.off", 6786, 3395, ""},
+                           {"photon_dragon.obj", 100000, 50000, ""},
+                           {"spot.obj", 5856, 2930, ""},
+                           {"stanford-bunny.obj", 69451, 34834, "223 boundary edges, 0 non-manifold edges"},
+                           {"suzanne.obj", 968, 0, "42 boundary edges, 1 non-manifold edges"},
+                           {"teapot.obj", 6320, 3241, "160 boundary edges, 0 non-manifold edges"}};
     for (const Known& known : table) {
         SCOPED_TRACE(known.name);
         const Scene scene = load_scene((folder / known.name).string());

@@ -27,7 +27,8 @@ std::vector<std::string> repair(Mesh& mesh, bool make_normals = true) {
 }
 
 TEST(MeshRepair, WeldsEqualPositionsOnly) {
-    const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 2, 3}, {-0.0f, 0, 0}, {1, 2, 3}, {1, 2, std::nextafter(3.0f, 4.0f)}};
+    const std::vector<glm::vec3> positions = {
+        {0, 0, 0}, {1, 2, 3}, {-0.0f, 0, 0}, {1, 2, 3}, {1, 2, std::nextafter(3.0f, 4.0f)}};
     EXPECT_EQ(weld_positions(positions), (std::vector<std::uint32_t>{0, 1, 0, 1, 4}));
     EXPECT_TRUE(weld_positions({}).empty());
 }
@@ -196,8 +197,7 @@ TEST(MeshNormals, CreaseAngleDecidesWhatIsShared) {
     EXPECT_EQ(flat.positions.size(), 36u);
     for (const Mesh* mesh : {&creased, &flat})
         for (const glm::uvec3 t : mesh->triangles)
-            for (int k = 0; k < 3; ++k)
-                EXPECT_LT(glm::length(mesh->normals[t[k]] - face_normal(*mesh, t)), 1e-6f);
+            for (int k = 0; k < 3; ++k) EXPECT_LT(glm::length(mesh->normals[t[k]] - face_normal(*mesh, t)), 1e-6f);
     EXPECT_TRUE(edges_of(creased).closed());
 }
 

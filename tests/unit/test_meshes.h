@@ -46,7 +46,8 @@ inline Mesh joined(const Mesh& a, const Mesh& b) {
 }
 
 inline glm::vec3 face_normal(const Mesh& mesh, glm::uvec3 t) {
-    return glm::normalize(glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]));
+    return glm::normalize(
+        glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]));
 }
 
 }  // namespace pellucid::test

@@ -101,10 +101,10 @@ TEST(Shapes, EveryTessellationIsClosed) {
           "slab,width=3,height=0.7,thickness=0.001,segments=3", "torus,segments=3,sides=3",
           "torus,segments=17,sides=5,radius=1,tube=0.4", "infinity-ring,segments=60,sides=20",
           "infinity-ring,segments=101,sides=7,tube=0.05,lift=3", "knot,p=3,q=2",
-          "knot,p=5,q=7,tube=0.04,segments=1001,sides=9", "knot,p=1,q=1,tube=0.1",
-          "goblet,segments=24,rings=60", "goblet,segments=7,rings=40,wall=0.08",
-          "goblet,segments=64,rings=500,wall=0.008", "gem,facets=5,table=0.7", "gem,facets=64,girdle=0.005",
-          "hollow-sphere,segments=3,inner=0.99", "hollow-sphere,segments=11,inner=0.05"}) {
+          "knot,p=5,q=7,tube=0.04,segments=1001,sides=9", "knot,p=1,q=1,tube=0.1", "goblet,segments=24,rings=60",
+          "goblet,segments=7,rings=40,wall=0.08", "goblet,segments=64,rings=500,wall=0.008", "gem,facets=5,table=0.7",
+          "gem,facets=64,girdle=0.005", "hollow-sphere,segments=3,inner=0.99",
+          "hollow-sphere,segments=11,inner=0.05"}) {
         SCOPED_TRACE(spec);
         expect_sound(load_shape(spec));
     }
@@ -126,10 +126,9 @@ TEST(Shapes, TriangleCountsOfThePaperAndOfTheDocs) {
 TEST(Shapes, VolumesConvergeToTheFormulas) {
     const double pi = std::numbers::pi;
     EXPECT_NEAR(signed_volume(load_shape("sphere,segments=128")), 4.0 / 3.0 * pi, 2e-3);
-    EXPECT_NEAR(signed_volume(load_shape("hollow-sphere,segments=128,inner=0.5")),
-                4.0 / 3.0 * pi * (1.0 - 0.125), 2e-3);
-    EXPECT_NEAR(signed_volume(load_shape("torus,segments=400,sides=200")), 2.0 * pi * pi * 0.7 * 0.3 * 0.3,
-                1e-3);
+    EXPECT_NEAR(signed_volume(load_shape("hollow-sphere,segments=128,inner=0.5")), 4.0 / 3.0 * pi * (1.0 - 0.125),
+                2e-3);
+    EXPECT_NEAR(signed_volume(load_shape("torus,segments=400,sides=200")), 2.0 * pi * pi * 0.7 * 0.3 * 0.3, 1e-3);
     EXPECT_NEAR(signed_volume(load_shape("slab,width=2,height=3,thickness=0.5")), 3.0, 1e-6);
     // Pappus: a tube's volume is its section times the length of its curve, however it winds.
     EXPECT_NEAR(signed_volume(load_shape("infinity-ring,segments=1000,sides=200,tube=0.1,lift=1.05")),
@@ -157,8 +156,8 @@ TEST(Shapes, AnalyticNormalsAreExact) {
 }
 
 TEST(Shapes, SmoothNormalsFollowTheSurface) {
-    for (const char* spec : {"goblet,segments=600,rings=1500", "knot,segments=2400,sides=300",
-                             "infinity-ring,segments=1600,sides=300"}) {
+    for (const char* spec :
+         {"goblet,segments=600,rings=1500", "knot,segments=2400,sides=300", "infinity-ring,segments=1600,sides=300"}) {
         SCOPED_TRACE(spec);
         const Mesh mesh = load_shape(spec);
         double least = 1.0;
@@ -183,8 +182,7 @@ TEST(Shapes, GemIsConvexWithFlatFacets) {
             for (const glm::vec3 p : mesh.positions)
                 farthest_out = std::max(farthest_out, glm::dot(normal, p - mesh.positions[t.x]));
             const glm::vec3 flat(glm::normalize(area_normal(mesh, t)));
-            for (int k = 0; k < 3; ++k)
-                worst_normal = std::max(worst_normal, glm::length(flat - mesh.normals[t[k]]));
+            for (int k = 0; k < 3; ++k) worst_normal = std::max(worst_normal, glm::length(flat - mesh.normals[t[k]]));
         }
         EXPECT_LT(farthest_out, 1e-6f);
         EXPECT_LT(worst_normal, 5e-5f);

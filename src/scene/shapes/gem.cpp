@@ -49,8 +49,7 @@ private:
     glm::dvec3 star_tip(int i) const {
         constexpr double kStarShare = 0.45;  // of the way from table to girdle along the kite
         const double along_kite = table_radius_ + kStarShare * (cos_half_step() - table_radius_);
-        return at(i + 0.5, along_kite / cos_half_step(),
-                  table_height() - crown_slope_ * (along_kite - table_radius_));
+        return at(i + 0.5, along_kite / cos_half_step(), table_height() - crown_slope_ * (along_kite - table_radius_));
     }
     glm::dvec3 upper_girdle(double step) const { return at(step, 1.0, half_girdle_); }
     glm::dvec3 lower_girdle(double step) const { return at(step, 1.0, -half_girdle_); }
@@ -69,8 +68,8 @@ private:
     }
     void add_girdle(Mesh& mesh, int i) const {
         for (const double step : {double(i), i + 0.5})
-            add_facet(mesh, {upper_girdle(step), lower_girdle(step), lower_girdle(step + 0.5),
-                             upper_girdle(step + 0.5)});
+            add_facet(mesh,
+                      {upper_girdle(step), lower_girdle(step), lower_girdle(step + 0.5), upper_girdle(step + 0.5)});
     }
     void add_pavilion(Mesh& mesh, int i) const {
         add_facet(mesh, {culet(), pavilion_tip(i), lower_girdle(i), pavilion_tip(i - 1)});

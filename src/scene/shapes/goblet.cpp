@@ -71,8 +71,7 @@ std::vector<ProfilePoint> sampled(const AxisToAxisSpline& spline, int count) {
     for (int i = 1; i < kFineCount; ++i) {
         const ProfilePoint point = spline.at(parameter(i));
         const double turning = std::acos(std::min(glm::dot(before.normal, point.normal), 1.0));
-        travelled.push_back(travelled.back() +
-                            glm::dvec2(glm::distance(before.position, point.position), turning));
+        travelled.push_back(travelled.back() + glm::dvec2(glm::distance(before.position, point.position), turning));
         before = point;
     }
     std::vector<double> measure;

@@ -38,8 +38,7 @@ ShapeArguments::ShapeArguments(const ShapeInfo& info, std::string_view text) : i
             fail(fmt::format("{} is {}, not a number", name, in_quotes(digits)));
         const ShapeParameter& parameter = info.parameters[i];
         if (value < parameter.minimum || value > parameter.maximum)
-            fail(fmt::format("{} is {}, outside {} to {}", name, digits, parameter.minimum,
-                             parameter.maximum));
+            fail(fmt::format("{} is {}, outside {} to {}", name, digits, parameter.minimum, parameter.maximum));
         values_[i] = value;
     }
 }

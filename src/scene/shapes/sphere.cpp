@@ -52,17 +52,14 @@ private:
     /// The triangles between a row and the next longer one, in each of the four octants.
     void append_strip(Mesh& mesh, unsigned base, unsigned inner_row, unsigned outer_row, bool flip) const {
         const unsigned steps = steps_from_pole(inner_row);
-        const auto vertex = [&](unsigned row, unsigned i) {
-            return base + row_start(row) + i % row_length(row);
-        };
+        const auto vertex = [&](unsigned row, unsigned i) { return base + row_start(row) + i % row_length(row); };
         const auto add = [&](unsigned a, unsigned b, unsigned c) {
             mesh.triangles.push_back(flip ? glm::uvec3(a, b, c) : glm::uvec3(a, c, b));
         };
         for (unsigned octant = 0; octant < 4; ++octant) {
             const unsigned inner = octant * steps, outer = octant * (steps + 1);
             for (unsigned i = 0; i <= steps; ++i) {
-                add(vertex(inner_row, inner + i), vertex(outer_row, outer + i),
-                    vertex(outer_row, outer + i + 1));
+                add(vertex(inner_row, inner + i), vertex(outer_row, outer + i), vertex(outer_row, outer + i + 1));
                 if (i < steps)
                     add(vertex(inner_row, inner + i), vertex(outer_row, outer + i + 1),
                         vertex(inner_row, inner + i + 1));

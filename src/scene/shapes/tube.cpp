@@ -16,8 +16,8 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 /// `v` turned by the rotation that takes unit vector `from` to unit vector `to` (not opposite).
 glm::dvec3 transported(glm::dvec3 v, glm::dvec3 from, glm::dvec3 to) {
     const glm::dvec3 axis = glm::cross(from, to);
-    const glm::dvec3 turned = v * glm::dot(from, to) + glm::cross(axis, v) +
-                              axis * (glm::dot(axis, v) / (1.0 + glm::dot(from, to)));
+    const glm::dvec3 turned =
+        v * glm::dot(from, to) + glm::cross(axis, v) + axis * (glm::dot(axis, v) / (1.0 + glm::dot(from, to)));
     return glm::normalize(turned - to * glm::dot(turned, to));
 }
 
@@ -36,10 +36,8 @@ Mesh make_tube(const std::vector<TubeRing>& rings, double radius, int sides) {
     const auto vertex = [&](unsigned ring, unsigned side) { return ring % along * around + side % around; };
     for (unsigned ring = 0; ring < along; ++ring)
         for (unsigned side = 0; side < around; ++side) {
-            mesh.triangles.push_back(
-                {vertex(ring, side), vertex(ring, side + 1), vertex(ring + 1, side + 1)});
-            mesh.triangles.push_back(
-                {vertex(ring, side), vertex(ring + 1, side + 1), vertex(ring + 1, side)});
+            mesh.triangles.push_back({vertex(ring, side), vertex(ring, side + 1), vertex(ring + 1, side + 1)});
+            mesh.triangles.push_back({vertex(ring, side), vertex(ring + 1, side + 1), vertex(ring + 1, side)});
         }
     return mesh;
 }
@@ -54,8 +52,7 @@ std::vector<TubeRing> transport_rings(const std::vector<glm::dvec3>& centers,
         axes.push_back(transported(axes.back(), unit_tangents[i - 1], unit_tangents[i % count]));
 
     // Having come around, the axis is off by this angle about the first tangent.
-    const double excess =
-        std::atan2(glm::dot(glm::cross(axes[0], axes[count]), start), glm::dot(axes[0], axes[count]));
+    const double excess = std::atan2(glm::dot(glm::cross(axes[0], axes[count]), start), glm::dot(axes[0], axes[count]));
     std::vector<TubeRing> rings;
     for (std::size_t i = 0; i < count; ++i) {
         const double twist = -excess * double(i) / double(count);

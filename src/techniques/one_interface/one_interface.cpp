@@ -14,8 +14,8 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
                      {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
                       reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
                       reads("layer_surface", layers.surface), writes("exit_direction", refraction.exit_direction),
-                      writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
-                      writes("path_events", refraction.events)},
+                      writes("exit_position", refraction.exit_position),
+                      writes("transmittance", refraction.transmittance), writes("path_events", refraction.events)},
                      frame.extent);
     return refraction;
 }

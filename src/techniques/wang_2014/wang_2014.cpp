@@ -19,13 +19,12 @@ constexpr std::array kParameters = {
     ParameterInfo{"reflections", "", 1, 0, 16, true, "total internal reflections followed per exit"},
 };
 
-std::uint32_t layer_count(const ParameterValues& parameters) {
-    return parameters.whole("layers") & ~1u;
-}
+std::uint32_t layer_count(const ParameterValues& parameters) { return parameters.whole("layers") & ~1u; }
 
 /// Section 3.5.2: a deeper layer that is empty takes the layer of its kind before it.
 const GpuImage& merge_layers(Recorder& recorder, const Frame& frame, const Layers& layers) {
-    const GpuImage& merged = frame.workspace.image("merged layer depth", vk::Format::eR32Sfloat, frame.extent, layers.count);
+    const GpuImage& merged =
+        frame.workspace.image("merged layer depth", vk::Format::eR32Sfloat, frame.extent, layers.count);
     recorder.compute(frame.workspace.compute({"merge_layers.comp", kMergeLayers}),
                      {reads("layer_depth", layers.depth), writes("merged_depth", merged)}, layers.count, frame.extent);
     return merged;
@@ -37,13 +36,14 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const GpuImage& merged = merge_layers(recorder, frame, layers);
     const std::array push = {layers.count, parameters.whole("steps"), parameters.whole("binary-steps"),
                              parameters.whole("reflections")};
-    recorder.compute(frame.workspace.compute({"wang_2014.comp", kShader}),
-                     {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                      reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-                      reads("layer_surface", layers.surface), writes("exit_direction", refraction.exit_direction),
-                      writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
-                      writes("path_events", refraction.events), reads("merged_depth", merged)},
-                     push, frame.extent);
+    recorder.compute(
+        frame.workspace.compute({"wang_2014.comp", kShader}),
+        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+         reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
+         reads("layer_surface", layers.surface), writes("exit_direction", refraction.exit_direction),
+         writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
+         writes("path_events", refraction.events), reads("merged_depth", merged)},
+        push, frame.extent);
     return refraction;
 }
 
