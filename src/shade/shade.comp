@@ -32,11 +32,12 @@ vec3 diffuse_irradiance(vec3 normal) {
     return irradiance_from_coefficients(coefficients, normal);
 }
 
-vec3 glass_radiance(ivec3 at, vec3 view_direction, uvec2 first) {
+// Glass in front of `behind`, the radiance that reaches the end of its refracted path.
+vec3 glass_radiance(ivec3 at, vec3 view_direction, uvec2 first, vec3 behind) {
     uint object = find_object(triangle_index(first.y));
     MaterialRecord material = materials[objects[object].material];
     vec4 tint = vec4(material.base_color.rgb, material.transmission) * imageLoad(glass_tint, at);
-    vec3 transmitted = imageLoad(transmittance, at).rgb * environment_radiance(imageLoad(exit_direction, at).xyz);
+    vec3 transmitted = imageLoad(transmittance, at).rgb * behind;
     vec3 normal = unpack_unit_vector(first.x);
     if (back_face(first.y)) return tint.rgb * transmitted;  // seen from inside: no outer reflection
     float reflectance = fresnel_dielectric(-dot(view_direction, normal), 1.0 / material.ior);
@@ -67,9 +68,10 @@ void main() {
     if (analysis != 0u) {
         result = glass ? analysis_color(at, view_direction, unpack_unit_vector(first.x)) : vec3(0.02);
     } else {
-        if (glass) result = glass_radiance(at, view_direction, first);
+        // Without glass the path is the view ray itself, so one look-up serves both.
+        result = environment_radiance(imageLoad(exit_direction, at).xyz);
+        if (glass) result = glass_radiance(at, view_direction, first, result);
         else if (opaque) result = imageLoad(opaque_radiance, at).rgb;
-        else result = environment_radiance(view_direction);
         result = result * imageLoad(thin_tint, at).rgb + imageLoad(thin_reflection, at).rgb;
     }
     imageStore(radiance, at, vec4(result, 1.0));
