@@ -14,7 +14,6 @@ import os
 import re
 import sys
 
-KEYWORDS = {"SOURCES", "USES", "LIBRARIES", "PCH", "SHADERS"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.MULTILINE)
 CODE = (".h", ".hpp", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".geom", ".rgen", ".rchit", ".rmiss")
 
@@ -30,11 +29,12 @@ def read_rooms(cmake_file):
     text = re.sub(r"#.*", "", read(cmake_file))
     for call in re.finditer(r"\bpellucid_room\s*\(([^)]*)\)", text):
         name, *words = call.group(1).split()
-        room = rooms[name] = {keyword: [] for keyword in KEYWORDS}
+        room = rooms[name] = {"SOURCES": [], "USES": [], "SHADERS": []}
         keyword = None
         for word in words:
-            if word in KEYWORDS:
+            if word.isupper():
                 keyword = word
+                room.setdefault(keyword, [])
             else:
                 room[keyword].append(word)
     return rooms

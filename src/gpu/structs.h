@@ -7,9 +7,11 @@
 #include <cstdint>
 #include "core/math.h"
 namespace pellucid::gpu {
+// NOLINTBEGIN(readability-identifier-naming): GLSL's names
 using vec4 = glm::vec4;
 using mat4 = glm::mat4;
 using uint = std::uint32_t;
+// NOLINTEND(readability-identifier-naming)
 #endif
 
 #define PELLUCID_NO_TEXTURE 0xffffffffu

@@ -144,8 +144,10 @@ void check_aov_names(const std::vector<std::string>& names) {
 
 void read_aovs(const Device& device, const FrameImages& images, const std::vector<std::uint32_t>& first_triangles,
                const std::vector<std::string>& names, RenderResult& result) {
+    const auto words = read<std::uint32_t>(device, images.refraction.events);
     std::vector<PathEvents> events;
-    for (const std::uint32_t word : read<std::uint32_t>(device, images.refraction.events)) {
+    events.reserve(words.size());
+    for (const std::uint32_t word : words) {
         events.push_back(unpack_events(word));
         if (events.back().interfaces == 0) continue;
         ++result.covered;

@@ -30,7 +30,11 @@ class Commands(CliTest):
     def test_too_many_arguments(self):
         self.refuses("--colour", "--colour", "red")
         self.refuses("shape:torus", "shape:torus")
-        self.refuses("--samples", "--samples", "2", "--samples", "3")
+
+    def test_the_last_of_one_option_counts(self):
+        self.assert_rendered(self.render("shape:sphere", "--size", "9x7", "--json", "out.json"))
+        described = json.loads(self.read("out.json"))
+        self.assertEqual((described["width"], described["height"]), (9, 7))
 
     def test_exit_code_does_not_need_stderr(self):
         with open("/dev/full", "w", encoding="ascii") as full:
