@@ -134,6 +134,7 @@ void write_image(const std::filesystem::path& file, const Image& image, const st
         spec.attribute("oiio:UnassociatedAlpha", 1);
     } else {
         spec.attribute("compression", "zip");
+        spec.attribute("DateTime", "1970:01:01 00:00:00");  // else the time of writing: no two runs would give one file
     }
     const std::vector<std::uint8_t> bytes = png ? display_bytes(image) : std::vector<std::uint8_t>();
     const void* pixels = png ? static_cast<const void*>(bytes.data()) : image.pixels.data();
