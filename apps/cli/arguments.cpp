@@ -14,8 +14,10 @@ namespace {
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts(1);
     for (const char c : text) {
-        if (c == separator) parts.emplace_back();
-        else parts.back() += c;
+        if (c == separator)
+            parts.emplace_back();
+        else
+            parts.back() += c;
     }
     return parts;
 }
@@ -36,7 +38,8 @@ double parse_number(const std::string& what, const std::string& text) {
 std::vector<double> parse_numbers(const std::string& what, const std::string& text, std::size_t count) {
     std::vector<double> values;
     for (const std::string& part : split(text, ',')) values.push_back(parse_number(what, part));
-    if (values.size() != count) throw Error(fmt::format("{}: '{}' should be {} numbers with commas", what, text, count));
+    if (values.size() != count)
+        throw Error(fmt::format("{}: '{}' should be {} numbers with commas", what, text, count));
     return values;
 }
 
@@ -63,7 +66,8 @@ std::pair<std::string, std::string> parse_aov(const std::string& text) {
 Camera parse_camera(const std::string& text, const Scene& scene, float vertical_fov) {
     if (text.starts_with(kOrbit)) {
         const std::vector<double> orbit = parse_numbers("--camera", text.substr(kOrbit.size()), 3);
-        if (!(std::abs(orbit[1]) <= 90.0)) throw Error(fmt::format("--camera: elevation {} is not -90 to 90 degrees", orbit[1]));
+        if (!(std::abs(orbit[1]) <= 90.0))
+            throw Error(fmt::format("--camera: elevation {} is not -90 to 90 degrees", orbit[1]));
         if (!(orbit[2] > 1.0)) throw Error(fmt::format("--camera: distance {} is not above 1 radius", orbit[2]));
         return orbit_camera(scene_bounds(scene), float(orbit[0]), float(orbit[1]), float(orbit[2]), vertical_fov);
     }

@@ -48,8 +48,8 @@ struct RenderArguments {
 };
 
 std::string parameter_help(const ParameterInfo& parameter) {
-    return fmt::format("{}{}{} [{} to {}, default {}]", parameter.doc, parameter.unit.empty() ? "" : ", ", parameter.unit,
-                       parameter.minimum, parameter.maximum, parameter.default_value);
+    return fmt::format("{}{}{} [{} to {}, default {}]", parameter.doc, parameter.unit.empty() ? "" : ", ",
+                       parameter.unit, parameter.minimum, parameter.maximum, parameter.default_value);
 }
 
 /// An option with a finite number; the parser's own conversion takes "" and "nan".
@@ -88,13 +88,16 @@ void add_parameter_options(CLI::App& command, RenderArguments& arguments) {
 
 std::string technique_help() {
     std::string help = "How refraction is computed:";
-    for (const TechniqueInfo* technique : techniques()) help += fmt::format(" {} ({});", technique->name, technique->summary);
+    for (const TechniqueInfo* technique : techniques())
+        help += fmt::format(" {} ({});", technique->name, technique->summary);
     help.pop_back();
     return help;
 }
 
 std::string shape_help() {
-    std::string help = "Scene: a .gltf, .glb, .obj, .ply, .stl, .off or .3ds file, or shape:NAME[,PARAMETER=VALUE...] with NAME one of";
+    std::string help =
+        "Scene: a .gltf, .glb, .obj, .ply, .stl, .off or .3ds file, or shape:NAME[,PARAMETER=VALUE...] with NAME one "
+        "of";
     for (const ShapeInfo& shape : shape_infos()) help += fmt::format(" {}", shape.name);
     return help;
 }
@@ -155,7 +158,8 @@ void check_outputs(const RenderArguments& arguments) {
         check_writable(output);
         for (std::size_t i = 0; i < taken.size(); ++i) {
             if (!same_file(taken[i], output)) continue;
-            throw Error(fmt::format("{}: {}", output, i < 2 ? "would overwrite what is read" : "is given for two outputs"));
+            throw Error(
+                fmt::format("{}: {}", output, i < 2 ? "would overwrite what is read" : "is given for two outputs"));
         }
         taken.push_back(output);
     }
@@ -174,7 +178,8 @@ std::vector<PassTime> median_times(const std::vector<std::vector<PassTime>>& fra
 }
 
 nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSettings& settings, const Scene& scene,
-                                const DeviceInfo& device, const RenderResult& result, const std::vector<std::string>& warnings) {
+                                const DeviceInfo& device, const RenderResult& result,
+                                const std::vector<std::string>& warnings) {
     nlohmann::ordered_json json{{"device", device.name},
                                 {"driver", device.driver},
                                 {"version", version()},
@@ -191,7 +196,8 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
     json["parameters"] = nlohmann::ordered_json::object();
     for (const ParameterInfo& parameter : find_technique(settings.technique).parameters) {
         const auto given = settings.parameters.find(parameter.name);
-        json["parameters"][std::string(parameter.name)] = given == settings.parameters.end() ? parameter.default_value : given->second;
+        json["parameters"][std::string(parameter.name)] =
+            given == settings.parameters.end() ? parameter.default_value : given->second;
     }
     for (std::uint32_t status = 0; status < kStatusCount; ++status) {
         const double share = result.covered > 0 ? double(result.status[status]) / double(result.covered) : 0.0;
@@ -234,15 +240,18 @@ void render(const RenderArguments& arguments) {
     renderer.set_scene(scene);
     renderer.set_environment(environment);
     if (arguments.camera) {
-        renderer.set_camera(parse_camera(*arguments.camera, scene, float(arguments.fov_deg * 3.14159265358979 / 180.0)));
+        renderer.set_camera(
+            parse_camera(*arguments.camera, scene, float(arguments.fov_deg * 3.14159265358979 / 180.0)));
     }
     const RenderResult result = renderer.render(settings);
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
 
     write_outputs(arguments, result, describe(arguments, settings, scene, renderer.device(), result, warnings));
-    for (const std::string& warning : warnings) std::fputs(fmt::format("pellucid: warning: {}\n", warning).c_str(), stderr);
+    for (const std::string& warning : warnings)
+        std::fputs(fmt::format("pellucid: warning: {}\n", warning).c_str(), stderr);
     if (!renderer.validation_messages().empty()) {
-        throw std::runtime_error(fmt::format("{} validation messages, the first: {}", renderer.validation_messages().size(),
+        throw std::runtime_error(fmt::format("{} validation messages, the first: {}",
+                                             renderer.validation_messages().size(),
                                              renderer.validation_messages().front()));
     }
 }
@@ -256,33 +265,57 @@ void add_render_command(CLI::App& app) {
     // A script's defaults can be overridden by what a user appends.
     command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     command->add_option("scene", a.scene, shape_help())->required()->type_name("SCENE");
-    command->add_option("-o,--output", a.output, "Picture: .png (tone mapped, sRGB) or .exr (linear)")->required()->type_name("FILE");
+    command->add_option("-o,--output", a.output, "Picture: .png (tone mapped, sRGB) or .exr (linear)")
+        ->required()
+        ->type_name("FILE");
     command->add_option("--technique", a.technique, technique_help())->capture_default_str()->type_name("NAME");
     command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
-    command->add_option("--environment", a.environment, "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
-        ->capture_default_str()->type_name("NAME|FILE");
-    command->add_option("--camera", a.camera, "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
-                                              "default: the file's first camera, or one that frames the scene")
+    command
+        ->add_option("--environment", a.environment,
+                     "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
+        ->capture_default_str()
+        ->type_name("NAME|FILE");
+    command
+        ->add_option("--camera", a.camera,
+                     "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
+                     "default: the file's first camera, or one that frames the scene")
         ->type_name("NAME|orbit:AZ,EL,DIST");
     add_number(*command, "--fov", a.fov_deg, "Vertical field of view of an orbit camera, degrees")
-        ->capture_default_str()->check(CLI::Range(1.0, 170.0));
+        ->capture_default_str()
+        ->check(CLI::Range(1.0, 170.0));
     add_number(*command, "--samples", a.samples, "Jittered frames, averaged in linear light")->capture_default_str();
-    command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")->capture_default_str()->type_name("NAME");
+    command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")
+        ->capture_default_str()
+        ->type_name("NAME");
     add_number(*command, "--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
-    command->add_option("--view", a.view, "radiance, or analysis: red two interfaces, blue four or more, green total internal "
-                                          "reflection, grey where the technique gave up")
-        ->capture_default_str()->type_name("NAME");
-    command->add_option("--layer-builder", a.layer_builder, "single-pass or depth-peeling")->capture_default_str()->type_name("NAME");
-    command->add_option("--aov", a.aovs, aov_help())->type_name("NAME=FILE.exr")->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--view", a.view,
+                     "radiance, or analysis: red two interfaces, blue four or more, green total internal "
+                     "reflection, grey where the technique gave up")
+        ->capture_default_str()
+        ->type_name("NAME");
+    command->add_option("--layer-builder", a.layer_builder, "single-pass or depth-peeling")
+        ->capture_default_str()
+        ->type_name("NAME");
+    command->add_option("--aov", a.aovs, aov_help())
+        ->type_name("NAME=FILE.exr")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
     add_number(*command, "--ior", a.ior, "Index of refraction of all glass")->type_name("X");
-    command->add_option("--attenuation-color", a.attenuation_color, "What the glass leaves of white light after the distance, 0 to 1")
+    command
+        ->add_option("--attenuation-color", a.attenuation_color,
+                     "What the glass leaves of white light after the distance, 0 to 1")
         ->type_name("R,G,B");
-    add_number(*command, "--attenuation-distance", a.attenuation_distance, "Metres after which that is left")->type_name("M");
-    add_number(*command, "--crease-angle", a.crease_angle_deg, "Made normals are smooth across edges bent less than this, degrees")
-        ->capture_default_str()->check(CLI::Range(0.0, 180.0));
+    add_number(*command, "--attenuation-distance", a.attenuation_distance, "Metres after which that is left")
+        ->type_name("M");
+    add_number(*command, "--crease-angle", a.crease_angle_deg,
+               "Made normals are smooth across edges bent less than this, degrees")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 180.0));
     command->add_flag("--remake-normals", a.remake_normals, "Replace the normals that a mesh file brings along");
-    command->add_option("--device", a.device, "Vulkan device: its number in 'pellucid info' or a part of its name")->type_name("DEVICE");
+    command->add_option("--device", a.device, "Vulkan device: its number in 'pellucid info' or a part of its name")
+        ->type_name("DEVICE");
     command->add_flag("--validate", a.validate, "Run with the Vulkan validation layer; a message is an error");
     add_parameter_options(*command, a);
     command->callback([arguments] { render(*arguments); });

@@ -77,8 +77,8 @@ struct RenderResult {
     std::vector<std::vector<PassTime>> frames;
     std::uint64_t covered = 0;                         ///< pixels whose first surface is refracting glass
     std::array<std::uint64_t, kStatusCount> status{};  ///< covered pixels by Status
-    std::uint64_t side_conflicts = 0;  ///< covered pixels where shading and geometric normal disagreed about the side
-    std::vector<std::string> warnings;
+    std::uint64_t side_conflicts = 0;   ///< covered pixels where shading and geometric normal disagreed about the side
+    std::vector<std::string> warnings;  ///< what of the scene is drawn otherwise than it is; one line each
 };
 
 /// Draws scenes on one Vulkan device. Needs no window. Not thread safe; any number may exist.

@@ -1,6 +1,7 @@
 #include <pellucid/renderer.h>
 
 #include "render/aovs.h"
+#include "render/approximations.h"
 #include "render/camera_constants.h"
 #include "render/frame.h"
 
@@ -89,6 +90,7 @@ struct Renderer::Impl {
     Recorder recorder;
     FragmentPool pool;
     std::optional<GpuScene> scene;
+    std::vector<std::string> scene_warnings;
     std::optional<GpuImage> environment;
     std::optional<Buffer> constants;
     std::optional<Camera> camera;        // set by the caller
@@ -160,6 +162,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 void Renderer::set_scene(const Scene& scene) {
     impl_->scene.reset();  // freed first: a large scene may fit once only
     impl_->scene.emplace(impl_->device, scene);
+    impl_->scene_warnings = approximations(scene);
     impl_->scene_camera = scene.cameras.empty() ? std::nullopt : std::optional(scene.cameras.front());
 }
 
@@ -179,6 +182,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     Impl& impl = *impl_;
     check_settings(settings, impl.device);
     RenderResult result;
+    result.warnings = impl.scene_warnings;
     const FrameSettings chosen = impl.frame_settings(settings, result);
     const Frame frame{
         impl.workspace, *impl.scene, *impl.constants, *impl.environment, {settings.width, settings.height}};

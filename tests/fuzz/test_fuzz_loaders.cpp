@@ -48,8 +48,9 @@ void remove_piece(std::string& bytes, Random& random) {
 
 /// Numbers in text: counts, indices and coordinates as no exporter writes them.
 void insert_text_number(std::string& bytes, Random& random) {
-    constexpr std::array kNumbers = {"99999999999999999999", "-1", "4294967295", "2147483648", "1e999", "nan", "-inf", "0",
-                                     "1e38", "18446744073709551615", "1e-320", "."};
+    constexpr std::array kNumbers = {
+        "99999999999999999999", "-1",     "4294967295", "2147483648", "1e999", "nan", "-inf", "0", "1e38",
+        "18446744073709551615", "1e-320", "."};
     const std::size_t digit = bytes.find_first_of("0123456789", pick(random, bytes.size()));
     if (digit == bytes.npos) return;
     const std::size_t end = std::min(bytes.find_first_not_of("0123456789.", digit), bytes.size());
@@ -134,7 +135,9 @@ std::string stl(bool binary) {
         for (const std::int32_t corner : triangle) {
             const float* p = kPositions[corner];
             for (int k = 0; binary && k < 3; ++k) append(bytes, p[k]);
-            if (!binary) bytes += "vertex " + std::to_string(p[0]) + ' ' + std::to_string(p[1]) + ' ' + std::to_string(p[2]) + '\n';
+            if (!binary)
+                bytes +=
+                    "vertex " + std::to_string(p[0]) + ' ' + std::to_string(p[1]) + ' ' + std::to_string(p[2]) + '\n';
         }
         bytes += binary ? std::string(2, '\0') : "endloop\nendfacet\n";
     }
@@ -166,7 +169,8 @@ GltfBuilder rich_gltf() {
     const int normal = b.attribute<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3);
     const int texcoord = b.attribute<float>({0, 0, 1, 0, 0, 1, 1, 1}, kFloat, "VEC2", 2);
     const int indices = b.attribute<std::uint16_t>({0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}, kUnsignedShort, "SCALAR", 1);
-    b.mesh({{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", texcoord}}, {{"indices", indices}, {"material", 0}});
+    b.mesh({{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", texcoord}},
+           {{"indices", indices}, {"material", 0}});
     const std::string png = image_bytes("a.png", 3);
     b.root["images"] = {{{"bufferView", b.view(std::vector<char>(png.begin(), png.end()))}, {"mimeType", "image/png"}}};
     b.root["textures"] = {{{"source", 0}}};
@@ -175,8 +179,10 @@ GltfBuilder rich_gltf() {
         "KHR_materials_transmission": {"transmissionFactor": 1, "transmissionTexture": {"index": 0}},
         "KHR_materials_volume": {"thicknessFactor": 1, "attenuationColor": [1, 0.5, 1], "attenuationDistance": 2},
         "KHR_materials_ior": {"ior": 1.4}, "KHR_materials_dispersion": {"dispersion": 0.1}}}])");
-    b.root["cameras"] = json::parse(R"([{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1, "zfar": 10}}])");
-    b.node(json::parse(R"({"name": "a", "mesh": 0, "rotation": [0, 0, 0, 1], "scale": [1, 2, -1], "children": [1, 2]})"));
+    b.root["cameras"] =
+        json::parse(R"([{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1, "zfar": 10}}])");
+    b.node(
+        json::parse(R"({"name": "a", "mesh": 0, "rotation": [0, 0, 0, 1], "scale": [1, 2, -1], "children": [1, 2]})"));
     b.node(json::parse(R"({"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1]})"));
     b.node(json::parse(R"({"camera": 0, "translation": [0, 0, 5]})"));
     return b;
@@ -214,7 +220,8 @@ TEST(FuzzMeshes, StlAscii) { fuzz("ascii.stl", stl(false), load_checked); }
 TEST(FuzzMeshes, StlBinary) { fuzz("binary.stl", stl(true), load_checked); }
 TEST(FuzzMeshes, ThreeDs) {
     const std::filesystem::path cube = glmark2_folder() / "cube.3ds";
-    if (!std::filesystem::exists(cube)) GTEST_SKIP() << "glmark2's cube.3ds is not here; PELLUCID_GLMARK2_MODELS names its folder";
+    if (!std::filesystem::exists(cube))
+        GTEST_SKIP() << "glmark2's cube.3ds is not here; PELLUCID_GLMARK2_MODELS names its folder";
     fuzz("a.3ds", content_of(cube), load_checked);
 }
 TEST(FuzzGltf, Text) { fuzz("a.gltf", gltf_text(), load_checked); }

@@ -183,6 +183,23 @@ TEST_F(RendererSuite, AnalysisViewColoursTheInterfaces) {
     EXPECT_GT(hollow.b, 4.0f * hollow.r);  // four: blue
 }
 
+TEST_F(RendererSuite, ApproximationsAreSaid) {
+    Scene scene = load_scene("shape:sphere,segments=8");
+    renderer().set_scene(scene);
+    EXPECT_THAT(renderer().render(sized(8, 8)).warnings, ::testing::IsEmpty());
+    scene.materials[0].name = "frosted";
+    scene.materials[0].roughness = 0.3f;
+    scene.materials[0].dispersion = 1.0f;
+    scene.materials.emplace_back();
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects.back().material = 1;
+    renderer().set_scene(scene);
+    EXPECT_THAT(renderer().render(sized(8, 8)).warnings,
+                ::testing::ElementsAre(HasSubstr("frosted: rough glass"), HasSubstr("frosted: dispersion"),
+                                       HasSubstr("2 refracting objects"), HasSubstr("opaque objects")));
+}
+
 long resident_kilobytes() {
     long pages = 0, resident = 0;
     std::ifstream("/proc/self/statm") >> pages >> resident;

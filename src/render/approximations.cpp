@@ -1,0 +1,38 @@
+#include "render/approximations.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace pellucid {
+
+std::vector<std::string> approximations(const Scene& scene) {
+    std::set<int> used;
+    std::size_t refractive = 0, opaque = 0;
+    for (const Object& object : scene.objects) {
+        const Material& material = scene.materials[std::size_t(object.material)];
+        used.insert(object.material);
+        refractive += material.refractive() ? 1 : 0;
+        opaque += material.transmissive() ? 0 : 1;
+    }
+    std::vector<std::string> lines;
+    for (const int index : used) {
+        const Material& material = scene.materials[std::size_t(index)];
+        const std::string name = material.name.empty() ? fmt::format("{}", index) : material.name;
+        if (material.transmissive() && material.roughness > 0.0f) {
+            lines.push_back(fmt::format("material {}: rough glass is drawn smooth", name));
+        }
+        if (material.refractive() && material.dispersion > 0.0f) {
+            lines.push_back(fmt::format("material {}: dispersion is not drawn", name));
+        }
+    }
+    if (refractive > 1) {
+        lines.push_back(fmt::format("behind the first surface {} refracting objects count as one solid", refractive));
+    }
+    if (refractive > 0 && opaque > 0) {
+        lines.push_back("opaque objects are drawn where they are seen directly, not through refracting glass");
+    }
+    return lines;
+}
+
+}  // namespace pellucid
