@@ -3,6 +3,7 @@
 
 #include "core/file.h"
 #include "core/file_extension.h"
+#include "core/math.h"
 
 #include <pellucid/pellucid.h>
 
@@ -30,7 +31,7 @@ struct RenderArguments {
     std::string size = "512x512";
     std::string environment = "studio";
     std::optional<std::string> camera;
-    double fov_deg = 30.0;
+    std::optional<double> fov_deg;
     std::uint32_t samples = 1;
     std::string tonemap = "neutral";
     double exposure_ev = 0.0;
@@ -117,9 +118,21 @@ LoadOptions load_options(const RenderArguments& arguments) {
         options.attenuation_color = glm::vec3(float(color[0]), float(color[1]), float(color[2]));
     }
     if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
-    options.crease_angle = float(arguments.crease_angle_deg * 3.14159265358979 / 180.0);
+    options.crease_angle = radians_from_degrees(float(arguments.crease_angle_deg));
     options.remake_normals = arguments.remake_normals;
     return options;
+}
+
+/// The camera that the arguments ask for; none: the file's first, or one that frames the scene.
+std::optional<Camera> chosen_camera(const RenderArguments& arguments, const RenderSettings& settings, const Scene& scene) {
+    const bool of_the_file = arguments.camera ? !arguments.camera->starts_with("orbit:") : !scene.cameras.empty();
+    if (arguments.fov_deg && of_the_file) {
+        throw Error("--fov: a camera of the file has its own field of view; give --camera orbit:AZ,EL,DIST with it");
+    }
+    const float fov = arguments.fov_deg ? radians_from_degrees(float(*arguments.fov_deg)) : Camera{}.vertical_fov;
+    if (arguments.camera) return parse_camera(*arguments.camera, scene, fov);
+    if (!arguments.fov_deg) return std::nullopt;
+    return framing_camera(scene_bounds(scene), settings.width, settings.height, fov);
 }
 
 RenderSettings render_settings(const RenderArguments& arguments) {
@@ -239,10 +252,7 @@ void render(const RenderArguments& arguments) {
     Renderer renderer({.device = arguments.device, .validation = arguments.validate});
     renderer.set_scene(scene);
     renderer.set_environment(environment);
-    if (arguments.camera) {
-        renderer.set_camera(
-            parse_camera(*arguments.camera, scene, float(arguments.fov_deg * 3.14159265358979 / 180.0)));
-    }
+    if (const std::optional<Camera> camera = chosen_camera(arguments, settings, scene)) renderer.set_camera(*camera);
     const RenderResult result = renderer.render(settings);
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
 
@@ -280,8 +290,7 @@ void add_render_command(CLI::App& app) {
                      "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
                      "default: the file's first camera, or one that frames the scene")
         ->type_name("NAME|orbit:AZ,EL,DIST");
-    add_number(*command, "--fov", a.fov_deg, "Vertical field of view of an orbit camera, degrees")
-        ->capture_default_str()
+    add_number(*command, "--fov", a.fov_deg, "Vertical field of view, degrees, of an orbit camera or of the one that frames the scene (default 30)")
         ->check(CLI::Range(1.0, 170.0));
     add_number(*command, "--samples", a.samples, "Jittered frames, averaged in linear light")->capture_default_str();
     command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")

@@ -149,4 +149,8 @@ Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg
 /// Distance, in radii, at which a sphere fills `share` of the image height (0 < share < 1).
 float framing_distance(float vertical_fov, float share);
 
+/// The default camera: azimuth 0, elevation 15 degrees, `bounds` filling 70% of the picture's height,
+/// or of its width where that is less.
+Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov);
+
 }  // namespace pellucid

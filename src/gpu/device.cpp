@@ -74,6 +74,12 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
         info.missing.push_back("dynamicRendering");
     if (!features.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
         info.missing.push_back("synchronization2");
+    // shade.comp binds the most.
+    constexpr std::uint32_t kStorageImages = 10;
+    if (properties.limits.maxPerStageDescriptorStorageImages < kStorageImages) {
+        info.missing.push_back(fmt::format("{} storage images per shader stage (it has {})", kStorageImages,
+                                           properties.limits.maxPerStageDescriptorStorageImages));
+    }
     if (!universal_queue_family(physical)) info.missing.push_back("a queue with graphics and compute");
     if (!features.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics) {
         info.absent.push_back("fragmentStoresAndAtomics: layers are built by depth peeling");

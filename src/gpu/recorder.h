@@ -124,7 +124,8 @@ private:
     struct State {
         vk::PipelineStageFlags2 write_stage;
         vk::AccessFlags2 write_access;
-        vk::PipelineStageFlags2 visible_stages;  // to which the last write has been made visible
+        vk::PipelineStageFlags2 visible_stages;  // and accesses, to which the last write has been made visible
+        vk::AccessFlags2 visible_access;
         vk::PipelineStageFlags2 read_stages;     // since the last write
     };
 

@@ -1,12 +1,9 @@
 #version 460
 // Appends every glass fragment to the list of its pixel.
 #extension GL_GOOGLE_include_directive : require
+#include "layers/fragment_list.glsl"
 #include "layers/layer_fragment.glsl"
 
-struct Node {
-    Fragment fragment;
-    uint next;  // index + 1 of the next node, 0 at the end
-};
 layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };  // fragments, per band
 layout(std430, set = 0, binding = 3) writeonly buffer Nodes { Node nodes[]; };
 layout(set = 0, binding = 4, r32ui) uniform uimage2DArray heads;

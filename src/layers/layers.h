@@ -9,7 +9,7 @@ namespace pellucid {
 /// Layer k of `depth` (R32F) holds linear eye depth in metres, PELLUCID_EMPTY_DEPTH where there is
 /// no k-th surface; layer k of `surface` (RG32UI) holds the interpolated world normal (octahedral)
 /// and the triangle: its index over all objects, with PELLUCID_BACK_FACE set where the view ray
-/// leaves the solid. The object follows from the triangle (find_object in layers.glsl).
+/// leaves the solid. The object follows from the triangle (find_object in objects.glsl).
 ///
 /// Order is by depth and, where depths are equal, by triangle index, in every builder. A pixel whose
 /// first surface lies behind an opaque one has no layers; opaque surfaces further back cut nothing.

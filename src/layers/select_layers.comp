@@ -2,14 +2,10 @@
 // Writes the nearest fragments of each pixel's list in order. Selection reads the list once per
 // layer; it needs no memory of its own, so neither lists nor layers have a maximum length.
 #extension GL_GOOGLE_include_directive : require
-#include "layers/layers.glsl"
+#include "layers/fragment_list.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-struct Node {
-    Fragment fragment;
-    uint next;
-};
 layout(std430, set = 0, binding = 0) readonly buffer Nodes { Node nodes[]; };
 layout(set = 0, binding = 1, r32ui) readonly uniform uimage2DArray heads;
 layout(set = 0, binding = 2, r32f) readonly uniform image2DArray opaque_depth;

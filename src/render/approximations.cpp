@@ -8,11 +8,12 @@ namespace pellucid {
 
 std::vector<std::string> approximations(const Scene& scene) {
     std::set<int> used;
-    std::size_t refractive = 0, opaque = 0;
+    std::size_t refractive = 0, thin = 0, opaque = 0;
     for (const Object& object : scene.objects) {
         const Material& material = scene.materials[std::size_t(object.material)];
         used.insert(object.material);
         refractive += material.refractive() ? 1 : 0;
+        thin += material.transmissive() && !material.refractive() ? 1 : 0;
         opaque += material.transmissive() ? 0 : 1;
     }
     std::vector<std::string> lines;
@@ -25,12 +26,18 @@ std::vector<std::string> approximations(const Scene& scene) {
         if (material.refractive() && material.dispersion > 0.0f) {
             lines.push_back(fmt::format("material {}: dispersion is not drawn", name));
         }
+        if (material.transmissive() && material.emission != glm::vec3(0.0f)) {
+            lines.push_back(fmt::format("material {}: the emission of glass is not drawn", name));
+        }
+        if (!material.transmissive() && !material.unlit && material.metallic > 0.0f) {
+            lines.push_back(fmt::format("material {}: metal is drawn as a diffuse surface", name));
+        }
     }
     if (refractive > 1) {
         lines.push_back(fmt::format("behind the first surface {} refracting objects count as one solid", refractive));
     }
-    if (refractive > 0 && opaque > 0) {
-        lines.push_back("opaque objects are drawn where they are seen directly, not through refracting glass");
+    if (refractive > 0 && opaque + thin > 0) {
+        lines.push_back("opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
     return lines;
 }

@@ -16,10 +16,11 @@ Range clip_range(const Camera& camera, const Bounds& bounds) {
     const glm::mat4 view_from_world = glm::affineInverse(camera.world_from_view);
     const float center = -(view_from_world * glm::vec4(bounds.center, 1.0f)).z;
     Range range{center - 1.01f * radius, center + 1.01f * radius};
-    range.low = std::max(range.low, camera.orthographic ? 0.0f : 1e-3f * radius);
+    range.low = std::max(range.low, camera.orthographic ? 0.0f : 1e-5f * radius);
     range.high = std::max(range.high, range.low + radius);
     if (camera.near_plane > 0.0f) range.low = camera.near_plane;
     if (camera.far_plane > 0.0f) range.high = camera.far_plane;
+    if (!(range.low < range.high)) range.high = range.low + radius;  // a near plane beyond the scene
     return range;
 }
 

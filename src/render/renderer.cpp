@@ -4,6 +4,7 @@
 #include "render/approximations.h"
 #include "render/camera_constants.h"
 #include "render/frame.h"
+#include "scene/check_scene.h"
 
 #include <pellucid/error.h>
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 namespace pellucid {
 namespace {
@@ -89,6 +91,7 @@ struct Renderer::Impl {
     Workspace workspace;
     Recorder recorder;
     FragmentPool pool;
+    vk::Extent2D pool_extent;  // the size that `pool` was measured at
     std::optional<GpuScene> scene;
     std::vector<std::string> scene_warnings;
     std::optional<GpuImage> environment;
@@ -98,9 +101,11 @@ struct Renderer::Impl {
     gpu::FrameConstants environment_constants{};
 
     FrameSettings frame_settings(const RenderSettings& settings, RenderResult& result) const;
-    /// Records frames with `record` until the fragment pool is large enough; returns the pass times.
-    template <class Record>
-    std::vector<PassTime> run_frame(const Frame& frame, const FrameSettings& settings, Record record);
+    /// Draws a frame, again if need be, until the fragment pool is large enough; returns the pass times.
+    std::vector<PassTime> run_frame(const Frame& frame, const FrameSettings& settings, std::optional<FrameImages>& images);
+    /// Sum of the samples' radiance; fills the AOVs, counts and times of `result`.
+    const GpuImage& render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                                   RenderResult& result);
     void set_constants(const RenderSettings& settings, glm::vec2 jitter);
     Camera camera_for(const RenderSettings& settings) const;
 };
@@ -109,10 +114,7 @@ Camera Renderer::Impl::camera_for(const RenderSettings& settings) const {
     if (camera) return *camera;
     if (scene_camera) return *scene_camera;
     if (scene->object_count == 0) return Camera{};
-    // Fills 70% of the height, or of the width where that is less.
-    const float share = 0.7f * std::min(1.0f, float(settings.width) / float(settings.height));
-    const float fov = Camera{}.vertical_fov;
-    return orbit_camera(scene->bounds, 0.0f, 15.0f, framing_distance(fov, share), fov);
+    return framing_camera(scene->bounds, settings.width, settings.height, Camera{}.vertical_fov);
 }
 
 FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, RenderResult& result) const {
@@ -135,18 +137,36 @@ void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jit
     std::memcpy(constants->mapped(), &values, sizeof(values));
 }
 
-template <class Record>
-std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameSettings& settings, Record record) {
+std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameSettings& settings,
+                                                std::optional<FrameImages>& images) {
     for (;;) {
-        try {
-            record();
-        } catch (...) {
-            recorder.restart();  // what was recorded may name resources that are gone
-            throw;
-        }
+        images.emplace(record_frame(recorder, frame, settings, pool));
         std::vector<PassTime> times = recorder.submit_and_wait();
         if (settings.layer_builder != LayerBuilder::kSinglePass || !fragment_pool_overflowed(frame, pool)) return times;
     }
+}
+
+const GpuImage& Renderer::Impl::render_samples(const Frame& frame, const FrameSettings& chosen,
+                                               const RenderSettings& settings, RenderResult& result) {
+    // The frame through pixel centres gives the AOVs and counts; alone, it is the picture too.
+    std::optional<FrameImages> images;
+    set_constants(settings, {0.0f, 0.0f});
+    std::vector<PassTime> times = run_frame(frame, chosen, images);
+    read_aovs(device, *images, scene->first_triangles, settings.aovs, result);
+    if (settings.samples == 1) {
+        result.frames.push_back(std::move(times));
+        return images->radiance;
+    }
+    const GpuImage* sum = nullptr;
+    for (std::uint32_t sample = 0; sample < settings.samples; ++sample) {
+        set_constants(settings, sample_jitter(sample));
+        times = run_frame(frame, chosen, images);
+        // Submitted apart: a frame that overflowed was drawn twice, and counts once.
+        sum = &accumulate(recorder, frame, images->radiance, sample);
+        for (PassTime& time : recorder.submit_and_wait()) times.push_back(std::move(time));
+        result.frames.push_back(std::move(times));
+    }
+    return *sum;
 }
 
 Renderer::Renderer(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options)) {
@@ -160,15 +180,23 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::set_scene(const Scene& scene) {
+    check_scene(scene);
+    if (!scene.cameras.empty()) check_camera(scene.cameras.front());
     impl_->scene.reset();  // freed first: a large scene may fit once only
-    impl_->scene.emplace(impl_->device, scene);
+    impl_->pool = {};
+    try {
+        impl_->scene.emplace(impl_->device, scene);
+    } catch (...) {
+        impl_->scene.emplace(impl_->device, Scene{});
+        throw;
+    }
     impl_->scene_warnings = approximations(scene);
     impl_->scene_camera = scene.cameras.empty() ? std::nullopt : std::optional(scene.cameras.front());
 }
 
 void Renderer::set_environment(const Environment& environment) {
-    impl_->environment.reset();
-    impl_->environment.emplace(upload_environment(impl_->device, environment));
+    check_environment(environment);
+    impl_->environment = upload_environment(impl_->device, environment);
     gpu::FrameConstants& values = impl_->environment_constants;
     values.environment_kind = std::uint32_t(environment.kind);
     values.environment_uniform = glm::vec4(environment.uniform_radiance, 0.0f);
@@ -176,7 +204,10 @@ void Renderer::set_environment(const Environment& environment) {
     for (std::size_t i = 0; i < coefficients.size(); ++i) values.irradiance[i] = glm::vec4(coefficients[i], 0.0f);
 }
 
-void Renderer::set_camera(const Camera& camera) { impl_->camera = camera; }
+void Renderer::set_camera(const Camera& camera) {
+    check_camera(camera);
+    impl_->camera = camera;
+}
 
 RenderResult Renderer::render(const RenderSettings& settings) {
     Impl& impl = *impl_;
@@ -187,33 +218,20 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     const Frame frame{
         impl.workspace, *impl.scene, *impl.constants, *impl.environment, {settings.width, settings.height}};
     impl.workspace.trim();
-
-    // The frame through pixel centres gives the AOVs and counts; alone, it is the picture too.
-    std::optional<FrameImages> images;
-    const GpuImage* radiance = nullptr;
-    impl.set_constants(settings, {0.0f, 0.0f});
-    std::vector<PassTime> times = impl.run_frame(frame, chosen, [&] {
-        images.emplace(record_frame(impl.recorder, frame, chosen, impl.pool));
-        radiance = &images->radiance;
-    });
-    read_aovs(impl.device, *images, impl.scene->first_triangles, settings.aovs, result);
-    if (settings.samples == 1) {
-        result.frames.push_back(std::move(times));
-    } else {
-        for (std::uint32_t sample = 0; sample < settings.samples; ++sample) {
-            impl.set_constants(settings, sample_jitter(sample));
-            result.frames.push_back(impl.run_frame(frame, chosen, [&] {
-                const GpuImage& one = record_frame(impl.recorder, frame, chosen, impl.pool).radiance;
-                radiance = &accumulate(impl.recorder, frame, one, sample);
-            }));
-        }
+    if (std::exchange(impl.pool_extent, frame.extent) != frame.extent) impl.pool = {};
+    try {
+        const GpuImage& radiance = impl.render_samples(frame, chosen, settings, result);
+        const float mean = 1.0f / float(settings.samples);
+        const GpuImage& display =
+            tonemap(impl.recorder, frame, radiance, mean * std::exp2(settings.exposure_ev), settings.tonemap);
+        impl.recorder.submit_and_wait();
+        result.radiance = rgb_image(frame.extent, download(impl.device, radiance, 0), mean);
+        result.display = display_image(frame.extent, download(impl.device, display, 0));
+    } catch (...) {
+        impl.recorder.restart();  // what was recorded may name resources that are gone
+        impl.pool = {};
+        throw;
     }
-    const float mean = 1.0f / float(settings.samples);
-    const GpuImage& display =
-        tonemap(impl.recorder, frame, *radiance, mean * std::exp2(settings.exposure_ev), settings.tonemap);
-    impl.recorder.submit_and_wait();
-    result.radiance = rgb_image(frame.extent, download(impl.device, *radiance, 0), mean);
-    result.display = display_image(frame.extent, download(impl.device, display, 0));
     return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pellucid {
@@ -52,6 +53,11 @@ float framing_distance(float vertical_fov, float share) {
     // distance, and on the image plane it reaches up to tan h of the half height tan(fov / 2).
     const double half_angle = std::atan(double(share) * std::tan(0.5 * double(vertical_fov)));
     return static_cast<float>(1.0 / std::sin(half_angle));
+}
+
+Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov) {
+    const float share = 0.7f * std::min(1.0f, float(width) / float(height));
+    return orbit_camera(bounds, 0.0f, 15.0f, framing_distance(vertical_fov, share), vertical_fov);
 }
 
 }  // namespace pellucid

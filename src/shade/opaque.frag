@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shade/surface_fragment.glsl"
-#include "shade/environment.glsl"
+#include "shade/diffuse.glsl"
 
 layout(location = 0) out vec4 out_radiance;
 layout(location = 1) out float out_depth;
@@ -13,11 +13,8 @@ void main() {
 
     vec3 radiance = base.rgb;
     if ((material.flags & PELLUCID_MATERIAL_UNLIT) == 0u) {
-        vec3 coefficients[9];
-        for (int i = 0; i < 9; ++i) coefficients[i] = frame.irradiance[i].rgb;
-        vec3 irradiance = irradiance_from_coefficients(coefficients, facing_normal(world_view_direction()));
         vec3 emission = material.emission.rgb * sample_texture(material.emission_texture, texcoords.xy, texcoords.zw).rgb;
-        radiance = base.rgb * irradiance / 3.14159265 + emission;
+        radiance = diffuse_radiance(base.rgb, facing_normal(world_view_direction())) + emission;
     }
     out_radiance = vec4(radiance, 1.0);
     out_depth = eye_depth;

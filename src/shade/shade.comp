@@ -24,13 +24,8 @@ layout(set = 0, binding = 13, rgba32f) writeonly uniform image2DArray radiance;
 layout(push_constant) uniform Push { uint analysis; };
 
 #include "layers/objects.glsl"
+#include "shade/diffuse.glsl"
 #include "shade/environment_lookup.glsl"
-
-vec3 diffuse_irradiance(vec3 normal) {
-    vec3 coefficients[9];
-    for (int i = 0; i < 9; ++i) coefficients[i] = frame.irradiance[i].rgb;
-    return irradiance_from_coefficients(coefficients, normal);
-}
 
 // Glass in front of `behind`, the radiance that reaches the end of its refracted path.
 vec3 glass_radiance(ivec3 at, vec3 view_direction, uvec2 first, vec3 behind) {
@@ -42,11 +37,11 @@ vec3 glass_radiance(ivec3 at, vec3 view_direction, uvec2 first, vec3 behind) {
     if (back_face(first.y)) return tint.rgb * transmitted;  // seen from inside: no outer reflection
     float reflectance = fresnel_dielectric(-dot(view_direction, normal), 1.0 / material.ior);
     vec3 reflected = reflectance * environment_radiance(reflect_direction(view_direction, normal));
-    vec3 scattered = (1.0 - reflectance) * tint.rgb * diffuse_irradiance(normal) / 3.14159265;
+    vec3 scattered = (1.0 - reflectance) * diffuse_radiance(tint.rgb, normal);
     return reflected + mix(scattered, tint.rgb * transmitted, tint.a);
 }
 
-// Wang 2014, figure 4.5: red two interfaces, blue four or more, green total internal reflection.
+// Wang 2014, figure 4.5: red up to two interfaces, blue four or more, green total internal reflection.
 vec3 analysis_color(ivec3 at, vec3 view_direction, vec3 normal) {
     uint events = imageLoad(path_events, at).r;  // twin of unpack_events()
     vec3 color = vec3(0.85, 0.1, 0.08);
@@ -72,7 +67,8 @@ void main() {
         result = environment_radiance(imageLoad(exit_direction, at).xyz);
         if (glass) result = glass_radiance(at, view_direction, first, result);
         else if (opaque) result = imageLoad(opaque_radiance, at).rgb;
-        result = result * imageLoad(thin_tint, at).rgb + imageLoad(thin_reflection, at).rgb;
+        result = result * imageLoad(thin_tint, at).rgb +
+                 min(imageLoad(thin_reflection, at).rgb, vec3(65504.0));  // panes add up in 16-bit float
     }
     imageStore(radiance, at, vec4(result, 1.0));
 }

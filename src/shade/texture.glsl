@@ -29,7 +29,10 @@ vec4 sample_texture(uint index, vec2 first_set, vec2 second_set) {
     TextureRecord t = textures[index];
     vec3 texcoord = vec3((t.flags & PELLUCID_TEXTURE_SECOND_SET) != 0u ? second_set : first_set, 1.0);
     vec2 uv = vec2(dot(t.uv_row0.xyz, texcoord), dot(t.uv_row1.xyz, texcoord));
-    vec2 position = clamp(uv * vec2(t.width, t.height), vec2(-1e6), vec2(1e6));
+    // Far repetitions would lose their texels to rounding; two periods hold a mirrored texture whole.
+    uv.x = t.wrap_u == 2u ? clamp(uv.x, -1.0, 2.0) : uv.x - 2.0 * floor(0.5 * uv.x);
+    uv.y = t.wrap_v == 2u ? clamp(uv.y, -1.0, 2.0) : uv.y - 2.0 * floor(0.5 * uv.y);
+    vec2 position = uv * vec2(t.width, t.height);
     if ((t.flags & PELLUCID_TEXTURE_NEAREST) != 0u) return fetch_texel(t, ivec2(floor(position)));
     position -= 0.5;
     ivec2 low = ivec2(floor(position));

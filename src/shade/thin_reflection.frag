@@ -3,6 +3,7 @@
 #include "shade/thin_fragment.glsl"
 
 layout(set = 0, binding = 7) uniform texture2D environment_map;
+#include "shade/diffuse.glsl"
 #include "shade/environment_lookup.glsl"
 
 layout(location = 0) out vec4 out_radiance;
@@ -14,10 +15,7 @@ void main() {
     vec3 view_direction = world_view_direction();
     vec3 normal = facing_normal(view_direction);
     float reflectance = pane_reflectance(normal, view_direction, material.ior);
-    vec3 coefficients[9];
-    for (int i = 0; i < 9; ++i) coefficients[i] = frame.irradiance[i].rgb;
-    vec3 diffuse = base.rgb * irradiance_from_coefficients(coefficients, normal) / 3.14159265;
     vec3 radiance = reflectance * environment_radiance(reflect_direction(view_direction, normal)) +
-                    (1.0 - reflectance) * (1.0 - transmission(material)) * diffuse;
+                    (1.0 - reflectance) * (1.0 - transmission(material)) * diffuse_radiance(base.rgb, normal);
     out_radiance = vec4(min(radiance, vec3(65504.0)), 1.0);  // the target is 16-bit float
 }

@@ -12,10 +12,14 @@ void main() {
     Path path = camera_path(pixel);
     Fragment first = load_fragment(texel, 0u);
     if (first.triangle != PELLUCID_NO_TRIANGLE) {
-        path.position = view_position(pixel, first.depth);
-        cross_interface(path, view_normal(first), back_face(first.triangle), material_of(first).ior);
-        // Seen from inside, the interface before this one is the one that is missing.
-        if (back_face(first.triangle)) path.status = kStatusMissingLayer;
+        MaterialRecord material = material_of(first);
+        vec3 position = view_position(pixel, first.depth);
+        if (back_face(first.triangle)) {  // seen from inside: the interface before this one is missing
+            travel(path, distance(path.position, position), material.sigma_a.rgb);
+            path.status = kStatusMissingLayer;
+        }
+        path.position = position;
+        cross_interface(path, view_normal(first), back_face(first.triangle), material.ior);
     }
     store_refraction(texel, path);
 }

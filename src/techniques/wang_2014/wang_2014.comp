@@ -123,19 +123,25 @@ bool leave_solid(inout Path path, uint layer, MaterialRecord material) {
 // From outside to the solid's next entry layer; false if the ray meets none.
 bool enter_solid(inout Path path, uint layer, MaterialRecord material) {
     Hit hit = search(path.position, path.direction, layer, true);
-    if (hit.distance < 0.0) return false;
+    if (hit.distance < 0.0) {
+        // Most paths meet no further glass. Over glass at the edge of the picture nobody knows.
+        if (hit.status == kStatusLeftScreen) path.status = hit.status;
+        return false;
+    }
     path.position += hit.distance * path.direction;
     return cross_interface(path, normal_at(path.position, layer), false, material.ior);
 }
 
 void trace(inout Path path, vec2 pixel, Fragment first) {
     MaterialRecord material = material_of(first);
-    path.position = view_position(pixel, first.depth);
+    vec3 first_position = view_position(pixel, first.depth);
     if (back_face(first.triangle)) {  // the entry before this exit is not there: an open mesh, or the eye inside
+        travel(path, distance(path.position, first_position), material.sigma_a.rgb);
         cross_interface(path, view_normal(first), true, material.ior);
         path.status = kStatusMissingLayer;
         return;
     }
+    path.position = first_position;
     cross_interface(path, view_normal(first), false, material.ior);
     for (uint exit_layer = 1u; leave_solid(path, exit_layer, material); exit_layer += 2u) {
         if (exit_layer + 2u >= layer_count) return;

@@ -13,13 +13,13 @@ constexpr std::uint32_t kShader[] = {
 };
 
 constexpr std::array kParameters = {
-    ParameterInfo{"layers", "", 4, 2, 64, true, "layers peeled; entry and exit layers alternate (even)"},
+    ParameterInfo{"layers", "", 4, 2, 64, true, "layers peeled; entries and exits alternate"},
     ParameterInfo{"steps", "", 50, 1, 4096, true, "linear search steps n; SIZE = 1/n of the depth range"},
     ParameterInfo{"binary-steps", "", 8, 0, 24, true, "binary search steps m after a linear one"},
     ParameterInfo{"reflections", "", 1, 0, 16, true, "total internal reflections followed per exit"},
 };
 
-std::uint32_t layer_count(const ParameterValues& parameters) { return parameters.whole("layers") & ~1u; }
+std::uint32_t layer_count(const ParameterValues& parameters) { return parameters.whole("layers"); }
 
 /// Section 3.5.2: a deeper layer that is empty takes the layer of its kind before it.
 const GpuImage& merge_layers(Recorder& recorder, const Frame& frame, const Layers& layers) {

@@ -1,0 +1,12 @@
+#ifndef PELLUCID_LAYERS_FRAGMENT_LIST_GLSL
+#define PELLUCID_LAYERS_FRAGMENT_LIST_GLSL
+
+// An entry of a pixel's list of fragments; kNodeSize in single_pass_layers.cpp is its size.
+#include "layers/layers.glsl"
+
+struct Node {
+    Fragment fragment;
+    uint next;  // index + 1 of the next node, 0 at the end
+};
+
+#endif

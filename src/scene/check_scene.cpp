@@ -1,0 +1,113 @@
+#include "scene/check_scene.h"
+
+#include "core/math.h"
+
+#include <pellucid/error.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace pellucid {
+namespace {
+
+void require(bool holds, const std::string& what, const char* promise) {
+    if (!holds) throw Error(fmt::format("{}: {}", what, promise));
+}
+
+template <class Vector>
+bool finite(const Vector& v) {
+    for (int i = 0; i < v.length(); ++i) {
+        if (!std::isfinite(v[i])) return false;
+    }
+    return true;
+}
+
+bool finite(const glm::mat4& m) { return finite(m[0]) && finite(m[1]) && finite(m[2]) && finite(m[3]); }
+
+template <class Vector>
+bool all_finite(const std::vector<Vector>& values) {
+    for (const Vector& value : values) {
+        if (!finite(value)) return false;
+    }
+    return true;
+}
+
+bool holds_its_pixels(const Image& image) {
+    return image.width > 0 && image.height > 0 && image.channels > 0 && image.channels <= 4 &&
+           image.pixels.size() == std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
+}
+
+void check_mesh(const Mesh& mesh, const std::string& what) {
+    const std::size_t count = mesh.positions.size();
+    require(all_finite(mesh.positions), what, "a position is not finite");
+    require(mesh.normals.size() == count && all_finite(mesh.normals), what, "needs one finite normal per position");
+    for (const auto& set : mesh.texcoords) {
+        require(set.empty() || (set.size() == count && all_finite(set)), what,
+                "texture coordinates must be none, or one per position and finite");
+    }
+    require(mesh.colors.empty() || (mesh.colors.size() == count && all_finite(mesh.colors)), what,
+            "colours must be none, or one per position and finite");
+    for (const glm::uvec3& t : mesh.triangles) {
+        require(t.x < count && t.y < count && t.z < count, what, "a triangle refers to a vertex that is not there");
+    }
+}
+
+void check_material(const Material& m, const std::string& what, std::size_t images) {
+    for (const Texture* texture : {&m.base_color_texture, &m.emission_texture, &m.transmission_texture}) {
+        require(texture->image < int(images), what, "a texture refers to an image that is not there");
+        require(texture->texcoord_set == 0 || texture->texcoord_set == 1, what, "texture coordinate sets are 0 and 1");
+    }
+    require(finite(m.base_color) && finite(m.emission) && std::isfinite(m.transmission), what, "a factor is not finite");
+    require(m.ior >= 1.0f && std::isfinite(m.ior), what, "the index of refraction must be at least 1");
+    require(m.attenuation_distance > 0.0f, what, "the attenuation distance must be above 0");
+    const glm::vec3 c = m.attenuation_color;
+    require(finite(c) && c.r >= 0.0f && c.g >= 0.0f && c.b >= 0.0f, what, "the attenuation colour must not be negative");
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene) {
+    require(scene.image_names.size() == scene.images.size(), "scene", "needs one name per image");
+    for (std::size_t i = 0; i < scene.images.size(); ++i) {
+        require(holds_its_pixels(scene.images[i]), fmt::format("image {}", i), "its pixels do not fit its size");
+    }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        check_material(scene.materials[i], fmt::format("material {} '{}'", i, scene.materials[i].name), scene.images.size());
+    }
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        check_mesh(scene.meshes[i], fmt::format("mesh {} '{}'", i, scene.meshes[i].name));
+    }
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        const std::string what = fmt::format("object {} '{}'", i, object.name);
+        require(object.mesh >= 0 && object.mesh < int(scene.meshes.size()), what, "there is no such mesh");
+        require(object.material >= 0 && object.material < int(scene.materials.size()), what, "there is no such material");
+        const glm::mat4& m = object.world_from_object;
+        require(finite(m) && glm::determinant(glm::dmat3(m)) != 0.0, what, "its transform is not finite and invertible");
+    }
+}
+
+void check_camera(const Camera& camera) {
+    const std::string what = camera.name.empty() ? "camera" : fmt::format("camera '{}'", camera.name);
+    require(finite(camera.world_from_view) && glm::determinant(glm::mat3(camera.world_from_view)) != 0.0f, what,
+            "its transform is not finite and invertible");
+    if (camera.orthographic) {
+        require(camera.vertical_extent > 0.0f && std::isfinite(camera.vertical_extent), what,
+                "an orthographic camera needs a vertical extent above 0");
+    } else {
+        require(camera.vertical_fov > 0.0f && camera.vertical_fov < kPi, what, "the field of view must be 0 to pi, both excluded");
+    }
+    require(camera.near_plane >= 0.0f && std::isfinite(camera.near_plane), what, "the near plane must be finite, at 0 or beyond");
+    require(camera.far_plane == 0.0f || (camera.far_plane > camera.near_plane && std::isfinite(camera.far_plane)), what,
+            "the far plane must lie beyond the near plane");
+}
+
+void check_environment(const Environment& environment) {
+    if (environment.kind == Environment::Kind::kMap) {
+        require(holds_its_pixels(environment.map) && environment.map.channels == 3, "environment", "the map needs 3 channels");
+    }
+    require(finite(environment.uniform_radiance), "environment", "the uniform radiance is not finite");
+}
+
+}  // namespace pellucid

@@ -1,0 +1,13 @@
+#ifndef PELLUCID_SHADE_DIFFUSE_GLSL
+#define PELLUCID_SHADE_DIFFUSE_GLSL
+
+// Light of the environment that a diffuse surface scatters. Needs: frame (FrameConstants).
+#include "shade/environment.glsl"
+
+vec3 diffuse_radiance(vec3 albedo, vec3 normal) {
+    vec3 coefficients[9];
+    for (int i = 0; i < 9; ++i) coefficients[i] = frame.irradiance[i].rgb;
+    return albedo * irradiance_from_coefficients(coefficients, normal) / 3.14159265;
+}
+
+#endif
