@@ -124,7 +124,8 @@ LoadOptions load_options(const RenderArguments& arguments) {
 }
 
 /// The camera that the arguments ask for; none: the file's first, or one that frames the scene.
-std::optional<Camera> chosen_camera(const RenderArguments& arguments, const RenderSettings& settings, const Scene& scene) {
+std::optional<Camera> chosen_camera(const RenderArguments& arguments, const RenderSettings& settings,
+                                    const Scene& scene) {
     const bool of_the_file = arguments.camera ? !arguments.camera->starts_with("orbit:") : !scene.cameras.empty();
     if (arguments.fov_deg && of_the_file) {
         throw Error("--fov: a camera of the file has its own field of view; give --camera orbit:AZ,EL,DIST with it");
@@ -290,7 +291,8 @@ void add_render_command(CLI::App& app) {
                      "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
                      "default: the file's first camera, or one that frames the scene")
         ->type_name("NAME|orbit:AZ,EL,DIST");
-    add_number(*command, "--fov", a.fov_deg, "Vertical field of view, degrees, of an orbit camera or of the one that frames the scene (default 30)")
+    add_number(*command, "--fov", a.fov_deg,
+               "Vertical field of view, degrees, of an orbit camera or of the one that frames the scene (default 30)")
         ->check(CLI::Range(1.0, 170.0));
     add_number(*command, "--samples", a.samples, "Jittered frames, averaged in linear light")->capture_default_str();
     command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")

@@ -92,8 +92,8 @@ void Recorder::synchronise(std::span<const Use> uses) {
     vk::MemoryBarrier2 barrier;
     for (const Use& use : uses) {
         State& state = states_[use.id];
-        const bool unseen_write = 
-            state.write_access && ((state.visible_stages & use.stage) != use.stage || (state.visible_access & use.access) != use.access);
+        const bool unseen_write = state.write_access && ((state.visible_stages & use.stage) != use.stage ||
+                                                         (state.visible_access & use.access) != use.access);
         if (unseen_write || (use.write && state.write_access)) {
             barrier.srcStageMask |= state.write_stage;
             barrier.srcAccessMask |= state.write_access;

@@ -126,7 +126,7 @@ private:
         vk::AccessFlags2 write_access;
         vk::PipelineStageFlags2 visible_stages;  // and accesses, to which the last write has been made visible
         vk::AccessFlags2 visible_access;
-        vk::PipelineStageFlags2 read_stages;     // since the last write
+        vk::PipelineStageFlags2 read_stages;  // since the last write
     };
 
     void compute_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,

@@ -37,7 +37,8 @@ std::vector<std::string> approximations(const Scene& scene) {
         lines.push_back(fmt::format("behind the first surface {} refracting objects count as one solid", refractive));
     }
     if (refractive > 0 && opaque + thin > 0) {
-        lines.push_back("opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
+        lines.push_back(
+            "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
     return lines;
 }

@@ -102,7 +102,8 @@ struct Renderer::Impl {
 
     FrameSettings frame_settings(const RenderSettings& settings, RenderResult& result) const;
     /// Draws a frame, again if need be, until the fragment pool is large enough; returns the pass times.
-    std::vector<PassTime> run_frame(const Frame& frame, const FrameSettings& settings, std::optional<FrameImages>& images);
+    std::vector<PassTime> run_frame(const Frame& frame, const FrameSettings& settings,
+                                    std::optional<FrameImages>& images);
     /// Sum of the samples' radiance; fills the AOVs, counts and times of `result`.
     const GpuImage& render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
                                    RenderResult& result);

@@ -58,11 +58,13 @@ void check_material(const Material& m, const std::string& what, std::size_t imag
         require(texture->image < int(images), what, "a texture refers to an image that is not there");
         require(texture->texcoord_set == 0 || texture->texcoord_set == 1, what, "texture coordinate sets are 0 and 1");
     }
-    require(finite(m.base_color) && finite(m.emission) && std::isfinite(m.transmission), what, "a factor is not finite");
+    require(finite(m.base_color) && finite(m.emission) && std::isfinite(m.transmission), what,
+            "a factor is not finite");
     require(m.ior >= 1.0f && std::isfinite(m.ior), what, "the index of refraction must be at least 1");
     require(m.attenuation_distance > 0.0f, what, "the attenuation distance must be above 0");
     const glm::vec3 c = m.attenuation_color;
-    require(finite(c) && c.r >= 0.0f && c.g >= 0.0f && c.b >= 0.0f, what, "the attenuation colour must not be negative");
+    require(finite(c) && c.r >= 0.0f && c.g >= 0.0f && c.b >= 0.0f, what,
+            "the attenuation colour must not be negative");
 }
 
 }  // namespace
@@ -73,7 +75,8 @@ void check_scene(const Scene& scene) {
         require(holds_its_pixels(scene.images[i]), fmt::format("image {}", i), "its pixels do not fit its size");
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        check_material(scene.materials[i], fmt::format("material {} '{}'", i, scene.materials[i].name), scene.images.size());
+        check_material(scene.materials[i], fmt::format("material {} '{}'", i, scene.materials[i].name),
+                       scene.images.size());
     }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         check_mesh(scene.meshes[i], fmt::format("mesh {} '{}'", i, scene.meshes[i].name));
@@ -82,9 +85,11 @@ void check_scene(const Scene& scene) {
         const Object& object = scene.objects[i];
         const std::string what = fmt::format("object {} '{}'", i, object.name);
         require(object.mesh >= 0 && object.mesh < int(scene.meshes.size()), what, "there is no such mesh");
-        require(object.material >= 0 && object.material < int(scene.materials.size()), what, "there is no such material");
+        require(object.material >= 0 && object.material < int(scene.materials.size()), what,
+                "there is no such material");
         const glm::mat4& m = object.world_from_object;
-        require(finite(m) && glm::determinant(glm::dmat3(m)) != 0.0, what, "its transform is not finite and invertible");
+        require(finite(m) && glm::determinant(glm::dmat3(m)) != 0.0, what,
+                "its transform is not finite and invertible");
     }
 }
 
@@ -96,16 +101,19 @@ void check_camera(const Camera& camera) {
         require(camera.vertical_extent > 0.0f && std::isfinite(camera.vertical_extent), what,
                 "an orthographic camera needs a vertical extent above 0");
     } else {
-        require(camera.vertical_fov > 0.0f && camera.vertical_fov < kPi, what, "the field of view must be 0 to pi, both excluded");
+        require(camera.vertical_fov > 0.0f && camera.vertical_fov < kPi, what,
+                "the field of view must be 0 to pi, both excluded");
     }
-    require(camera.near_plane >= 0.0f && std::isfinite(camera.near_plane), what, "the near plane must be finite, at 0 or beyond");
+    require(camera.near_plane >= 0.0f && std::isfinite(camera.near_plane), what,
+            "the near plane must be finite, at 0 or beyond");
     require(camera.far_plane == 0.0f || (camera.far_plane > camera.near_plane && std::isfinite(camera.far_plane)), what,
             "the far plane must lie beyond the near plane");
 }
 
 void check_environment(const Environment& environment) {
     if (environment.kind == Environment::Kind::kMap) {
-        require(holds_its_pixels(environment.map) && environment.map.channels == 3, "environment", "the map needs 3 channels");
+        require(holds_its_pixels(environment.map) && environment.map.channels == 3, "environment",
+                "the map needs 3 channels");
     }
     require(finite(environment.uniform_radiance), "environment", "the uniform radiance is not finite");
 }

@@ -94,6 +94,18 @@ class Cameras(CliTest):
         self.assertNotEqual(first, self.picture("--camera", "orbit:90,0,3"))
         self.refuses(["back", "known: front, orbit:AZ,EL,DIST"], "--camera", "back", scene="a.gltf")
 
+    def test_field_of_view(self):
+        self.write("a.gltf", gltf())
+        orbit = self.picture("--camera", "orbit:90,0,3")
+        self.assertNotEqual(orbit, self.picture("--camera", "orbit:90,0,3", "--fov", "60"))
+        for camera in ([], ["--camera", "front"]):  # the file's have their own
+            self.refuses("--fov", *camera, "--fov", "60", scene="a.gltf")
+        # Alone it widens the camera that frames the scene: same size of the object, more perspective.
+        self.assert_rendered(self.render("shape:cube"))
+        framed = self.read("out.png")
+        self.assert_rendered(self.render("shape:cube", "--fov", "90"))
+        self.assertNotEqual(framed, self.read("out.png"))
+
 
 class Environments(CliTest):
     def test_bad_files(self):

@@ -196,7 +196,8 @@ TEST_F(RendererSuite, OverflowingFramesCountOnce) {
     for (float distance = 4.30f; distance < 4.36f; distance += 0.005f) {  // around the pool's first size
         renderer().set_camera(orbit_camera(scene_bounds(scene), 0.0f, 0.0f, distance, Camera{}.vertical_fov));
         renderer().set_scene(scene);
-        for (const float value : renderer().render(settings).radiance.pixels) ASSERT_NEAR(value, 1.0f, 1e-4f) << distance;
+        for (const float value : renderer().render(settings).radiance.pixels)
+            ASSERT_NEAR(value, 1.0f, 1e-4f) << distance;
     }
 }
 
