@@ -301,7 +301,7 @@ void add_render_command(CLI::App& app) {
     add_number(*command, "--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
     command
         ->add_option("--view", a.view,
-                     "radiance, or analysis: red two interfaces, blue four or more, green total internal "
+                     "radiance, or analysis: red up to two interfaces, blue more, green total internal "
                      "reflection, grey where the technique gave up")
         ->capture_default_str()
         ->type_name("NAME");

@@ -21,7 +21,7 @@ namespace pellucid {
 /// What the picture shows.
 enum class View {
     kRadiance,
-    /// Interfaces on each path (Wang 2014, figure 4.5): red two, blue four, green total internal
+    /// Interfaces on each path (Wang 2014, figure 4.5): red up to two, blue more, green total internal
     /// reflection; grey where the technique gave up (status other than ok).
     kAnalysis,
 };

@@ -41,7 +41,7 @@ vec3 glass_radiance(ivec3 at, vec3 view_direction, uvec2 first, vec3 behind) {
     return reflected + mix(scattered, tint.rgb * transmitted, tint.a);
 }
 
-// Wang 2014, figure 4.5: red up to two interfaces, blue four or more, green total internal reflection.
+// Wang 2014, figure 4.5: red up to two interfaces, blue more, green total internal reflection.
 vec3 analysis_color(ivec3 at, vec3 view_direction, vec3 normal) {
     uint events = imageLoad(path_events, at).r;  // twin of unpack_events()
     vec3 color = vec3(0.85, 0.1, 0.08);
