@@ -34,6 +34,19 @@ void check_command(const CLI::App& app, const std::string& command) {
     throw pellucid::Error(fmt::format("unknown command '{}'; known: {}", command, fmt::join(known, ", ")));
 }
 
+/// The command as it can be typed again.
+std::string command_line(int argc, char** argv) {
+    std::string line = "pellucid";
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        const bool plain = !argument.empty() && argument.find_first_not_of(
+                                                    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                                    "-_=./:,+@%") == std::string::npos;
+        line += plain ? " " + argument : fmt::format(" '{}'", argument);
+    }
+    return line;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -42,6 +55,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer("Exit codes: 0 done, 2 bad input or usage, 3 no suitable device, 1 a bug.");
     pellucid::cli::add_render_command(app);
+    pellucid::cli::add_compare_command(app, command_line(argc, argv));
+    pellucid::cli::add_bench_command(app);
     pellucid::cli::add_info_command(app);
     try {
         if (argc > 1 && argv[1][0] != '-') check_command(app, argv[1]);

@@ -1,5 +1,8 @@
+#include "accuracy.h"
 #include "arguments.h"
 #include "commands.h"
+#include "options.h"
+#include "progress_bar.h"
 
 #include "core/file.h"
 #include "core/file_extension.h"
@@ -27,7 +30,7 @@ struct RenderArguments {
     std::string scene;
     std::string output;
     std::string technique = RenderSettings{}.technique;
-    std::map<std::string, std::optional<double>> parameters;  ///< every name there is
+    ParameterArguments parameters;
     std::string size = "512x512";
     std::string environment = "studio";
     std::optional<std::string> camera;
@@ -39,88 +42,15 @@ struct RenderArguments {
     std::string layer_builder = "single-pass";
     std::vector<std::string> aovs;
     std::optional<std::string> json;
-    std::optional<double> ior;
-    std::optional<std::string> attenuation_color;
-    std::optional<double> attenuation_distance;
-    double crease_angle_deg = 180.0;
-    bool remake_normals = false;
-    std::string device;
-    bool validate = false;
+    SceneArguments how;
+    DeviceArguments device;
 };
-
-std::string parameter_help(const ParameterInfo& parameter) {
-    return fmt::format("{}{}{} [{} to {}, default {}]", parameter.doc, parameter.unit.empty() ? "" : ", ",
-                       parameter.unit, parameter.minimum, parameter.maximum, parameter.default_value);
-}
-
-/// An option with a finite number; the parser's own conversion takes "" and "nan".
-template <class Number>
-CLI::Option* add_number(CLI::App& command, const std::string& flag, Number& number, const std::string& help) {
-    return command.add_option(flag, number, help)->check([flag](const std::string& text) {
-        parse_number(flag, text);
-        return std::string();
-    });
-}
-
-/// One flag for each parameter name of the registry, in the group of the techniques that have it.
-void add_parameter_options(CLI::App& command, RenderArguments& arguments) {
-    struct Flag {
-        std::string owners, help, type;
-    };
-    std::map<std::string, Flag, std::less<>> flags;
-    for (const TechniqueInfo* technique : techniques()) {
-        for (const ParameterInfo& parameter : technique->parameters) {
-            Flag& flag = flags[std::string(parameter.name)];
-            const std::string help = parameter_help(parameter);
-            if (flag.owners.empty()) {
-                flag = {std::string(technique->name), help, parameter.whole ? "N" : "X"};
-                continue;
-            }
-            flag.owners += fmt::format(", {}", technique->name);
-            if (flag.help != help) flag.help += fmt::format("; {}: {}", technique->name, help);
-        }
-    }
-    for (const auto& [name, flag] : flags) {
-        add_number(command, "--" + name, arguments.parameters[name], flag.help)
-            ->type_name(flag.type)
-            ->group("Parameters of " + flag.owners);
-    }
-}
-
-std::string technique_help() {
-    std::string help = "How refraction is computed:";
-    for (const TechniqueInfo* technique : techniques())
-        help += fmt::format(" {} ({});", technique->name, technique->summary);
-    help.pop_back();
-    return help;
-}
-
-std::string shape_help() {
-    std::string help =
-        "Scene: a .gltf, .glb, .obj, .ply, .stl, .off or .3ds file, or shape:NAME[,PARAMETER=VALUE...] with NAME one "
-        "of";
-    for (const ShapeInfo& shape : shape_infos()) help += fmt::format(" {}", shape.name);
-    return help;
-}
 
 std::string aov_help() {
     std::string help = "NAME=FILE.exr, taken at pixel centres; may be repeated:";
     for (const AovInfo& aov : aov_infos()) help += fmt::format(" {}: {};", aov.name, aov.doc);
     help.pop_back();
     return help;
-}
-
-LoadOptions load_options(const RenderArguments& arguments) {
-    LoadOptions options;
-    if (arguments.ior) options.ior = float(*arguments.ior);
-    if (arguments.attenuation_color) {
-        const auto color = parse_numbers("--attenuation-color", *arguments.attenuation_color, 3);
-        options.attenuation_color = glm::vec3(float(color[0]), float(color[1]), float(color[2]));
-    }
-    if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
-    options.crease_angle = radians_from_degrees(float(arguments.crease_angle_deg));
-    options.remake_normals = arguments.remake_normals;
-    return options;
 }
 
 /// The camera that the arguments ask for; none: the file's first, or one that frames the scene.
@@ -140,9 +70,7 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     RenderSettings settings;
     std::tie(settings.width, settings.height) = parse_size(arguments.size);
     settings.technique = arguments.technique;
-    for (const auto& [name, value] : arguments.parameters) {
-        if (value) settings.parameters[name] = *value;
-    }
+    settings.parameters = given_parameters(arguments.parameters);
     settings.layer_builder = parse_layer_builder(arguments.layer_builder);
     settings.view = parse_view(arguments.view);
     settings.samples = arguments.samples;
@@ -207,12 +135,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"triangles", scene.triangle_count()},
                                 {"covered", result.covered},
                                 {"side_conflicts", result.side_conflicts}};
-    json["parameters"] = nlohmann::ordered_json::object();
-    for (const ParameterInfo& parameter : find_technique(settings.technique).parameters) {
-        const auto given = settings.parameters.find(parameter.name);
-        json["parameters"][std::string(parameter.name)] =
-            given == settings.parameters.end() ? parameter.default_value : given->second;
-    }
+    json["parameters"] = describe_parameters(find_technique(settings.technique), settings.parameters);
     for (std::uint32_t status = 0; status < kStatusCount; ++status) {
         const double share = result.covered > 0 ? double(result.status[status]) / double(result.covered) : 0.0;
         json["status"][std::string(status_name(Status(status)))] = share;
@@ -224,13 +147,35 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
         frame_ms += pass.time_ms;
     }
     json["frame_ms"] = frame_ms;
+    if (!result.standard_error.pixels.empty()) json["cut_paths"] = result.cut_paths;
     json["frames"] = result.frames.size();
     json["warnings"] = warnings;
     return json;
 }
 
+/// Radiance with what is known about its error: channels R, G, B, their standard errors, and the samples.
+void write_estimate(const std::string& file, const RenderResult& result, std::uint32_t samples) {
+    const Image &radiance = result.radiance, &error = result.standard_error;
+    Image image(radiance.width, radiance.height, 7);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            float* pixel = image.at(x, y);
+            std::copy_n(radiance.at(x, y), 3, pixel);
+            std::copy_n(error.at(x, y), 3, pixel + 3);
+            pixel[6] = float(samples);
+        }
+    }
+    write_image(file, image, {"R", "G", "B", "error.R", "error.G", "error.B", "samples"});
+}
+
 void write_outputs(const RenderArguments& arguments, const RenderResult& result, const nlohmann::ordered_json& json) {
-    write_image(arguments.output, lower_extension(arguments.output) == ".exr" ? result.radiance : result.display);
+    if (lower_extension(arguments.output) != ".exr") {
+        write_image(arguments.output, result.display);
+    } else if (result.standard_error.pixels.empty()) {
+        write_image(arguments.output, result.radiance);
+    } else {
+        write_estimate(arguments.output, result, arguments.samples);
+    }
     for (const std::string& aov : arguments.aovs) {
         const auto [name, file] = parse_aov(aov);
         write_image(file, result.aovs.at(name));
@@ -242,29 +187,27 @@ void write_outputs(const RenderArguments& arguments, const RenderResult& result,
 
 void render(const RenderArguments& arguments) {
     check_outputs(arguments);
-    const RenderSettings settings = render_settings(arguments);
-    find_technique(settings.technique);  // unknown names are said before any work
-    const Scene scene = load_scene(arguments.scene, load_options(arguments));
+    RenderSettings settings = render_settings(arguments);
+    const TechniqueInfo& technique = find_technique(settings.technique);  // unknown names are said before any work
+    const Scene scene = load_scene(arguments.scene, load_options(arguments.how));
     std::vector<std::string> warnings = scene.warnings;
     std::string environment_warning;
     const Environment environment = load_environment(arguments.environment, &environment_warning);
     if (!environment_warning.empty()) warnings.push_back(environment_warning);
 
-    Renderer renderer({.device = arguments.device, .validation = arguments.validate});
+    Renderer renderer(device_options(arguments.device));
     renderer.set_scene(scene);
     renderer.set_environment(environment);
     if (const std::optional<Camera> camera = chosen_camera(arguments, settings, scene)) renderer.set_camera(*camera);
+    ProgressBar bar(settings.technique);
+    if (technique.reference) settings.progress = bar.progress();
     const RenderResult result = renderer.render(settings);
+    bar.clear();
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
 
     write_outputs(arguments, result, describe(arguments, settings, scene, renderer.device(), result, warnings));
-    for (const std::string& warning : warnings)
-        std::fputs(fmt::format("pellucid: warning: {}\n", warning).c_str(), stderr);
-    if (!renderer.validation_messages().empty()) {
-        throw std::runtime_error(fmt::format("{} validation messages, the first: {}",
-                                             renderer.validation_messages().size(),
-                                             renderer.validation_messages().front()));
-    }
+    print_warnings(warnings);
+    check_validation(renderer);
 }
 
 }  // namespace
@@ -279,13 +222,11 @@ void add_render_command(CLI::App& app) {
     command->add_option("-o,--output", a.output, "Picture: .png (tone mapped, sRGB) or .exr (linear)")
         ->required()
         ->type_name("FILE");
-    command->add_option("--technique", a.technique, technique_help())->capture_default_str()->type_name("NAME");
-    command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
-    command
-        ->add_option("--environment", a.environment,
-                     "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
+    command->add_option("--technique", a.technique, "How refraction is computed:" + technique_list())
         ->capture_default_str()
-        ->type_name("NAME|FILE");
+        ->type_name("NAME");
+    command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
+    add_environment_option(*command, a.environment);
     command
         ->add_option("--camera", a.camera,
                      "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
@@ -294,7 +235,9 @@ void add_render_command(CLI::App& app) {
     add_number(*command, "--fov", a.fov_deg,
                "Vertical field of view, degrees, of an orbit camera or of the one that frames the scene (default 30)")
         ->check(CLI::Range(1.0, 170.0));
-    add_number(*command, "--samples", a.samples, "Jittered frames, averaged in linear light")->capture_default_str();
+    add_number(*command, "--samples", a.samples,
+               "Jittered frames, averaged in linear light; of the technique path: paths per pixel")
+        ->capture_default_str();
     command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")
         ->capture_default_str()
         ->type_name("NAME");
@@ -313,22 +256,9 @@ void add_render_command(CLI::App& app) {
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
-    add_number(*command, "--ior", a.ior, "Index of refraction of all glass")->type_name("X");
-    command
-        ->add_option("--attenuation-color", a.attenuation_color,
-                     "What the glass leaves of white light after the distance, 0 to 1")
-        ->type_name("R,G,B");
-    add_number(*command, "--attenuation-distance", a.attenuation_distance, "Metres after which that is left")
-        ->type_name("M");
-    add_number(*command, "--crease-angle", a.crease_angle_deg,
-               "Made normals are smooth across edges bent less than this, degrees")
-        ->capture_default_str()
-        ->check(CLI::Range(0.0, 180.0));
-    command->add_flag("--remake-normals", a.remake_normals, "Replace the normals that a mesh file brings along");
-    command->add_option("--device", a.device, "Vulkan device: its number in 'pellucid info' or a part of its name")
-        ->type_name("DEVICE");
-    command->add_flag("--validate", a.validate, "Run with the Vulkan validation layer; a message is an error");
-    add_parameter_options(*command, a);
+    add_scene_options(*command, a.how);
+    add_device_options(*command, a.device);
+    add_parameter_options(*command, a.parameters);
     command->callback([arguments] { render(*arguments); });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct DeviceOptions {
     /// Turns on the Khronos validation layer, core and synchronisation checks. Its messages are
     /// collected (Renderer::validation_messages). DeviceError if the layer is not installed.
     bool validation = false;
+    std::uint32_t threads = 0;  ///< of the techniques that trace on the CPU; 0: all cores
 };
 
 /// A Vulkan device as the loader reports it.

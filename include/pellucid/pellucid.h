@@ -5,6 +5,10 @@
 #include <pellucid/environment.h>
 #include <pellucid/error.h>
 #include <pellucid/image.h>
+#include <pellucid/measure.h>
+#include <pellucid/progress.h>
+#include <pellucid/reference.h>
+#include <pellucid/refracted_path.h>
 #include <pellucid/renderer.h>
 #include <pellucid/scene.h>
 #include <pellucid/technique.h>

@@ -3,6 +3,9 @@
 #include <pellucid/device.h>
 #include <pellucid/environment.h>
 #include <pellucid/image.h>
+#include <pellucid/progress.h>
+#include <pellucid/reference.h>
+#include <pellucid/refracted_path.h>
 #include <pellucid/scene.h>
 #include <pellucid/technique.h>
 
@@ -52,6 +55,8 @@ struct RenderSettings {
     ToneMap tonemap = ToneMap::kNeutral;
     float exposure_ev = 0.0f;       ///< stops; radiance is multiplied by 2^exposure_ev
     std::vector<std::string> aovs;  ///< names of aov_infos() wanted in RenderResult::aovs
+    bool paths = false;             ///< fill RenderResult::paths
+    Progress progress;
 };
 
 /// An image of something other than colour. Values are taken at pixel centres.
@@ -72,6 +77,9 @@ struct RenderResult {
     Image radiance;  ///< RGB, scene-linear, before exposure; the analysis view's colours in kAnalysis
     Image display;   ///< RGB, 0..1, tone mapped and sRGB-encoded
     std::map<std::string, Image, std::less<>> aovs;
+    std::vector<RefractedPath> paths;  ///< if asked for: one per pixel, through its centre, rows from the top
+    Image standard_error;              ///< RGB, of `radiance`, where the technique estimates it (path); else empty
+    std::uint64_t cut_paths = 0;       ///< technique path: paths that reached its limit of length
     /// One entry per sample; empty where the device has no timestamps. On the software driver the
     /// first frame of a size includes compiling the shaders.
     std::vector<std::vector<PassTime>> frames;
@@ -89,7 +97,7 @@ public:
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// Uploads; `scene` may go afterwards. Throws Error if the device cannot hold it.
+    /// Uploads, and keeps a copy for techniques that trace on the CPU; `scene` may go afterwards. Throws Error if the device cannot hold it.
     void set_scene(const Scene& scene);
     void set_environment(const Environment& environment);
     /// Default: the scene's first camera, or one that frames the scene (azimuth 0, elevation 15
@@ -99,7 +107,12 @@ public:
     /// Renders what was set; before that there are no objects and the studio environment. Throws Error for settings out of range, unknown names, or sizes beyond the device.
     RenderResult render(const RenderSettings& settings);
 
+    /// The exact tracer of the scene that was set, built on first use; valid until the next set_scene().
+    const Tracer& tracer();
+
     const DeviceInfo& device() const;
+    /// What the device lacks for a technique, in words that follow "needs"; empty: it can be used.
+    std::string lacking(const TechniqueInfo& technique) const;
     /// What the validation layer has said since the renderer was made.
     const std::vector<std::string>& validation_messages() const;
 

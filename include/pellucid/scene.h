@@ -85,6 +85,20 @@ struct Camera {
     float vertical_extent = 0.0f;  ///< orthographic: height of the view volume in metres
 };
 
+/// A light without extent (KHR_lights_punctual).
+struct Light {
+    enum class Kind : std::uint32_t { kDirectional, kPoint, kSpot };
+
+    std::string name;
+    Kind kind = Kind::kPoint;
+    glm::vec3 intensity{1.0f};               ///< linear RGB; point and spot W/sr, directional W/m2
+    glm::vec3 position{0.0f};                ///< world, m; point and spot
+    glm::vec3 direction{0.0f, 0.0f, -1.0f};  ///< unit, world: the way the light goes; directional and spot
+    float range = std::numeric_limits<float>::infinity();  ///< m; point and spot end here
+    float inner_cone_angle = 0.0f;                         ///< radians from the axis; spot: full light up to here
+    float outer_cone_angle = 0.7853982f;                   ///< radians, > inner_cone_angle: none beyond
+};
+
 /// A checked scene: every index is in range, every number finite, every normal of unit length.
 struct Scene {
     std::string source;  ///< what load_scene was given
@@ -94,6 +108,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Object> objects;
     std::vector<Camera> cameras;
+    std::vector<Light> lights;
     std::vector<std::string> warnings;     ///< one line each; what was approximated, repaired or left out
     std::uint64_t triangle_count() const;  ///< over all objects; instances count each time
 };
@@ -149,8 +164,9 @@ Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg
 /// Distance, in radii, at which a sphere fills `share` of the image height (0 < share < 1).
 float framing_distance(float vertical_fov, float share);
 
-/// The default camera: azimuth 0, elevation 15 degrees, `bounds` filling 70% of the picture's height,
-/// or of its width where that is less.
-Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov);
+/// The default camera: elevation 15 degrees, `bounds` filling 70% of the picture's height, or of its width
+/// where that is less.
+Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov,
+                      float azimuth_deg = 0.0f);
 
 }  // namespace pellucid

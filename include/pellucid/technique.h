@@ -34,9 +34,12 @@ struct TechniqueInfo {
     std::string_view summary;  ///< one line
     Source source;
     std::span<const ParameterInfo> parameters;
+    /// Traces rays on the CPU: the truth that the others are held against, not a frame's work.
+    bool reference = false;
 };
 
-/// Every technique there is, in the order of its publication.
+/// Every technique there is: those that others are drawn by in the order of their publication, then those
+/// that trace rays.
 std::span<const TechniqueInfo* const> techniques();
 
 /// Throws Error listing the known names if there is none of this name.

@@ -15,6 +15,11 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
+constexpr std::array kRayTracingExtensions = {
+    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
+    VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,  // the first needs it; nothing is deferred here
+};
+
 VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
@@ -55,6 +60,38 @@ std::optional<std::uint32_t> universal_queue_family(const vk::raii::PhysicalDevi
     return std::nullopt;
 }
 
+bool has_ray_tracing(const vk::raii::PhysicalDevice& physical) {
+    const auto available = physical.enumerateDeviceExtensionProperties();
+    const bool extensions =
+        std::all_of(kRayTracingExtensions.begin(), kRayTracingExtensions.end(), [&](std::string_view wanted) {
+            return std::any_of(available.begin(), available.end(), [&](const vk::ExtensionProperties& e) {
+                return std::string_view(e.extensionName) == wanted;
+            });
+        });
+    if (!extensions) return false;  // the features below may not even be asked for
+    const auto chain = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                                             vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
+                                             vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>();
+    return chain.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress &&
+           chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure &&
+           chain.get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>().rayTracingPipeline;
+}
+
+RayTracingLimits ray_tracing_limits(const vk::raii::PhysicalDevice& physical) {
+    const auto chain =
+        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceAccelerationStructurePropertiesKHR,
+                                vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();
+    const auto& structure = chain.get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
+    const auto& pipeline = chain.get<vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();
+    return {.group_handle_size = pipeline.shaderGroupHandleSize,
+            .group_handle_alignment = pipeline.shaderGroupHandleAlignment,
+            .group_base_alignment = pipeline.shaderGroupBaseAlignment,
+            .scratch_alignment = structure.minAccelerationStructureScratchOffsetAlignment,
+            .max_triangles = structure.maxPrimitiveCount,
+            .max_instances = structure.maxInstanceCount,
+            .max_rays = pipeline.maxRayDispatchInvocationCount};
+}
+
 DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     const vk::PhysicalDeviceProperties properties = physical.getProperties();
     DeviceInfo info;
@@ -84,6 +121,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     if (!features.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics) {
         info.absent.push_back("fragmentStoresAndAtomics: layers are built by depth peeling");
     }
+    if (!has_ray_tracing(physical)) info.absent.push_back("ray tracing: technique ray-tracing is not offered");
     return info;
 }
 
@@ -209,14 +247,26 @@ void Device::create_device(const vk::raii::PhysicalDevice& physical) {
     const std::uint32_t timestamp_bits = physical.getQueueFamilyProperties()[queue_family_].timestampValidBits;
     timestamp_period_ns_ = timestamp_bits > 0 ? double(limits_.timestampPeriod) : 0.0;
 
-    vk::PhysicalDeviceVulkan13Features features13{
-        .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+    vk::PhysicalDeviceRayTracingPipelineFeaturesKHR pipelines{.rayTracingPipeline = true};
+    vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures{.pNext = &pipelines, .accelerationStructure = true};
+    vk::PhysicalDeviceVulkan12Features features12{.pNext = &structures, .bufferDeviceAddress = true};
+    const bool traces = has_ray_tracing(physical);
+    if (traces) ray_tracing_ = ray_tracing_limits(physical);
+
+    vk::PhysicalDeviceVulkan13Features features13{.pNext = traces ? &features12 : nullptr,
+                                                  .synchronization2 = true,
+                                                  .dynamicRendering = true,
+                                                  .maintenance4 = true};
     const vk::PhysicalDeviceFeatures2 features{.pNext = &features13,
                                                .features = {.fragmentStoresAndAtomics = fragment_atomics_}};
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queue{
         .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
-    device_ = physical.createDevice({.pNext = &features, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue});
+    device_ = physical.createDevice({.pNext = &features,
+                                     .queueCreateInfoCount = 1,
+                                     .pQueueCreateInfos = &queue,
+                                     .enabledExtensionCount = traces ? std::uint32_t(kRayTracingExtensions.size()) : 0u,
+                                     .ppEnabledExtensionNames = kRayTracingExtensions.data()});
     queue_ = device_.getQueue(queue_family_, 0);
 }
 

@@ -6,10 +6,22 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace pellucid {
+
+/// What a device with ray-tracing pipelines asks of those who use them.
+struct RayTracingLimits {
+    std::uint32_t group_handle_size;       ///< bytes of a shader group in the shader binding table,
+    std::uint32_t group_handle_alignment;  ///< of each of them,
+    std::uint32_t group_base_alignment;    ///< and of the first of a kind
+    std::uint32_t scratch_alignment;       ///< bytes, of the address of a build's scratch memory
+    std::uint64_t max_triangles;           ///< in one acceleration structure
+    std::uint64_t max_instances;
+    std::uint64_t max_rays;  ///< launched at once
+};
 
 /// A Vulkan 1.3 device with one queue that does graphics and compute. Needs no surface.
 class Device {
@@ -31,6 +43,8 @@ public:
     vk::DeviceSize max_storage_binding() const { return limits_.maxStorageBufferRange; }
     /// Atomics from fragment shaders, which the single-pass layer builder needs.
     bool fragment_atomics() const { return fragment_atomics_; }
+    /// Ray-tracing pipelines and acceleration structures; nothing where the device has none.
+    const std::optional<RayTracingLimits>& ray_tracing() const { return ray_tracing_; }
     /// Nanoseconds per timestamp tick; 0 where the queue has no timestamps.
     double timestamp_period_ns() const { return timestamp_period_ns_; }
     bool debug_labels() const { return debug_labels_; }
@@ -57,6 +71,7 @@ private:
     vk::PhysicalDeviceMemoryProperties memory_;
     vk::DeviceSize max_allocation_ = 0;
     bool fragment_atomics_ = false;
+    std::optional<RayTracingLimits> ray_tracing_;
     bool debug_labels_ = false;
     double timestamp_period_ns_ = 0.0;
 };

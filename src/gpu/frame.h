@@ -3,7 +3,17 @@
 #include "gpu/gpu_scene.h"
 #include "gpu/workspace.h"
 
+#include <pellucid/reference.h>
+
 namespace pellucid {
+
+/// What a technique that traces on the CPU looks at.
+struct TracedView {
+    const Tracer& tracer;
+    Camera camera;
+    glm::vec2 jitter_px;  ///< of the sample within the pixel, from its centre
+    Progress progress;
+};
 
 /// What every pass of a frame may look at.
 struct Frame {
@@ -12,6 +22,7 @@ struct Frame {
     const Buffer& constants;      ///< one gpu::FrameConstants, bound as "Frame"
     const GpuImage& environment;  ///< map, or one texel if the environment is a formula
     vk::Extent2D extent;
+    const TracedView* traced = nullptr;  ///< for techniques that trace on the CPU; null for others
 };
 
 }  // namespace pellucid

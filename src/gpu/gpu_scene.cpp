@@ -15,7 +15,7 @@ struct GeometryVertex {
     glm::vec3 position;
     glm::vec3 normal;
 };
-static_assert(sizeof(GeometryVertex) == 24);
+static_assert(sizeof(GeometryVertex) == kGeometryStride);
 
 struct AppearanceVertex {
     glm::vec2 texcoord[2];
@@ -132,6 +132,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
         record.material = std::uint32_t(object.material);
         record.first_triangle = std::uint32_t(triangle_count);
         first_triangles.push_back(record.first_triangle);
+        world_from_object.push_back(object.world_from_object);
         record.first_vertex = streams.first_vertex[std::size_t(object.mesh)];
         record.mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0f ? 1u : 0u;
 
@@ -153,7 +154,11 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
     object_count = std::uint32_t(object_records.size());
 
     using Usage = vk::BufferUsageFlagBits;
-    geometry = upload_buffer(device, "the scene's vertices", streams.geometry, Usage::eVertexBuffer);
+    vk::BufferUsageFlags geometry_usage = Usage::eVertexBuffer;
+    if (device.ray_tracing()) {
+        geometry_usage |= Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress;
+    }
+    geometry = upload_buffer(device, "the scene's vertices", streams.geometry, geometry_usage);
     appearance = upload_buffer(device, "the scene's texture coordinates", streams.appearance, Usage::eVertexBuffer);
     objects = upload_buffer(device, "the scene's objects", object_records, Usage::eStorageBuffer);
     materials = upload_buffer(device, "the scene's materials", material_records, Usage::eStorageBuffer);

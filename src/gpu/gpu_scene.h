@@ -27,6 +27,7 @@ struct GpuScene {
     std::uint32_t object_count = 0;
     std::uint64_t triangle_count = 0;
     std::vector<std::uint32_t> first_triangles;  ///< per object; ascending
+    std::vector<glm::mat4> world_from_object;    ///< per object
     std::vector<DrawCall> refractive;            ///< solids of glass
     std::vector<DrawCall> textured_refractive;   ///< those of them whose surface varies in colour or transmission
     std::vector<DrawCall> thin_walled;           ///< transmissive surfaces that do not bend light
@@ -34,6 +35,9 @@ struct GpuScene {
     Bounds bounds;
     std::vector<glm::vec3> refractive_corners;  ///< corners of the refractive objects' boxes, world
 };
+
+/// Bytes from one vertex of GpuScene::geometry to the next.
+inline constexpr std::uint32_t kGeometryStride = 24;
 
 /// Layout of the two vertex streams; pass `with_appearance` where a shader wants locations 2 to 4.
 std::vector<std::uint32_t> stream_strides(bool with_appearance);

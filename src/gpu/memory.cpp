@@ -20,15 +20,18 @@ ResourceId next_resource_id() {
 }
 
 vk::raii::DeviceMemory allocate(const Device& device, const std::string& name, const vk::MemoryRequirements& needs,
-                                vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred) {
+                                vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred,
+                                vk::MemoryAllocateFlags flags = {}) {
     if (needs.size > device.max_allocation()) {
         throw Error(fmt::format("{} needs {:.2f} GiB, more than the {:.2f} GiB that {} allocates at once", name,
                                 double(needs.size) / double(1u << 30),
                                 double(device.max_allocation()) / double(1u << 30), device.info().name));
     }
+    const vk::MemoryAllocateFlagsInfo flags_info{.flags = flags};
     try {
         return device.handle().allocateMemory(
-            {.allocationSize = needs.size,
+            {.pNext = flags ? &flags_info : nullptr,
+             .allocationSize = needs.size,
              .memoryTypeIndex = device.memory_type(needs.memoryTypeBits, required, preferred)});
     } catch (const vk::OutOfDeviceMemoryError&) {
         throw Error(
@@ -116,7 +119,8 @@ std::uint32_t texel_size(vk::Format format) {
 Buffer::Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::BufferUsageFlags usage,
                bool host_visible)
     : name_(std::move(name)), size_(std::max<vk::DeviceSize>(size, 4)), id_(next_resource_id()) {
-    if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && size_ > device.max_storage_binding()) {
+    const bool addressed = bool(usage & vk::BufferUsageFlagBits::eShaderDeviceAddress);  // then it is not bound
+    if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && !addressed && size_ > device.max_storage_binding()) {
         throw Error(fmt::format("{} needs {} MiB in one storage buffer; {} allows {} MiB", name_, size_ >> 20,
                                 device.info().name, device.max_storage_binding() >> 20));
     }
@@ -125,8 +129,10 @@ Buffer::Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::
     const vk::MemoryPropertyFlags required =
         host_visible ? Property::eHostVisible | Property::eHostCoherent : vk::MemoryPropertyFlags{};
     const vk::MemoryPropertyFlags preferred = host_visible ? required | Property::eHostCached : Property::eDeviceLocal;
-    memory_ = allocate(device, name_, buffer_.getMemoryRequirements(), required, preferred);
+    memory_ = allocate(device, name_, buffer_.getMemoryRequirements(), required, preferred,
+                       addressed ? vk::MemoryAllocateFlagBits::eDeviceAddress : vk::MemoryAllocateFlags{});
     buffer_.bindMemory(*memory_, 0);
+    if (addressed) address_ = device.handle().getBufferAddress({.buffer = *buffer_});
     if (host_visible) mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
 }
 

@@ -25,6 +25,8 @@ public:
     const std::string& name() const { return name_; }
     /// Host address; null unless the buffer is host visible. Coherent.
     std::byte* mapped() const { return mapped_; }
+    /// Device address; 0 unless `usage` has eShaderDeviceAddress, which needs Device::ray_tracing().
+    vk::DeviceAddress address() const { return address_; }
 
 private:
     std::string name_;
@@ -33,6 +35,7 @@ private:
     vk::DeviceSize size_ = 0;
     ResourceId id_ = 0;
     std::byte* mapped_ = nullptr;
+    vk::DeviceAddress address_ = 0;
 };
 
 /// A two-dimensional image or array of them, one mip level. Always in layout GENERAL, so that a

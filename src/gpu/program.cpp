@@ -30,7 +30,9 @@ void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
         const std::uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
         const auto same =
             std::find_if(slots_.begin(), slots_.end(), [&](const BindingSlot& s) { return s.binding == binding; });
-        const bool writable = type != vk::DescriptorType::eSampledImage && !flags.get(spv::DecorationNonWritable);
+        const bool never_written =
+            type == vk::DescriptorType::eSampledImage || type == vk::DescriptorType::eAccelerationStructureKHR;
+        const bool writable = !never_written && !flags.get(spv::DecorationNonWritable);
         const bool readable = !flags.get(spv::DecorationNonReadable);
         if (same == slots_.end()) {
             slots_.push_back({name, binding, type, readable, writable, stage});
@@ -51,6 +53,9 @@ void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
     }
     for (const auto& r : resources.separate_images) {
         add(r, vk::DescriptorType::eSampledImage, compiler.get_decoration_bitset(r.id));
+    }
+    for (const auto& r : resources.acceleration_structures) {
+        add(r, vk::DescriptorType::eAccelerationStructureKHR, compiler.get_decoration_bitset(r.id));
     }
     for (const auto& r : resources.push_constant_buffers) {
         const auto size = std::uint32_t(compiler.get_declared_struct_size(compiler.get_type(r.base_type_id)));
@@ -85,6 +90,7 @@ void Program::make_layouts(const Device& device) {
 Program Program::compute(const Device& device, ShaderCode shader) {
     Program program;
     program.name_ = shader.name;
+    program.bind_point_ = vk::PipelineBindPoint::eCompute;
     program.reflect(shader, vk::ShaderStageFlagBits::eCompute);
     program.make_layouts(device);
     const vk::raii::ShaderModule module = make_module(device, shader);
@@ -161,6 +167,69 @@ Program Program::graphics(const Device& device, const Graphics& state) {
                                                                          .pDynamicState = &dynamic,
                                                                          .layout = *program.layout_});
     return program;
+}
+
+Program Program::ray_tracing(const Device& device, const RayTracing& shaders) {
+    Program program;
+    program.name_ = shaders.raygen.name;
+    program.bind_point_ = vk::PipelineBindPoint::eRayTracingKHR;
+    program.reflect(shaders.raygen, vk::ShaderStageFlagBits::eRaygenKHR);
+    program.reflect(shaders.miss, vk::ShaderStageFlagBits::eMissKHR);
+    program.reflect(shaders.closest_hit, vk::ShaderStageFlagBits::eClosestHitKHR);
+    program.make_layouts(device);
+
+    const vk::raii::ShaderModule raygen = make_module(device, shaders.raygen);
+    const vk::raii::ShaderModule miss = make_module(device, shaders.miss);
+    const vk::raii::ShaderModule closest_hit = make_module(device, shaders.closest_hit);
+    const std::array stages = {stage_info(vk::ShaderStageFlagBits::eRaygenKHR, raygen),
+                               stage_info(vk::ShaderStageFlagBits::eMissKHR, miss),
+                               stage_info(vk::ShaderStageFlagBits::eClosestHitKHR, closest_hit)};
+    vk::RayTracingShaderGroupCreateInfoKHR group{.type = vk::RayTracingShaderGroupTypeKHR::eGeneral,
+                                                 .generalShader = VK_SHADER_UNUSED_KHR,
+                                                 .closestHitShader = VK_SHADER_UNUSED_KHR,
+                                                 .anyHitShader = VK_SHADER_UNUSED_KHR,
+                                                 .intersectionShader = VK_SHADER_UNUSED_KHR};
+    std::array groups = {group, group, group};
+    groups[0].generalShader = 0;
+    groups[1].generalShader = 1;
+    groups[2].type = vk::RayTracingShaderGroupTypeKHR::eTrianglesHitGroup;
+    groups[2].closestHitShader = 2;
+    program.pipeline_ = device.handle().createRayTracingPipelineKHR(nullptr, nullptr,
+                                                                    {.stageCount = std::uint32_t(stages.size()),
+                                                                     .pStages = stages.data(),
+                                                                     .groupCount = std::uint32_t(groups.size()),
+                                                                     .pGroups = groups.data(),
+                                                                     .maxPipelineRayRecursionDepth = 1,
+                                                                     .layout = *program.layout_});
+    program.make_shader_table(device);
+    return program;
+}
+
+// A region for each of the three groups, each at an address that a region may begin at.
+void Program::make_shader_table(const Device& device) {
+    const RayTracingLimits& limits = *device.ray_tracing();
+    const auto align_up = [](vk::DeviceSize size, vk::DeviceSize alignment) {
+        return (size + alignment - 1) / alignment * alignment;
+    };
+    const vk::DeviceSize handle = limits.group_handle_size;
+    const vk::DeviceSize stride = align_up(handle, limits.group_handle_alignment);
+    const vk::DeviceSize region = align_up(stride, limits.group_base_alignment);
+    const auto handles = pipeline_.getRayTracingShaderGroupHandlesKHR<std::byte>(0, 3, 3 * handle);
+    shader_table_buffer_ =
+        Buffer(device, name_ + " shader table", 3 * region + limits.group_base_alignment,
+               vk::BufferUsageFlagBits::eShaderBindingTableKHR | vk::BufferUsageFlagBits::eShaderDeviceAddress |
+                   vk::BufferUsageFlagBits::eTransferDst);
+    const vk::DeviceAddress first = align_up(shader_table_buffer_.address(), limits.group_base_alignment);
+    std::vector<std::byte> table(shader_table_buffer_.size());
+    std::array<vk::StridedDeviceAddressRegionKHR, 3> regions;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        const vk::DeviceAddress address = first + i * region;
+        std::copy_n(handles.begin() + std::ptrdiff_t(i * handle), handle,
+                    table.begin() + std::ptrdiff_t(address - shader_table_buffer_.address()));
+        regions[i] = vk::StridedDeviceAddressRegionKHR{.deviceAddress = address, .stride = stride, .size = stride};
+    }
+    upload(device, shader_table_buffer_, table);
+    shader_table_ = {regions[0], regions[1], regions[2]};
 }
 
 }  // namespace pellucid

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gpu/device.h"
+#include "gpu/memory.h"
 
 #include <cstdint>
 #include <span>
@@ -29,7 +29,11 @@ struct BindingSlot {
 /// How a fragment's colour joins what the target holds.
 enum class Blend { kReplace, kMultiply, kAdd };
 
-/// A compute or graphics pipeline with the bindings its shaders declare.
+/// Shader stages of a ray-tracing program.
+inline constexpr vk::ShaderStageFlags kRayTracingStages =
+    vk::ShaderStageFlagBits::eRaygenKHR | vk::ShaderStageFlagBits::eMissKHR | vk::ShaderStageFlagBits::eClosestHitKHR;
+
+/// A compute, graphics or ray-tracing pipeline with the bindings its shaders declare.
 class Program {
 public:
     /// Workgroup size is the shader's own.
@@ -51,11 +55,25 @@ public:
     };
     static Program graphics(const Device& device, const Graphics& state);
 
+    /// One shader of each kind; rays are launched by the first alone (no recursion). Needs Device::ray_tracing().
+    struct RayTracing {
+        ShaderCode raygen;
+        ShaderCode miss;
+        ShaderCode closest_hit;
+    };
+    static Program ray_tracing(const Device& device, const RayTracing& shaders);
+
+    /// Where in device memory a ray-tracing program's shaders stand.
+    struct ShaderTable {
+        vk::StridedDeviceAddressRegionKHR raygen, miss, hit;
+    };
+    const ShaderTable& shader_table() const { return shader_table_; }
+
     const std::string& name() const { return name_; }
     const std::vector<BindingSlot>& slots() const { return slots_; }
     std::uint32_t push_size() const { return push_size_; }
     vk::ShaderStageFlags stages() const { return stages_; }
-    bool is_compute() const { return stages_ == vk::ShaderStageFlagBits::eCompute; }
+    vk::PipelineBindPoint bind_point() const { return bind_point_; }
     vk::Extent2D workgroup() const { return workgroup_; }
     vk::Pipeline pipeline() const { return *pipeline_; }
     vk::PipelineLayout layout() const { return *layout_; }
@@ -64,15 +82,19 @@ public:
 private:
     void reflect(ShaderCode shader, vk::ShaderStageFlagBits stage);
     void make_layouts(const Device& device);
+    void make_shader_table(const Device& device);
 
     std::string name_;
     std::vector<BindingSlot> slots_;
     std::uint32_t push_size_ = 0;
     vk::ShaderStageFlags stages_;
+    vk::PipelineBindPoint bind_point_ = vk::PipelineBindPoint::eGraphics;
     vk::Extent2D workgroup_{1, 1};
     vk::raii::DescriptorSetLayout set_layout_ = nullptr;
     vk::raii::PipelineLayout layout_ = nullptr;
     vk::raii::Pipeline pipeline_ = nullptr;
+    Buffer shader_table_buffer_;
+    ShaderTable shader_table_;
 };
 
 }  // namespace pellucid

@@ -1,5 +1,7 @@
 #include "gpu/recorder.h"
 
+#include <pellucid/error.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,10 +23,12 @@ vk::PipelineStageFlags2 stages_of(const BindingSlot& slot) {
     if (slot.stages & vk::ShaderStageFlagBits::eCompute) stages |= Stage::eComputeShader;
     if (slot.stages & vk::ShaderStageFlagBits::eVertex) stages |= Stage::eVertexShader;
     if (slot.stages & vk::ShaderStageFlagBits::eFragment) stages |= Stage::eFragmentShader;
+    if (slot.stages & kRayTracingStages) stages |= Stage::eRayTracingShaderKHR;
     return stages;
 }
 
 vk::AccessFlags2 access_of(const BindingSlot& slot, Access access) {
+    if (slot.type == vk::DescriptorType::eAccelerationStructureKHR) return AccessBit::eAccelerationStructureReadKHR;
     const bool sampled = slot.type == vk::DescriptorType::eSampledImage;
     const vk::AccessFlags2 read = sampled ? AccessBit::eShaderSampledRead : AccessBit::eShaderStorageRead;
     vk::AccessFlags2 flags;
@@ -54,7 +58,8 @@ const Binding& binding_of(const Program& program, const BindingSlot& slot, std::
             fmt::format("{}: the shader declares '{}', the pass binds no such name", program.name(), slot.name));
     }
     const bool wants_buffer = slot.type == vk::DescriptorType::eStorageBuffer;
-    if (wants_buffer != (match->buffer != nullptr)) {
+    const bool wants_structure = slot.type == vk::DescriptorType::eAccelerationStructureKHR;
+    if (wants_buffer != (match->buffer != nullptr) || wants_structure != (match->structure != nullptr)) {
         throw std::logic_error(fmt::format("{}: the shader declares '{}' as {}, the pass binds the other kind",
                                            program.name(), slot.name, vk::to_string(slot.type)));
     }
@@ -79,6 +84,7 @@ void Recorder::restart() {
     scopes_.clear();
     timestamps_ = 0;
     states_.clear();
+    when_done_.clear();
     commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     // What earlier submissions wrote becomes visible here; from now on states_ knows.
     const vk::MemoryBarrier2 all{.srcStageMask = Stage::eAllCommands,
@@ -124,9 +130,12 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
     const vk::DescriptorSetLayout layout = program.set_layout();
     for (bool fresh = false;; ++descriptor_pool_) {
         if (descriptor_pool_ == descriptor_pools_.size()) {
-            const std::array sizes = {vk::DescriptorPoolSize{vk::DescriptorType::eStorageBuffer, kDescriptorsPerPool},
-                                      vk::DescriptorPoolSize{vk::DescriptorType::eStorageImage, kDescriptorsPerPool},
-                                      vk::DescriptorPoolSize{vk::DescriptorType::eSampledImage, kDescriptorsPerPool}};
+            std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eStorageBuffer, kDescriptorsPerPool},
+                                                         {vk::DescriptorType::eStorageImage, kDescriptorsPerPool},
+                                                         {vk::DescriptorType::eSampledImage, kDescriptorsPerPool}};
+            if (device_.ray_tracing()) {
+                sizes.push_back({vk::DescriptorType::eAccelerationStructureKHR, kSetsPerPool});
+            }
             descriptor_pools_.push_back(handle.createDescriptorPool(
                 {.maxSets = kSetsPerPool, .poolSizeCount = std::uint32_t(sizes.size()), .pPoolSizes = sizes.data()}));
             fresh = true;
@@ -152,31 +161,37 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
     std::vector<vk::WriteDescriptorSet> set_writes;
     std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
     std::vector<vk::DescriptorImageInfo> images(bindings.size());
+    std::vector<vk::AccelerationStructureKHR> structures(bindings.size());
+    std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structure_writes(bindings.size());
     const vk::DescriptorSet set = allocate_set(program);
     for (const BindingSlot& slot : program.slots()) {
         const Binding& binding = binding_of(program, slot, bindings);
         const std::size_t i = set_writes.size();
+        vk::WriteDescriptorSet& write = set_writes.emplace_back(vk::WriteDescriptorSet{
+            .dstSet = set, .dstBinding = slot.binding, .descriptorCount = 1, .descriptorType = slot.type});
+        ResourceId id = 0;
         if (binding.buffer) {
             buffers[i] =
                 vk::DescriptorBufferInfo{.buffer = binding.buffer->handle(), .offset = 0, .range = VK_WHOLE_SIZE};
-        } else {
+            write.pBufferInfo = &buffers[i];
+            id = binding.buffer->id();
+        } else if (binding.image) {
             images[i] = vk::DescriptorImageInfo{
                 .imageView = binding.layer ? binding.image->layer_view(*binding.layer) : binding.image->array_view(),
                 .imageLayout = vk::ImageLayout::eGeneral};
+            write.pImageInfo = &images[i];
+            id = binding.image->id();
+        } else {
+            structures[i] = binding.structure->handle();
+            structure_writes[i] = {.accelerationStructureCount = 1, .pAccelerationStructures = &structures[i]};
+            write.pNext = &structure_writes[i];
+            id = binding.structure->id();
         }
-        set_writes.push_back({.dstSet = set,
-                              .dstBinding = slot.binding,
-                              .descriptorCount = 1,
-                              .descriptorType = slot.type,
-                              .pImageInfo = binding.image ? &images[i] : nullptr,
-                              .pBufferInfo = binding.buffer ? &buffers[i] : nullptr});
-        uses.push_back({binding.buffer ? binding.buffer->id() : binding.image->id(), stages_of(slot),
-                        access_of(slot, binding.access), binding.access != Access::kRead});
+        uses.push_back({id, stages_of(slot), access_of(slot, binding.access), binding.access != Access::kRead});
     }
     device_.handle().updateDescriptorSets(set_writes, nullptr);
-    const auto point = program.is_compute() ? vk::PipelineBindPoint::eCompute : vk::PipelineBindPoint::eGraphics;
-    commands_.bindPipeline(point, program.pipeline());
-    commands_.bindDescriptorSets(point, program.layout(), 0, set, nullptr);
+    commands_.bindPipeline(program.bind_point(), program.pipeline());
+    commands_.bindDescriptorSets(program.bind_point(), program.layout(), 0, set, nullptr);
     if (!push.empty()) {
         commands_.pushConstants<std::byte>(program.layout(), program.stages(), 0,
                                            vk::ArrayProxy<const std::byte>(std::uint32_t(push.size()), push.data()));
@@ -234,6 +249,36 @@ void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindi
     }
     for (const DrawCall& call : calls) commands_.draw(call.vertex_count, 1, call.first_vertex, call.instance);
     commands_.endRendering();
+}
+
+void Recorder::trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+                           vk::Extent2D rays) {
+    const std::uint64_t limit = device_.ray_tracing()->max_rays;
+    if (std::uint64_t(rays.width) * rays.height > limit) {
+        throw Error(fmt::format("{}x{} pixels: {} traces {} rays at once", rays.width, rays.height, device_.info().name,
+                                limit));
+    }
+    std::vector<Use> uses;
+    bind(program, bindings, push, uses);
+    synchronise(uses);
+    const Program::ShaderTable& table = program.shader_table();
+    commands_.traceRaysKHR(table.raygen, table.miss, table.hit, {}, rays.width, rays.height, 1);
+}
+
+// A structure that others are placed in stands for them: whoever waits for its build waits for theirs, since
+// barriers here are for all memory and its build has waited for them.
+void Recorder::build(const AccelerationStructure& structure, vk::BuildAccelerationStructureModeKHR mode,
+                     std::span<const ResourceId> inputs, const BuildScratch& scratch) {
+    const auto stage = Stage::eAccelerationStructureBuildKHR;
+    const auto read = AccessBit::eAccelerationStructureReadKHR;
+    const auto write = AccessBit::eAccelerationStructureWriteKHR;
+    std::vector<Use> uses = {{structure.id(), stage, read | write, true}, {scratch.id(), stage, read | write, true}};
+    for (const ResourceId input : inputs) uses.push_back({input, stage, AccessBit::eShaderRead | read, false});
+    synchronise(uses);
+    vk::AccelerationStructureBuildGeometryInfoKHR info = structure.build_info(mode);
+    info.scratchData.deviceAddress = scratch.address();
+    const vk::AccelerationStructureBuildRangeInfoKHR range{.primitiveCount = structure.primitive_count()};
+    commands_.buildAccelerationStructuresKHR(info, &range);
 }
 
 void Recorder::clear(const GpuImage& image, vk::ClearColorValue value) {
@@ -317,6 +362,7 @@ std::vector<PassTime> Recorder::submit_and_wait() {
     }
     device_.handle().resetFences(*fence_);
     std::vector<PassTime> times = read_times();
+    for (const auto& then : when_done_) then();
     restart();
     return times;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "gpu/acceleration_structure.h"
 #include "gpu/memory.h"
 #include "gpu/program.h"
 
 #include <pellucid/renderer.h>
 
 #include <array>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -24,11 +26,15 @@ struct Binding {
     const Buffer* buffer = nullptr;
     const GpuImage* image = nullptr;
     std::optional<std::uint32_t> layer;  ///< bind one layer as a 2D image; default: all, as an array
+    const AccelerationStructure* structure = nullptr;
 };
 inline Binding reads(std::string_view name, const Buffer& b) { return {name, Access::kRead, &b, nullptr, {}}; }
 inline Binding reads(std::string_view name, const GpuImage& i) { return {name, Access::kRead, nullptr, &i, {}}; }
 inline Binding reads_layer(std::string_view name, const GpuImage& i, std::uint32_t layer) {
     return {name, Access::kRead, nullptr, &i, layer};
+}
+inline Binding reads(std::string_view name, const AccelerationStructure& s) {
+    return {name, Access::kRead, nullptr, nullptr, {}, &s};
 }
 inline Binding writes(std::string_view name, const Buffer& b) { return {name, Access::kWrite, &b, nullptr, {}}; }
 inline Binding writes(std::string_view name, const GpuImage& i) { return {name, Access::kWrite, nullptr, &i, {}}; }
@@ -101,6 +107,16 @@ public:
         draw_bytes(program, bindings, {}, target, streams, calls);
     }
 
+    /// Launches one ray generation per pixel of `rays`. Throws Error if that is more than the device launches.
+    template <class Push>
+    void trace(const Program& program, std::initializer_list<Binding> bindings, const Push& push, vk::Extent2D rays) {
+        trace_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), rays);
+    }
+
+    /// Builds a structure, or refits it, from `inputs`: the buffers or structures that it is made of.
+    void build(const AccelerationStructure& structure, vk::BuildAccelerationStructureModeKHR mode,
+               std::span<const ResourceId> inputs, const BuildScratch& scratch);
+
     void clear(const GpuImage& image, vk::ClearColorValue value);
     void fill(const Buffer& buffer, std::uint32_t word);
     void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes);
@@ -111,6 +127,9 @@ public:
 
     /// Forgets what was recorded.
     void restart();
+
+    /// Calls `then` once what is being recorded has run; never if it is forgotten.
+    void when_done(std::function<void()> then) { when_done_.push_back(std::move(then)); }
 
     const Device& device() const { return device_; }
 
@@ -134,6 +153,8 @@ private:
     void draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
                     const RenderTarget& target, std::span<const Buffer* const> streams,
                     std::span<const DrawCall> calls);
+    void trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+                     vk::Extent2D rays);
     void synchronise(std::span<const Use> uses);
     void bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
               std::vector<Use>& uses);
@@ -151,6 +172,7 @@ private:
     std::vector<std::string> scopes_;  // one per pair of timestamps
     std::uint32_t timestamps_ = 0;
     std::map<ResourceId, State> states_;
+    std::vector<std::function<void()>> when_done_;
 };
 
 }  // namespace pellucid

@@ -1,5 +1,7 @@
 #include "gpu/workspace.h"
 
+#include <utility>
+
 namespace pellucid {
 
 const Program& Workspace::compute(ShaderCode shader) {
@@ -14,6 +16,14 @@ const Program& Workspace::graphics(const Program::Graphics& state) {
     auto found = programs_.find(state.fragment.name);
     if (found == programs_.end()) {
         found = programs_.emplace(state.fragment.name, Program::graphics(device_, state)).first;
+    }
+    return found->second;
+}
+
+const Program& Workspace::ray_tracing(const Program::RayTracing& shaders) {
+    auto found = programs_.find(shaders.raygen.name);
+    if (found == programs_.end()) {
+        found = programs_.emplace(shaders.raygen.name, Program::ray_tracing(device_, shaders)).first;
     }
     return found->second;
 }
@@ -56,6 +66,13 @@ const Buffer& Workspace::buffer(std::string_view name, vk::DeviceSize size, bool
         .first->second.resource;
 }
 
+SceneHierarchy& Workspace::hierarchy(const GpuScene& scene, StructureUse use) {
+    if (hierarchy_ && !hierarchy_->resource.is_of(scene, use)) hierarchy_.reset();  // freed first: both may not fit
+    if (!hierarchy_) hierarchy_.emplace(device_, scene, use);
+    hierarchy_->used = true;
+    return hierarchy_->resource;
+}
+
 void Workspace::trim() {
     const auto drop_unused = [](auto& entries) {
         std::erase_if(entries, [](const auto& entry) { return !entry.second.used; });
@@ -63,6 +80,7 @@ void Workspace::trim() {
     };
     drop_unused(images_);
     drop_unused(buffers_);
+    if (hierarchy_ && !std::exchange(hierarchy_->used, false)) hierarchy_.reset();
 }
 
 }  // namespace pellucid

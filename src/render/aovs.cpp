@@ -16,6 +16,7 @@ constexpr std::array kAovs = {
     AovInfo{"exit-direction", 3,
             "unit world direction in which the path leaves the glass; the view ray where there is none"},
     AovInfo{"exit-position", 3, "world position of the path's last interface, m; the eye where there is no glass"},
+    AovInfo{"exit-object", 1, "index of the opaque object that the path ends on; -1: it leaves into the environment"},
     AovInfo{"path-length", 1, "length of the path inside glass, m"},
     AovInfo{"events", 2, "interface events on the path; total internal reflections among them"},
     AovInfo{"status", 1, "0 ok, 1 missing_layer, 2 left_screen, 3 step_limit, 4 event_limit"},
@@ -111,6 +112,10 @@ Image make_aov(const Device& device, std::string_view name, const FrameImages& i
     if (name == "exit-direction")
         return vector_image(extent, read<glm::vec4>(device, images.refraction.exit_direction));
     if (name == "exit-position") return vector_image(extent, read<glm::vec4>(device, images.refraction.exit_position));
+    if (name == "exit-object") {
+        const auto positions = read<glm::vec4>(device, images.refraction.exit_position);
+        return scalar_image(extent, [&](std::size_t i) { return positions[i].w; });
+    }
     if (name == "path-length") {
         const auto directions = read<glm::vec4>(device, images.refraction.exit_direction);
         return scalar_image(extent, [&](std::size_t i) { return directions[i].w; });
@@ -128,6 +133,33 @@ Image make_aov(const Device& device, std::string_view name, const FrameImages& i
     return surface_aov(device, name, images.layers, first_triangles);
 }
 
+std::vector<RefractedPath> read_paths(const Device& device, const Refraction& refraction,
+                                      const std::vector<PathEvents>& events) {
+    std::vector<RefractedPath> paths(events.size());
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        paths[i].events = std::uint16_t(events[i].interfaces);
+        paths[i].reflections = std::uint16_t(events[i].reflections);
+        paths[i].status = events[i].status;
+        paths[i].side_conflict = events[i].side_conflict;
+    }
+    // One image at a time: at 4K each is 133 MB.
+    const auto for_each_texel = [&](const GpuImage& image, auto&& take) {
+        const auto texels = read<glm::vec4>(device, image);
+        for (std::size_t i = 0; i < paths.size(); ++i) take(paths[i], texels[i]);
+    };
+    for_each_texel(refraction.exit_direction, [](RefractedPath& path, const glm::vec4& texel) {
+        path.direction = texel;
+        path.length_inside = texel.w;
+    });
+    for_each_texel(refraction.exit_position, [](RefractedPath& path, const glm::vec4& texel) {
+        path.position = texel;
+        path.object = std::int32_t(texel.w);
+    });
+    for_each_texel(refraction.transmittance,
+                   [](RefractedPath& path, const glm::vec4& texel) { path.transmittance = texel; });
+    return paths;
+}
+
 }  // namespace
 
 std::span<const AovInfo> aov_infos() { return kAovs; }
@@ -142,8 +174,8 @@ void check_aov_names(const std::vector<std::string>& names) {
     }
 }
 
-void read_aovs(const Device& device, const FrameImages& images, const std::vector<std::uint32_t>& first_triangles,
-               const std::vector<std::string>& names, RenderResult& result) {
+void read_back(const Device& device, const FrameImages& images, const std::vector<std::uint32_t>& first_triangles,
+               const RenderSettings& settings, RenderResult& result) {
     const auto words = read<std::uint32_t>(device, images.refraction.events);
     std::vector<PathEvents> events;
     events.reserve(words.size());
@@ -154,9 +186,10 @@ void read_aovs(const Device& device, const FrameImages& images, const std::vecto
         ++result.status.at(std::size_t(events.back().status));
         result.side_conflicts += events.back().side_conflict ? 1 : 0;
     }
-    for (const std::string& name : names) {
+    for (const std::string& name : settings.aovs) {
         result.aovs[name] = make_aov(device, name, images, events, first_triangles);
     }
+    if (settings.paths) result.paths = read_paths(device, images.refraction, events);
 }
 
 }  // namespace pellucid

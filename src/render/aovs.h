@@ -10,9 +10,9 @@ namespace pellucid {
 /// Throws Error listing the known names if one of `names` is none.
 void check_aov_names(const std::vector<std::string>& names);
 
-/// Reads the named AOVs, and the counts of `result`, back from a finished frame.
+/// Reads back from a finished frame what `settings` ask for: the AOVs and paths, and the counts of `result`.
 /// `first_triangles`: GpuScene::first_triangles.
-void read_aovs(const Device& device, const FrameImages& images, const std::vector<std::uint32_t>& first_triangles,
-               const std::vector<std::string>& names, RenderResult& result);
+void read_back(const Device& device, const FrameImages& images, const std::vector<std::uint32_t>& first_triangles,
+               const RenderSettings& settings, RenderResult& result);
 
 }  // namespace pellucid

@@ -40,6 +40,10 @@ std::vector<std::string> approximations(const Scene& scene) {
         lines.push_back(
             "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
+    if (!scene.lights.empty()) {
+        lines.push_back(fmt::format("{} light{} drawn by the technique path only", scene.lights.size(),
+                                    scene.lights.size() == 1 ? " is" : "s are"));
+    }
     return lines;
 }
 

@@ -3,6 +3,7 @@
 #include "render/aovs.h"
 #include "render/approximations.h"
 #include "render/camera_constants.h"
+#include "render/cpu_tracing.h"
 #include "render/frame.h"
 #include "scene/check_scene.h"
 
@@ -33,6 +34,11 @@ Enum parse_name(std::string_view what, std::string_view name,
     throw Error(fmt::format("unknown {} '{}'; known: {}", what, name, fmt::join(names, ", ")));
 }
 
+std::string lacking_for(const Device& device, const TechniqueInfo& info) {
+    const Technique& technique = technique_of(info);
+    return technique.lacking ? technique.lacking(device) : std::string();
+}
+
 void check_settings(const RenderSettings& settings, const Device& device) {
     const std::uint32_t limit = device.limits().maxImageDimension2D;
     if (settings.width == 0 || settings.height == 0 || settings.width > limit || settings.height > limit) {
@@ -48,18 +54,22 @@ void check_settings(const RenderSettings& settings, const Device& device) {
     check_aov_names(settings.aovs);
 }
 
-GpuImage upload_environment(const Device& device, const Environment& environment) {
-    const bool map = environment.kind == Environment::Kind::kMap;
-    const Image& image = environment.map;
-    const vk::Extent2D extent =
-        map ? vk::Extent2D{std::uint32_t(image.width), std::uint32_t(image.height)} : vk::Extent2D{1, 1};
-    GpuImage result(device, "the environment map", vk::Format::eR32G32B32A32Sfloat, extent, 1,
-                    vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
-    std::vector<glm::vec4> texels(std::size_t(extent.width) * extent.height, glm::vec4(0.0f));
-    for (std::size_t i = 0; map && i < texels.size(); ++i) {
+/// Fills an RGBA32F image with `image`, RGB of the same size.
+void upload_rgb(const Device& device, const GpuImage& destination, const Image& image) {
+    std::vector<glm::vec4> texels(std::size_t(image.width) * std::size_t(image.height));
+    for (std::size_t i = 0; i < texels.size(); ++i) {
         texels[i] = glm::vec4(image.pixels[3 * i], image.pixels[3 * i + 1], image.pixels[3 * i + 2], 1.0f);
     }
-    upload(device, result, 0, std::as_bytes(std::span(texels)));
+    upload(device, destination, 0, std::as_bytes(std::span(texels)));
+}
+
+GpuImage upload_environment(const Device& device, const Environment& environment) {
+    const bool map = environment.kind == Environment::Kind::kMap;
+    const Image image = map ? environment.map : Image(1, 1, 3);
+    GpuImage result(device, "the environment map", vk::Format::eR32G32B32A32Sfloat,
+                    {std::uint32_t(image.width), std::uint32_t(image.height)}, 1,
+                    vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
+    upload_rgb(device, result, image);
     return result;
 }
 
@@ -85,28 +95,39 @@ Image display_image(vk::Extent2D extent, const std::vector<std::byte>& data) {
 }  // namespace
 
 struct Renderer::Impl {
-    explicit Impl(const DeviceOptions& options) : device(options), workspace(device), recorder(device) {}
+    explicit Impl(const DeviceOptions& options)
+        : device(options), workspace(device), recorder(device), cpu(options.threads) {}
 
     Device device;
     Workspace workspace;
     Recorder recorder;
+    CpuTracing cpu;
     FragmentPool pool;
     vk::Extent2D pool_extent;  // the size that `pool` was measured at
     std::optional<GpuScene> scene;
     std::vector<std::string> scene_warnings;
-    std::optional<GpuImage> environment;
+    Environment environment;
+    std::optional<GpuImage> environment_map;
     std::optional<Buffer> constants;
     std::optional<Camera> camera;        // set by the caller
     std::optional<Camera> scene_camera;  // the scene's first
     gpu::FrameConstants environment_constants{};
 
     FrameSettings frame_settings(const RenderSettings& settings, RenderResult& result) const;
-    /// Draws a frame, again if need be, until the fragment pool is large enough; returns the pass times.
-    std::vector<PassTime> run_frame(const Frame& frame, const FrameSettings& settings,
-                                    std::optional<FrameImages>& images);
-    /// Sum of the samples' radiance; fills the AOVs, counts and times of `result`.
-    const GpuImage& render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
-                                   RenderResult& result);
+    /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
+    /// the pass times. `progress` is of this sample.
+    std::vector<PassTime> run_frame(Frame frame, const FrameSettings& chosen, const RenderSettings& settings,
+                                    glm::vec2 jitter, const Progress& progress, std::optional<FrameImages>& images);
+    struct Picture {
+        const GpuImage& radiance;
+        float scale;  ///< that makes it the mean over the samples
+    };
+    /// Draws the samples; fills the AOVs, paths, counts and times of `result`.
+    Picture render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                           RenderResult& result);
+    /// The picture of a technique that shades its own paths.
+    Picture trace_picture(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                          RenderResult& result);
     void set_constants(const RenderSettings& settings, glm::vec2 jitter);
     Camera camera_for(const RenderSettings& settings) const;
 };
@@ -120,6 +141,9 @@ Camera Renderer::Impl::camera_for(const RenderSettings& settings) const {
 
 FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, RenderResult& result) const {
     const TechniqueInfo& info = find_technique(settings.technique);
+    if (const std::string lacking = lacking_for(device, info); !lacking.empty()) {
+        throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
+    }
     FrameSettings chosen{technique_of(info), ParameterValues(info, settings.parameters), settings.layer_builder,
                          settings.view};
     if (chosen.layer_builder == LayerBuilder::kSinglePass && !device.fragment_atomics()) {
@@ -138,36 +162,62 @@ void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jit
     std::memcpy(constants->mapped(), &values, sizeof(values));
 }
 
-std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameSettings& settings,
-                                                std::optional<FrameImages>& images) {
+std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings& chosen,
+                                                const RenderSettings& settings, glm::vec2 jitter,
+                                                const Progress& progress, std::optional<FrameImages>& images) {
+    set_constants(settings, jitter);
+    std::optional<TracedView> traced;
+    if (chosen.technique.info.reference) {
+        traced.emplace(TracedView{cpu.tracer(), camera_for(settings), jitter, progress});
+        frame.traced = &*traced;
+    }
     for (;;) {
-        images.emplace(record_frame(recorder, frame, settings, pool));
+        images.emplace(record_frame(recorder, frame, chosen, pool));
         std::vector<PassTime> times = recorder.submit_and_wait();
-        if (settings.layer_builder != LayerBuilder::kSinglePass || !fragment_pool_overflowed(frame, pool)) return times;
+        if (chosen.layer_builder != LayerBuilder::kSinglePass || !fragment_pool_overflowed(frame, pool)) return times;
     }
 }
 
-const GpuImage& Renderer::Impl::render_samples(const Frame& frame, const FrameSettings& chosen,
-                                               const RenderSettings& settings, RenderResult& result) {
+Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const FrameSettings& chosen,
+                                                       const RenderSettings& settings, RenderResult& result) {
+    const bool draws = chosen.technique.trace_picture == nullptr || chosen.view == View::kAnalysis;
     // The frame through pixel centres gives the AOVs and counts; alone, it is the picture too.
     std::optional<FrameImages> images;
-    set_constants(settings, {0.0f, 0.0f});
-    std::vector<PassTime> times = run_frame(frame, chosen, images);
-    read_aovs(device, *images, scene->first_triangles, settings.aovs, result);
-    if (settings.samples == 1) {
+    const bool alone = draws && settings.samples == 1;
+    std::vector<PassTime> times =
+        run_frame(frame, chosen, settings, {0.0f, 0.0f}, alone ? settings.progress : Progress(), images);
+    read_back(device, *images, scene->first_triangles, settings, result);
+    if (!draws) return trace_picture(frame, chosen, settings, result);
+    if (alone) {
         result.frames.push_back(std::move(times));
-        return images->radiance;
+        return {images->radiance, 1.0f};
     }
     const GpuImage* sum = nullptr;
+    const double share = 1.0 / double(settings.samples);
     for (std::uint32_t sample = 0; sample < settings.samples; ++sample) {
-        set_constants(settings, sample_jitter(sample));
-        times = run_frame(frame, chosen, images);
+        const auto progress = [&](double done) {
+            if (settings.progress) settings.progress((double(sample) + done) * share);
+        };
+        times = run_frame(frame, chosen, settings, sample_jitter(sample), progress, images);
         // Submitted apart: a frame that overflowed was drawn twice, and counts once.
         sum = &accumulate(recorder, frame, images->radiance, sample);
         for (PassTime& time : recorder.submit_and_wait()) times.push_back(std::move(time));
         result.frames.push_back(std::move(times));
+        progress(1.0);
     }
-    return *sum;
+    return {*sum, float(share)};
+}
+
+Renderer::Impl::Picture Renderer::Impl::trace_picture(const Frame& frame, const FrameSettings& chosen,
+                                                      const RenderSettings& settings, RenderResult& result) {
+    PathTracedImage traced =
+        chosen.technique.trace_picture({cpu.tracer(), camera_for(settings), {0.0f, 0.0f}, settings.progress},
+                                       environment, frame.extent, settings.samples, chosen.parameters);
+    result.standard_error = std::move(traced.standard_error);
+    result.cut_paths = traced.cut_paths;
+    const GpuImage& radiance = workspace.image("traced radiance", vk::Format::eR32G32B32A32Sfloat, frame.extent);
+    upload_rgb(device, radiance, traced.radiance);
+    return {radiance, 1.0f};
 }
 
 Renderer::Renderer(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options)) {
@@ -191,13 +241,15 @@ void Renderer::set_scene(const Scene& scene) {
         impl_->scene.emplace(impl_->device, Scene{});
         throw;
     }
+    impl_->cpu.set_scene(scene);
     impl_->scene_warnings = approximations(scene);
     impl_->scene_camera = scene.cameras.empty() ? std::nullopt : std::optional(scene.cameras.front());
 }
 
 void Renderer::set_environment(const Environment& environment) {
     check_environment(environment);
-    impl_->environment = upload_environment(impl_->device, environment);
+    impl_->environment_map = upload_environment(impl_->device, environment);
+    impl_->environment = environment;
     gpu::FrameConstants& values = impl_->environment_constants;
     values.environment_kind = std::uint32_t(environment.kind);
     values.environment_uniform = glm::vec4(environment.uniform_radiance, 0.0f);
@@ -217,16 +269,15 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     result.warnings = impl.scene_warnings;
     const FrameSettings chosen = impl.frame_settings(settings, result);
     const Frame frame{
-        impl.workspace, *impl.scene, *impl.constants, *impl.environment, {settings.width, settings.height}};
+        impl.workspace, *impl.scene, *impl.constants, *impl.environment_map, {settings.width, settings.height}};
     impl.workspace.trim();
     if (std::exchange(impl.pool_extent, frame.extent) != frame.extent) impl.pool = {};
     try {
-        const GpuImage& radiance = impl.render_samples(frame, chosen, settings, result);
-        const float mean = 1.0f / float(settings.samples);
+        const auto [radiance, scale] = impl.render_samples(frame, chosen, settings, result);
         const GpuImage& display =
-            tonemap(impl.recorder, frame, radiance, mean * std::exp2(settings.exposure_ev), settings.tonemap);
+            tonemap(impl.recorder, frame, radiance, scale * std::exp2(settings.exposure_ev), settings.tonemap);
         impl.recorder.submit_and_wait();
-        result.radiance = rgb_image(frame.extent, download(impl.device, radiance, 0), mean);
+        result.radiance = rgb_image(frame.extent, download(impl.device, radiance, 0), scale);
         result.display = display_image(frame.extent, download(impl.device, display, 0));
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
@@ -236,7 +287,11 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     return result;
 }
 
+const Tracer& Renderer::tracer() { return impl_->cpu.tracer(); }
 const DeviceInfo& Renderer::device() const { return impl_->device.info(); }
+std::string Renderer::lacking(const TechniqueInfo& technique) const {
+    return lacking_for(impl_->device, find_technique(technique.name));
+}
 const std::vector<std::string>& Renderer::validation_messages() const { return impl_->device.validation_messages(); }
 
 View parse_view(std::string_view name) {

@@ -67,6 +67,17 @@ void check_material(const Material& m, const std::string& what, std::size_t imag
             "the attenuation colour must not be negative");
 }
 
+void check_light(const Light& light, const std::string& what) {
+    require(finite(light.intensity) && glm::all(glm::greaterThanEqual(light.intensity, glm::vec3(0.0f))), what,
+            "the intensity must be finite and not negative");
+    require(finite(light.position), what, "the position is not finite");
+    require(std::abs(glm::length(light.direction) - 1.0f) < 1e-3f, what, "the direction must be of unit length");
+    require(light.range > 0.0f, what, "the range must be above 0");
+    require(light.inner_cone_angle >= 0.0f && light.inner_cone_angle < light.outer_cone_angle &&
+                light.outer_cone_angle <= kPi,
+            what, "the cone angles must be 0 <= inner < outer <= pi");
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene) {
@@ -90,6 +101,9 @@ void check_scene(const Scene& scene) {
         const glm::mat4& m = object.world_from_object;
         require(finite(m) && glm::determinant(glm::dmat3(m)) != 0.0, what,
                 "its transform is not finite and invertible");
+    }
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        check_light(scene.lights[i], fmt::format("light {} '{}'", i, scene.lights[i].name));
     }
 }
 

@@ -4,6 +4,7 @@
 #include "core/fail.h"
 #include "core/math.h"
 #include "scene/gltf_file.h"
+#include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
 
@@ -51,6 +52,7 @@ public:
                 fail(gltf_.path, fmt::format("{}: transform is not finite", name_of(node, placed.node)));
             add_objects(node, placed.node, world);
             add_camera(node, placed.node, world);
+            add_gltf_light(gltf_, node, name_of(node, placed.node), world, scene_, warnings_);
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
                 open.push_back({*child, world});
         }

@@ -11,6 +11,8 @@ const uint kStatusLeftScreen = 2u;
 const uint kStatusStepLimit = 3u;
 const uint kStatusEventLimit = 4u;
 
+const float kEndsInEnvironment = -1.0;  // twin in technique.h
+
 struct Path {
     vec3 position;       // view space
     vec3 direction;      // unit

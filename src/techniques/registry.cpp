@@ -1,4 +1,7 @@
 #include "techniques/one_interface/one_interface.h"
+#include "techniques/path/path.h"
+#include "techniques/ray_tracing/ray_tracing.h"
+#include "techniques/reference/reference.h"
 #include "techniques/technique.h"
 #include "techniques/wang_2014/wang_2014.h"
 
@@ -15,8 +18,7 @@ namespace {
 
 // Every technique, one line each.
 constexpr std::array kTechniques = {
-    &kOneInterface,
-    &kWang2014,
+    &kOneInterface, &kWang2014, &kRayTracing, &kPath, &kReference,
 };
 
 constexpr auto kInfos = [] {
@@ -91,6 +93,11 @@ Refraction allocate_refraction(const Frame& frame) {
 
 PathEvents unpack_events(std::uint32_t word) {
     return {word & 0xfffu, (word >> 12) & 0xfffu, Status((word >> 24) & 0xfu), ((word >> 28) & 1u) != 0};
+}
+
+std::uint32_t pack_events(const PathEvents& events) {
+    return std::min(events.interfaces, 0xfffu) | std::min(events.reflections, 0xfffu) << 12 |
+           std::uint32_t(events.status) << 24 | (events.side_conflict ? 1u << 28 : 0u);
 }
 
 }  // namespace pellucid

@@ -4,8 +4,8 @@
 
 #include <pellucid/technique.h>
 
-#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace pellucid {
@@ -14,11 +14,14 @@ namespace pellucid {
 /// filled it. A pixel without glass holds the view ray itself: no events, transmittance 1, ok.
 struct Refraction {
     const GpuImage& exit_direction;  ///< RGBA32F: unit world direction; w: path length inside media, m
-    const GpuImage& exit_position;   ///< RGBA32F: world position of the last interface, m
+    const GpuImage& exit_position;   ///< RGBA32F: world position of the last interface, m; w: see kEndsInEnvironment
     const GpuImage& transmittance;   ///< RGBA32F: rgb, Fresnel and absorption along the path, 0..1
     const GpuImage& events;          ///< R32UI: see unpack_events()
 };
 Refraction allocate_refraction(const Frame& frame);
+
+/// Refraction::exit_position.w of a path that no opaque object ends; otherwise it is the object's index.
+inline constexpr float kEndsInEnvironment = -1.0f;
 
 /// The word in Refraction::events; twin of pack_events in refraction.glsl.
 struct PathEvents {
@@ -28,6 +31,7 @@ struct PathEvents {
     bool side_conflict;  ///< somewhere the shading normal faced the other side than the surface
 };
 PathEvents unpack_events(std::uint32_t word);
+std::uint32_t pack_events(const PathEvents& events);
 
 /// A technique's parameters with their values.
 class ParameterValues {
@@ -45,9 +49,14 @@ private:
 /// A row of the registry: what the technique is, what it needs, and how it is recorded.
 struct Technique {
     TechniqueInfo info;
+    /// What the device lacks for it, in words that follow "needs"; empty: nothing. Null: any device will do.
+    std::string (*lacking)(const Device& device) = nullptr;
     std::uint32_t (*layer_count)(const ParameterValues& parameters);
     Refraction (*record)(Recorder& recorder, const Frame& frame, const Layers& layers,
                          const ParameterValues& parameters);
+    /// The picture of a technique that shades its own paths, which shade() then does not do. Null: none.
+    PathTracedImage (*trace_picture)(const TracedView& view, const Environment& environment, vk::Extent2D extent,
+                                     std::uint32_t samples, const ParameterValues& parameters) = nullptr;
 };
 const Technique& technique_of(const TechniqueInfo& info);
 

@@ -31,14 +31,19 @@ vec3 view_normal(Fragment fragment) {
     return mat3(frame.view_from_world) * unpack_unit_vector(fragment.normal);
 }
 
-void store_refraction(ivec2 texel, Path path) {
+void store_world_refraction(ivec2 texel, Path path) {
     ivec3 at = ivec3(texel, 0);
-    mat3 rotation = mat3(frame.world_from_view);
-    vec3 position = (frame.world_from_view * vec4(path.position, 1.0)).xyz;
-    imageStore(exit_direction, at, vec4(normalize(rotation * path.direction), path.length_inside));
-    imageStore(exit_position, at, vec4(position, 1.0));
+    imageStore(exit_direction, at, vec4(path.direction, path.length_inside));
+    imageStore(exit_position, at, vec4(path.position, kEndsInEnvironment));
     imageStore(transmittance, at, vec4(path.transmittance, 1.0));
     imageStore(path_events, at, uvec4(pack_events(path)));
+}
+
+// Of a path in view space.
+void store_refraction(ivec2 texel, Path path) {
+    path.position = (frame.world_from_view * vec4(path.position, 1.0)).xyz;
+    path.direction = normalize(mat3(frame.world_from_view) * path.direction);
+    store_world_refraction(texel, path);
 }
 
 #endif

@@ -11,7 +11,7 @@ from cli import BINARY, CliTest, TETRAHEDRON
 from pictures import read_exr, read_png
 
 AOVS = {"exit-direction": 3, "exit-position": 3, "path-length": 1, "events": 2, "status": 1, "layers": 1, "depth": 1,
-        "normal": 3, "object": 1}
+        "normal": 3, "object": 1, "exit-object": 1}
 STATUS = ["ok", "missing_layer", "left_screen", "step_limit", "event_limit"]
 
 
@@ -81,6 +81,37 @@ class Samples(CliTest):
         self.assertEqual(one_aov, more_aov)
         self.assertEqual((one["frames"], more["frames"]), (1, 5))
         self.assertEqual((one["covered"], one["status"]), (more["covered"], more["status"]))
+
+
+class PathTraced(CliTest):
+    """`--technique path`: an estimate, with what is known about its error."""
+
+    def trace(self, *arguments, samples=4):
+        self.assert_rendered(self.render("shape:sphere", "--technique", "path", "--samples", str(samples), "--environment",
+                                         "checker", "--json", "out.json", *arguments, output="out.exr"), "out.exr")
+        return read_exr(self.read("out.exr"))
+
+    def test_channels(self):
+        picture = self.trace(samples=8)
+        self.assertEqual(sorted(picture.channels), ["B", "G", "R", "error.B", "error.G", "error.R", "samples"])
+        count = len(picture.channels)
+        channel = {name: picture.pixels[i::count] for i, name in enumerate(picture.channels)}
+        self.assertEqual(set(channel["samples"]), {8.0})
+        self.assertTrue(all(map(math.isfinite, picture.pixels)))
+        self.assertGreater(max(channel["error.G"]), 0)
+        self.assertLess(sum(channel["error.G"]), sum(channel["G"]))
+        described = json.loads(self.read("out.json"))
+        self.assertGreaterEqual(described["cut_paths"], 0)
+        self.assertEqual(described["parameters"], {"seed": 1, "vertices": 256})
+
+    def test_depends_on_the_seed_and_not_on_the_threads(self):
+        first = self.trace("--threads", "1").pixels
+        self.assertEqual(self.trace("--threads", "2").pixels, first)
+        self.assertNotEqual(self.trace("--seed", "2").pixels, first)
+
+    def test_other_techniques_have_no_error_channels(self):
+        self.assert_rendered(self.render("shape:sphere", "--technique", "reference", output="out.exr"), "out.exr")
+        self.assertEqual(sorted(read_exr(self.read("out.exr")).channels), ["B", "G", "R"])
 
 
 class Aovs(CliTest):

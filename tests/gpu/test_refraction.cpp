@@ -1,7 +1,5 @@
 // Techniques against analytic answers.
-#include "optics/interface.h"
-
-#include "gpu/gpu_test.h"
+#include "gpu/exact_sphere.h"
 
 #include <algorithm>
 #include <array>
@@ -18,25 +16,6 @@ RenderSettings settings_for(std::string technique, std::uint32_t size) {
     settings.aovs = {"exit-direction", "exit-position", "path-length", "events", "status",
                      "depth",          "normal",        "object",      "layers"};
     return settings;
-}
-
-/// Exit of a ray from a unit sphere around the origin after entry and exit, in double precision.
-/// By symmetry the exit angle equals the entry angle: there is no total internal reflection.
-struct SphereExit {
-    glm::dvec3 position, direction;
-    double length;
-};
-std::optional<SphereExit> through_unit_sphere(WorldRay ray) {
-    const double b = glm::dot(ray.origin, ray.direction);
-    const double discriminant = b * b - glm::dot(ray.origin, ray.origin) + 1.0;
-    if (discriminant < 0.0) return std::nullopt;
-    const glm::dvec3 entry = ray.origin + (-b - std::sqrt(discriminant)) * ray.direction;
-    glm::dvec3 inside{}, exit_direction{};
-    refract_direction(ray.direction, entry, 1.0 / kIor, inside);
-    const double length = -2.0 * glm::dot(entry, inside);
-    const glm::dvec3 exit = entry + length * inside;
-    if (!refract_direction(inside, -exit, kIor, exit_direction)) return std::nullopt;
-    return SphereExit{exit, exit_direction, length};
 }
 
 class Refraction : public RendererTest {
@@ -77,7 +56,7 @@ TEST_F(Refraction, SphereExitsWhereTheFormulaSays) {
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
             if (rgb(result.aovs.at("events"), x, y).x == 0.0f) continue;
-            const auto exact = through_unit_sphere(pixel_ray(camera, kSize, kSize, x, y));
+            const auto exact = through_unit_sphere(pixel_ray(camera, kSize, kSize, x, y), kIor);
             if (!exact) continue;  // the pixel's ray misses the sphere that the mesh stands for
             ++covered;
             const bool good = angle_deg(rgb(result.aovs.at("exit-direction"), x, y), exact->direction) <= 1.0;

@@ -394,9 +394,9 @@ TEST(LoadGltf, ImagesThatAreNoneGiveAWarningWithTheMaterial) {
 TEST(LoadGltf, Extensions) {
     const TemporaryFolder folder;
     GltfBuilder b = GltfBuilder::triangle();
-    b.root["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_ior", "EXT_mesh_gpu_instancing"};
+    b.root["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior", "EXT_mesh_gpu_instancing"};
     const Scene scene = load_scene(b.gltf(folder));
-    EXPECT_EQ(warnings_with(scene, "KHR_lights_punctual"), 1u);
+    EXPECT_EQ(warnings_with(scene, "KHR_materials_clearcoat"), 1u);
     EXPECT_EQ(warnings_with(scene, "EXT_mesh_gpu_instancing"), 1u);
     EXPECT_EQ(scene.warnings.size(), 2u);
     b.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};

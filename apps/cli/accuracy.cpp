@@ -1,0 +1,138 @@
+#include "accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pellucid::cli {
+namespace {
+
+PixelFootprint pixel_footprint(const Camera& camera, std::uint32_t height) {
+    if (camera.orthographic) return {.at_eye = camera.vertical_extent / float(height), .per_metre = 0.0f};
+    return {.at_eye = 0.0f, .per_metre = 2.0f * std::tan(0.5f * camera.vertical_fov) / float(height)};
+}
+
+constexpr double kStabilityShift = 0.1;  // px
+constexpr glm::dvec2 kStabilityShifts[] = {
+    {kStabilityShift, 0.0}, {-kStabilityShift, 0.0}, {0.0, kStabilityShift}, {0.0, -kStabilityShift}};
+constexpr glm::dvec2 kSelfShift{0.0001, 0.0};  // px
+
+bool has_parameter(const TechniqueInfo& technique, std::string_view name) {
+    return std::any_of(technique.parameters.begin(), technique.parameters.end(),
+                       [&](const ParameterInfo& parameter) { return parameter.name == name; });
+}
+
+}  // namespace
+
+Camera comparison_camera(const Bounds& bounds, int index, int count, std::uint32_t width, std::uint32_t height) {
+    return framing_camera(bounds, width, height, Camera{}.vertical_fov, 360.0f * float(index) / float(count));
+}
+
+ExactView trace_exact_view(const Tracer& tracer, const Camera& camera, std::uint32_t width, std::uint32_t height,
+                           std::uint32_t max_events, const Progress& progress) {
+    int traced = 0;
+    const auto trace = [&](glm::dvec2 shift) {
+        const auto part = [&](double share) {
+            constexpr double kTraces = 2.0 + double(std::size(kStabilityShifts));
+            if (progress) progress((traced + share) / kTraces);
+        };
+        std::vector<RefractedPath> paths =
+            tracer.exact(camera, {.width = width, .height = height, .max_events = max_events, .shift_px = shift}, part);
+        ++traced;
+        return paths;
+    };
+    ExactView view;
+    view.width = width;
+    view.height = height;
+    view.footprint = pixel_footprint(camera, height);
+    view.paths = trace({});
+    view.covered.resize(view.paths.size());
+    for (std::size_t i = 0; i < view.paths.size(); ++i) view.covered[i] = view.paths[i].events > 0 ? 1 : 0;
+
+    view.stable = view.covered;
+    for (const glm::dvec2 shift : kStabilityShifts) {
+        const std::vector<RefractedPath> shifted = trace(shift);
+        for (std::size_t i = 0; i < shifted.size(); ++i) {
+            if (view.stable[i] != 0 && !(path_error_deg(view.paths[i], shifted[i], view.footprint) < 1.0f))
+                view.stable[i] = 0;
+        }
+    }
+    view.self_within_1deg = judge(view, trace(kSelfShift)).accuracy.within_1deg;
+    return view;
+}
+
+Judgement judge(const ExactView& exact, const std::vector<RefractedPath>& paths) {
+    Judgement judgement;
+    judgement.error_deg = path_error_image(int(exact.width), int(exact.height), exact.paths, paths, exact.footprint);
+    judgement.accuracy = path_accuracy(exact.paths, paths, judgement.error_deg, exact.stable);
+    return judgement;
+}
+
+void add_accuracy(nlohmann::ordered_json& run, const ExactView& exact, const PathAccuracy& accuracy) {
+    run["covered"] = accuracy.covered;
+    run["stable_share"] = accuracy.stable_share;
+    run["self_within_1deg"] = exact.self_within_1deg;
+    run["within_1deg"] = accuracy.within_1deg;
+    run["within_5deg"] = accuracy.within_5deg;
+    run["within_1deg_stable"] = accuracy.within_1deg_stable;
+    run["median_deg"] = accuracy.median_deg;
+    run["p95_deg"] = accuracy.p95_deg;
+    for (std::uint32_t status = 0; status < kStatusCount; ++status)
+        run["status"][std::string(status_name(Status(status)))] = accuracy.status[status];
+    const auto group = [](const GroupAccuracy& g) {
+        return nlohmann::ordered_json{{"share", g.share}, {"within_1deg", g.within_1deg}};
+    };
+    run["by_events"] = {{"2", group(accuracy.two_events)},
+                        {"4", group(accuracy.four_events)},
+                        {"more", group(accuracy.more_events)},
+                        {"tir", group(accuracy.with_tir)}};
+}
+
+std::vector<const TechniqueInfo*> parse_techniques(const std::string& names, const Renderer& renderer) {
+    std::vector<const TechniqueInfo*> chosen;
+    if (names.empty()) {
+        for (const TechniqueInfo* technique : techniques()) {
+            if (!technique->reference && renderer.lacking(*technique).empty()) chosen.push_back(technique);
+        }
+        return chosen;
+    }
+    std::istringstream stream(names);
+    for (std::string name; std::getline(stream, name, ',');) {
+        const TechniqueInfo& technique = find_technique(name);
+        if (const std::string lacking = renderer.lacking(technique); !lacking.empty())
+            throw DeviceError(fmt::format("{} needs {}, which {} lacks", name, lacking, renderer.device().name));
+        if (std::find(chosen.begin(), chosen.end(), &technique) == chosen.end()) chosen.push_back(&technique);
+    }
+    return chosen;
+}
+
+ParameterMap parameters_of(const TechniqueInfo& technique, const ParameterMap& given) {
+    ParameterMap own;
+    for (const auto& [name, value] : given) {
+        if (has_parameter(technique, name)) own[name] = value;
+    }
+    return own;
+}
+
+void check_parameters(const std::vector<const TechniqueInfo*>& techniques, const ParameterMap& given) {
+    for (const auto& [name, value] : given) {
+        const bool known = std::any_of(techniques.begin(), techniques.end(),
+                                       [&, wanted = std::string_view(name)](const TechniqueInfo* technique) {
+                                           return has_parameter(*technique, wanted);
+                                       });
+        if (!known) throw Error(fmt::format("--{}: none of the techniques compared has this parameter", name));
+    }
+}
+
+nlohmann::ordered_json describe_parameters(const TechniqueInfo& technique, const ParameterMap& given) {
+    auto json = nlohmann::ordered_json::object();
+    for (const ParameterInfo& parameter : technique.parameters) {
+        const auto found = given.find(parameter.name);
+        json[std::string(parameter.name)] = found == given.end() ? parameter.default_value : found->second;
+    }
+    return json;
+}
+
+}  // namespace pellucid::cli

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <pellucid/pellucid.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pellucid::cli {
+
+/// View `index` of `count` around a scene: azimuth 360 index / count degrees, elevation 15, the object
+/// filling 70% of the picture's height, 30 degree field of view.
+Camera comparison_camera(const Bounds& bounds, int index, int count, std::uint32_t width, std::uint32_t height);
+
+/// The exact paths of a view, and how far they can be trusted.
+struct ExactView {
+    std::uint32_t width = 0, height = 0;
+    PixelFootprint footprint;
+    std::vector<RefractedPath> paths;   ///< one per pixel
+    std::vector<std::uint8_t> covered;  ///< 1 where the first surface is refracting glass
+    /// 1 where the exact direction moves less than 1 degree when the view ray is shifted by 0.1 px left,
+    /// right, up and down.
+    std::vector<std::uint8_t> stable;
+    double self_within_1deg = 1.0;  ///< exact against itself, the view ray shifted by 0.0001 px
+};
+ExactView trace_exact_view(const Tracer& tracer, const Camera& camera, std::uint32_t width, std::uint32_t height,
+                           std::uint32_t max_events, const Progress& progress);
+
+/// A technique's paths held against the exact ones.
+struct Judgement {
+    PathAccuracy accuracy;
+    Image error_deg;  ///< see path_error_image()
+};
+Judgement judge(const ExactView& exact, const std::vector<RefractedPath>& paths);
+
+/// Adds what MEASURES calls error to a run: shares of pixels, statuses, groups by exact events.
+void add_accuracy(nlohmann::ordered_json& run, const ExactView& exact, const PathAccuracy& accuracy);
+
+/// "A,B,.." as techniques; empty: every one that the device offers and that is no reference.
+/// Throws Error listing the known names, DeviceError for one that the device does not offer.
+std::vector<const TechniqueInfo*> parse_techniques(const std::string& names, const Renderer& renderer);
+
+/// Those of `given` that the technique has. Throws Error if one of them belongs to none of `techniques`.
+ParameterMap parameters_of(const TechniqueInfo& technique, const ParameterMap& given);
+void check_parameters(const std::vector<const TechniqueInfo*>& techniques, const ParameterMap& given);
+
+/// Every parameter of the technique with its value.
+nlohmann::ordered_json describe_parameters(const TechniqueInfo& technique, const ParameterMap& given);
+
+}  // namespace pellucid::cli

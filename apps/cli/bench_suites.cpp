@@ -1,0 +1,150 @@
+#include "bench_suites.h"
+
+#include "accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pellucid::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float kElevationDeg = 15.0f;
+
+/// Wang 2014 measures its models at distances 10 and 20 without saying in what unit: near and far are as one to two
+/// here as well, and at the near one the bounding sphere fills three quarters of the height.
+constexpr float kNear = 5.0f, kFar = 10.0f;  // bounding-sphere radii
+
+/// What the suites call for, in the order in which the files are looked for.
+struct Model {
+    const char* name;
+    std::array<const char*, 2> files;
+    const char* installed;  ///< where Debian puts one like it; "" for nowhere
+};
+constexpr Model kBunny{"bunny", {"bunny_closed_69664.obj", "bunny.obj"}, "/usr/share/glmark2/models/bunny.obj"};
+constexpr Model kCow{"cow", {"cow.obj", "cow_5804.obj"}, ""};
+
+class Suite {
+public:
+    Suite(const fs::path& models, std::vector<std::string>& warnings) : models_(models), warnings_(warnings) {}
+
+    void add(BenchCase bench_case) { cases_.push_back(std::move(bench_case)); }
+    void add_shape(const std::string& shape, BenchCase how) {
+        how.scene = how.source = "shape:" + shape;
+        add(how);
+    }
+    void add_model(const Model& model, BenchCase how) {
+        const fs::path file = find(model);
+        how.scene = file.filename().string();
+        how.source = file.string();
+        if (!file.empty()) add(how);
+    }
+    std::vector<BenchCase> cases() && { return std::move(cases_); }
+
+private:
+    fs::path find(const Model& model) {
+        std::error_code ignored;
+        for (const char* file : model.files) {
+            if (!models_.empty() && fs::is_regular_file(models_ / file, ignored)) return models_ / file;
+        }
+        if (fs::is_regular_file(model.installed, ignored)) return model.installed;
+        const std::string warning =
+            fmt::format("{} is left out: {} has no {}", model.name,
+                        models_.empty() ? "there is no --models DIR that" : models_.string(), model.files.front());
+        if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
+        return {};
+    }
+
+    const fs::path& models_;
+    std::vector<std::string>& warnings_;
+    std::vector<BenchCase> cases_;
+};
+
+void add_quick(Suite& suite) {
+    for (const char* shape : {"sphere,segments=8", "goblet"}) suite.add_shape(shape, {.size = std::pair(256u, 256u)});
+}
+
+void add_thesis(Suite& suite) {
+    for (const float distance : {kFar, kNear}) {
+        const BenchCase how{.varied = "distance", .distance = distance};
+        suite.add_shape("sphere,segments=8", how);  // 512 triangles
+        suite.add_model(kCow, how);
+        suite.add_shape("torus,segments=24,sides=12", how);          // 576
+        suite.add_shape("infinity-ring,segments=60,sides=20", how);  // 2,400
+        suite.add_model(kBunny, how);
+    }
+}
+
+void add_scaling(Suite& suite) {
+    for (const int segments : {11, 35, 112, 354})  // 968 to 1,002,528 triangles
+        suite.add_shape(fmt::format("sphere,segments={}", segments), {.varied = "triangles"});
+    using Size = std::pair<std::uint32_t, std::uint32_t>;
+    for (const Size& size : {Size(256, 256), Size(512, 512), Size(1024, 1024), Size(1920, 1080), Size(3840, 2160)})
+        suite.add_shape("torus", {.varied = "size", .size = size});
+    for (const double layers : {2.0, 4.0, 8.0, 16.0}) suite.add_shape("knot", {.varied = "layers", .layers = layers});
+    for (const int copies : {1, 4, 16, 64})
+        suite.add_shape("sphere,segments=16", {.varied = "objects", .copies = copies});
+}
+
+struct SuiteInfo {
+    const char* name;
+    const char* doc;
+    void (*add)(Suite& suite);
+};
+constexpr std::array<SuiteInfo, 3> kSuites{
+    {{"quick", "two shapes at 256x256, seconds", add_quick},
+     {"thesis", "the models of Wang 2014, table 4.1, far and near", add_thesis},
+     {"scaling", "1,000 to 1,000,000 triangles, 256x256 to 3840x2160 pixels, 2 to 16 layers, 1 to 64 objects",
+      add_scaling}}};
+
+}  // namespace
+
+Camera bench_camera(const BenchCase& bench_case, const Scene& scene, std::uint32_t width, std::uint32_t height) {
+    const Bounds bounds = scene_bounds(scene);
+    if (bench_case.distance)
+        return orbit_camera(bounds, 0.0f, kElevationDeg, *bench_case.distance, Camera{}.vertical_fov);
+    return scene.cameras.empty() ? comparison_camera(bounds, 0, 1, width, height) : scene.cameras.front();
+}
+
+Scene with_copies(Scene scene, int copies) {
+    constexpr float kSpacing = 2.2f;  // radii, so that bounding spheres stay apart
+    const float step = kSpacing * scene_bounds(scene).radius;
+    const int side = int(std::ceil(std::sqrt(double(copies))));
+    const std::vector<Object> originals = std::move(scene.objects);
+    scene.objects.clear();
+    for (int i = 0; i < copies; ++i) {
+        const glm::vec3 offset(step * float(i % side), step * float(i / side), 0.0f);
+        for (Object object : originals) {
+            object.world_from_object[3] += glm::vec4(offset, 0.0f);
+            scene.objects.push_back(std::move(object));
+        }
+    }
+    return scene;
+}
+
+std::vector<BenchCase> suite_cases(const std::string& name, const fs::path& models,
+                                   std::vector<std::string>& warnings) {
+    std::vector<std::string> known;
+    for (const SuiteInfo& info : kSuites) {
+        if (info.name == name) {
+            Suite suite(models, warnings);
+            info.add(suite);
+            return std::move(suite).cases();
+        }
+        known.emplace_back(info.name);
+    }
+    throw Error(fmt::format("unknown suite '{}'; known: {}", name, fmt::join(known, ", ")));
+}
+
+std::string suite_help() {
+    std::string help;
+    for (const SuiteInfo& info : kSuites) help += fmt::format(" {} ({});", info.name, info.doc);
+    help.pop_back();
+    return help;
+}
+
+}  // namespace pellucid::cli

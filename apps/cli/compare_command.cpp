@@ -1,0 +1,276 @@
+#include "accuracy.h"
+#include "commands.h"
+#include "options.h"
+#include "progress_bar.h"
+
+#include "core/file.h"
+#include "measure/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+
+namespace pellucid::cli {
+namespace {
+
+struct CompareArguments {
+    std::vector<std::string> scenes;
+    std::string techniques;  ///< empty: all that the device offers
+    std::string size = "512x512";
+    int views = 4;
+    std::uint32_t samples = 4;
+    std::uint32_t exact_events = ExactSettings{}.max_events;
+    std::string truth = "reference";
+    std::uint32_t truth_samples = 64;
+    std::string environment = "studio";
+    std::string tonemap = "neutral";
+    double exposure_ev = 0.0;
+    std::optional<std::string> json;
+    std::optional<std::string> html;
+    SceneArguments how;
+    DeviceArguments device;
+    ParameterArguments parameters;
+    std::string command_line;
+};
+
+/// What stays the same from view to view, and where the results go.
+struct Comparison {
+    const CompareArguments& arguments;
+    Renderer renderer;
+    std::vector<const TechniqueInfo*> techniques;
+    ParameterMap parameters;
+    RenderSettings settings;  ///< without the technique
+    const TechniqueInfo& truth;
+    std::optional<Report> report;
+    nlohmann::ordered_json json;
+    std::set<std::string> warnings;
+};
+
+/// One camera around one scene.
+struct ComparedView {
+    std::string scene;
+    int index;
+    std::uint64_t triangles;
+    ExactView exact;
+    RenderResult truth;  ///< the picture that the others are held against
+};
+
+double median_frame_ms(const RenderResult& result) {
+    std::vector<double> totals;
+    for (const auto& frame : result.frames) {
+        double total = 0.0;
+        for (const PassTime& pass : frame) total += pass.time_ms;
+        totals.push_back(total);
+    }
+    return spread(totals).median;
+}
+
+nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedView& view,
+                                         const TechniqueInfo& technique) {
+    RenderSettings settings = comparison.settings;
+    settings.technique = technique.name;
+    settings.parameters = parameters_of(technique, comparison.parameters);
+    settings.paths = true;
+    const RenderResult result = comparison.renderer.render(settings);
+    comparison.warnings.insert(result.warnings.begin(), result.warnings.end());
+
+    const Judgement judgement = judge(view.exact, result.paths);
+    const Image flip = flip_ldr(view.truth.display, result.display);
+    nlohmann::ordered_json run{{"scene", view.scene},
+                               {"technique", technique.name},
+                               {"view", view.index},
+                               {"width", settings.width},
+                               {"height", settings.height},
+                               {"triangles", view.triangles},
+                               {"parameters", describe_parameters(technique, settings.parameters)}};
+    add_accuracy(run, view.exact, judgement.accuracy);
+    run["flip_mean"] = mean(flip, view.exact.covered);
+    run["rmse"] = rmse(view.truth.radiance, result.radiance, view.exact.covered);
+    if (!technique.reference && !result.frames.empty() && !result.frames.front().empty())
+        run["frame_ms"] = median_frame_ms(result);
+
+    if (comparison.report) {
+        const PictureOf of{view.scene, view.index, std::string(technique.name)};
+        comparison.report->add_picture(of, PictureKind::kImage, result.display);
+        comparison.report->add_picture(of, PictureKind::kError, judgement.error_deg);
+        comparison.report->add_picture(of, PictureKind::kFlip, flip);
+        settings.view = View::kAnalysis;
+        settings.samples = 1;
+        settings.paths = false;
+        comparison.report->add_picture(of, PictureKind::kAnalysis, comparison.renderer.render(settings).display);
+    }
+    return run;
+}
+
+ComparedView exact_view(Comparison& comparison, const std::string& name, const Scene& scene, int index) {
+    const CompareArguments& arguments = comparison.arguments;
+    RenderSettings settings = comparison.settings;
+    const Camera camera =
+        comparison_camera(scene_bounds(scene), index, arguments.views, settings.width, settings.height);
+    comparison.renderer.set_camera(camera);
+
+    ProgressBar bar(fmt::format("{}, view {} of {}, exact", name, index + 1, arguments.views));
+    ComparedView view{name,
+                      index,
+                      scene.triangle_count(),
+                      trace_exact_view(comparison.renderer.tracer(), camera, settings.width, settings.height,
+                                       arguments.exact_events, bar.progress()),
+                      {}};
+    settings.technique = comparison.truth.name;
+    settings.parameters = {};
+    if (comparison.truth.name == "path") settings.samples = arguments.truth_samples;
+    settings.progress = bar.progress();
+    view.truth = comparison.renderer.render(settings);
+    if (comparison.report) comparison.report->add_picture({name, index, ""}, PictureKind::kImage, view.truth.display);
+    return view;
+}
+
+void write_json(const Comparison& comparison) {
+    if (!comparison.arguments.json) return;
+    // Names inside files need not be UTF-8, as JSON must.
+    write_text_file(*comparison.arguments.json,
+                    comparison.json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void compare_scene(Comparison& comparison, const std::string& name) {
+    const Scene scene = load_scene(name, load_options(comparison.arguments.how));
+    comparison.warnings.insert(scene.warnings.begin(), scene.warnings.end());
+    comparison.renderer.set_scene(scene);
+    for (int index = 0; index < comparison.arguments.views; ++index) {
+        const ComparedView view = exact_view(comparison, name, scene, index);
+        for (const TechniqueInfo* technique : comparison.techniques) {
+            nlohmann::ordered_json run = compare_technique(comparison, view, *technique);
+            fmt::print("{:<28} {:>4} {:<22} {:>7.2f} {:>7.2f} {:>8.2f} {:>7.2f} {:>8.4f}\n", name, index,
+                       technique->name, 100.0 * run["within_1deg"].get<double>(),
+                       100.0 * run["within_5deg"].get<double>(), 100.0 * run["within_1deg_stable"].get<double>(),
+                       run["median_deg"].get<double>(), run["flip_mean"].get<double>());
+            std::fflush(stdout);
+            if (comparison.report) comparison.report->add_run(run);
+            comparison.json["runs"].push_back(std::move(run));
+        }
+    }
+    comparison.json["warnings"] = comparison.warnings;
+    write_json(comparison);  // after every scene, so that a bad one later loses nothing
+}
+
+void check_arguments(const CompareArguments& arguments) {
+    if (arguments.views < 1 || arguments.views > 360)
+        throw Error(fmt::format("--views must be 1 to 360, not {}", arguments.views));
+    if (!find_technique(arguments.truth).reference) {
+        throw Error(fmt::format("--truth: {} is no reference technique", arguments.truth));
+    }
+    std::set<std::string> seen;
+    for (const std::string& scene : arguments.scenes) {
+        if (!seen.insert(scene).second) throw Error(fmt::format("{} is given twice", scene));
+    }
+    if (arguments.json) check_writable(*arguments.json);
+}
+
+RenderSettings settings_of(const CompareArguments& arguments) {
+    RenderSettings settings;
+    std::tie(settings.width, settings.height) = parse_size(arguments.size);
+    settings.samples = arguments.samples;
+    settings.tonemap = parse_tonemap(arguments.tonemap);
+    settings.exposure_ev = float(arguments.exposure_ev);
+    return settings;
+}
+
+std::string describe_truth(const CompareArguments& arguments) {
+    const std::uint32_t samples = arguments.truth == "path" ? arguments.truth_samples : arguments.samples;
+    return fmt::format("{}, samples per pixel: {}", arguments.truth, samples);
+}
+
+void compare(const CompareArguments& arguments) {
+    check_arguments(arguments);
+    std::string environment_warning;
+    const Environment environment = load_environment(arguments.environment, &environment_warning);
+    Comparison comparison{.arguments = arguments,
+                          .renderer = Renderer(device_options(arguments.device)),
+                          .techniques = {},
+                          .parameters = given_parameters(arguments.parameters),
+                          .settings = settings_of(arguments),
+                          .truth = find_technique(arguments.truth),
+                          .report = {},
+                          .json = {},
+                          .warnings = {}};
+    if (!environment_warning.empty()) comparison.warnings.insert(environment_warning);
+    comparison.techniques = parse_techniques(arguments.techniques, comparison.renderer);
+    check_parameters(comparison.techniques, comparison.parameters);
+    comparison.renderer.set_environment(environment);
+    const DeviceInfo& device = comparison.renderer.device();
+    comparison.json = {{"device", device.name},
+                       {"driver", device.driver},
+                       {"version", version()},
+                       {"environment", arguments.environment},
+                       {"exact_events", arguments.exact_events},
+                       {"image_truth", describe_truth(arguments)},
+                       {"warnings", nlohmann::ordered_json::array()},
+                       {"runs", nlohmann::ordered_json::array()}};
+    if (arguments.html) comparison.report.emplace(*arguments.html);
+
+    fmt::print("{:<28} {:>4} {:<22} {:>7} {:>7} {:>8} {:>7} {:>8}\n", "scene", "view", "technique", "1 deg%", "5 deg%",
+               "stable%", "median", "FLIP");
+    for (const std::string& scene : arguments.scenes) compare_scene(comparison, scene);
+    if (comparison.report) {
+        const std::filesystem::path page = comparison.report->finish({.device = device.name,
+                                                                      .driver = device.driver,
+                                                                      .version = std::string(version()),
+                                                                      .command = arguments.command_line,
+                                                                      .reference = describe_truth(arguments)});
+        fmt::print("Report: {}\n", page.string());
+    }
+    print_warnings({comparison.warnings.begin(), comparison.warnings.end()});
+    check_validation(comparison.renderer);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, const std::string& command_line) {
+    auto arguments = std::make_shared<CompareArguments>();
+    CompareArguments& a = *arguments;
+    a.command_line = command_line;
+    CLI::App* command =
+        app.add_subcommand("compare", "Hold techniques against exact ray tracing, pixel by pixel, around scenes");
+    command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    command->add_option("scenes", a.scenes, shape_help())
+        ->required()
+        ->type_name("SCENE...")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--techniques", a.techniques,
+                     "Names with commas; default: all that the device offers and that are no reference. There are:" +
+                         technique_list())
+        ->type_name("A,B,..");
+    command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
+    add_number(*command, "--views", a.views, "Cameras around the object, 15 degrees above it, the first from the front")
+        ->capture_default_str();
+    add_number(*command, "--samples", a.samples, "Jittered frames per picture; paths are compared at pixel centres")
+        ->capture_default_str();
+    add_number(*command, "--exact-events", a.exact_events, "Interface events that exact paths may have")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 4095));
+    command
+        ->add_option("--truth", a.truth,
+                     "Whose picture FLIP and RMSE are taken against: reference (the exact transmitted path, shaded as "
+                     "the others are) or path (all light)")
+        ->capture_default_str()
+        ->type_name("NAME");
+    add_number(*command, "--truth-samples", a.truth_samples, "Paths per pixel of --truth path")->capture_default_str();
+    add_environment_option(*command, a.environment);
+    command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")
+        ->capture_default_str()
+        ->type_name("NAME");
+    add_number(*command, "--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
+    command->add_option("--json", a.json, "Write every measure of every run")->type_name("FILE");
+    command->add_option("--html", a.html, "Write a report that opens in a browser from disk")->type_name("DIR");
+    add_scene_options(*command, a.how);
+    add_device_options(*command, a.device);
+    add_parameter_options(*command, a.parameters);
+    command->callback([arguments] { compare(*arguments); });
+}
+
+}  // namespace pellucid::cli

@@ -1,0 +1,128 @@
+#include "options.h"
+
+#include "core/math.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace pellucid::cli {
+namespace {
+
+std::string parameter_help(const ParameterInfo& parameter) {
+    return fmt::format("{}{}{} [{} to {}, default {}]", parameter.doc, parameter.unit.empty() ? "" : ", ",
+                       parameter.unit, parameter.minimum, parameter.maximum, parameter.default_value);
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneArguments& arguments) {
+    add_number(command, "--ior", arguments.ior, "Index of refraction of all glass")->type_name("X");
+    command
+        .add_option("--attenuation-color", arguments.attenuation_color,
+                    "What the glass leaves of white light after the distance, 0 to 1")
+        ->type_name("R,G,B");
+    add_number(command, "--attenuation-distance", arguments.attenuation_distance, "Metres after which that is left")
+        ->type_name("M");
+    add_number(command, "--crease-angle", arguments.crease_angle_deg,
+               "Made normals are smooth across edges bent less than this, degrees")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 180.0));
+    command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");
+}
+
+LoadOptions load_options(const SceneArguments& arguments) {
+    LoadOptions options;
+    if (arguments.ior) options.ior = float(*arguments.ior);
+    if (arguments.attenuation_color) {
+        const auto color = parse_numbers("--attenuation-color", *arguments.attenuation_color, 3);
+        options.attenuation_color = glm::vec3(float(color[0]), float(color[1]), float(color[2]));
+    }
+    if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
+    options.crease_angle = radians_from_degrees(float(arguments.crease_angle_deg));
+    options.remake_normals = arguments.remake_normals;
+    return options;
+}
+
+void add_device_options(CLI::App& command, DeviceArguments& arguments) {
+    command
+        .add_option("--device", arguments.device, "Vulkan device: its number in 'pellucid info' or a part of its name")
+        ->type_name("DEVICE");
+    add_number(command, "--threads", arguments.threads, "Threads of the techniques that trace on the CPU; 0: all cores")
+        ->capture_default_str();
+    command.add_flag("--validate", arguments.validate, "Run with the Vulkan validation layer; a message is an error");
+}
+
+DeviceOptions device_options(const DeviceArguments& arguments) {
+    return {.device = arguments.device, .validation = arguments.validate, .threads = arguments.threads};
+}
+
+void add_parameter_options(CLI::App& command, ParameterArguments& arguments) {
+    struct Flag {
+        std::string owners, help, type;
+    };
+    std::map<std::string, Flag, std::less<>> flags;
+    for (const TechniqueInfo* technique : techniques()) {
+        for (const ParameterInfo& parameter : technique->parameters) {
+            Flag& flag = flags[std::string(parameter.name)];
+            const std::string help = parameter_help(parameter);
+            if (flag.owners.empty()) {
+                flag = {std::string(technique->name), help, parameter.whole ? "N" : "X"};
+                continue;
+            }
+            flag.owners += fmt::format(", {}", technique->name);
+            if (flag.help != help) flag.help += fmt::format("; {}: {}", technique->name, help);
+        }
+    }
+    for (const auto& [name, flag] : flags) {
+        add_number(command, "--" + name, arguments[name], flag.help)
+            ->type_name(flag.type)
+            ->group("Parameters of " + flag.owners);
+    }
+}
+
+ParameterMap given_parameters(const ParameterArguments& arguments) {
+    ParameterMap parameters;
+    for (const auto& [name, value] : arguments) {
+        if (value) parameters[name] = *value;
+    }
+    return parameters;
+}
+
+void add_environment_option(CLI::App& command, std::string& name_or_file) {
+    command
+        .add_option("--environment", name_or_file,
+                    "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
+        ->capture_default_str()
+        ->type_name("NAME|FILE");
+}
+
+std::string shape_help() {
+    std::string help =
+        "Scene: a .gltf, .glb, .obj, .ply, .stl, .off or .3ds file, or shape:NAME[,PARAMETER=VALUE...] with NAME one "
+        "of";
+    for (const ShapeInfo& shape : shape_infos()) help += fmt::format(" {}", shape.name);
+    return help;
+}
+
+std::string technique_list() {
+    std::string help;
+    for (const TechniqueInfo* technique : techniques())
+        help += fmt::format(" {} ({});", technique->name, technique->summary);
+    help.pop_back();
+    return help;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings)
+        std::fputs(fmt::format("pellucid: warning: {}\n", warning).c_str(), stderr);
+}
+
+void check_validation(const Renderer& renderer) {
+    const std::vector<std::string>& messages = renderer.validation_messages();
+    if (messages.empty()) return;
+    throw std::runtime_error(fmt::format("{} validation messages, the first: {}", messages.size(), messages.front()));
+}
+
+}  // namespace pellucid::cli

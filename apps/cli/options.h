@@ -1,0 +1,65 @@
+#pragma once
+
+// Options that several commands share.
+
+#include "arguments.h"
+
+#include <pellucid/pellucid.h>
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pellucid::cli {
+
+/// An option with a finite number; the parser's own conversion takes "" and "nan".
+template <class Number>
+CLI::Option* add_number(CLI::App& command, const std::string& flag, Number& number, const std::string& help) {
+    return command.add_option(flag, number, help)->check([flag](const std::string& text) {
+        parse_number(flag, text);
+        return std::string();
+    });
+}
+
+/// How scenes are loaded. Strings are parsed when the command runs, so that errors are ours.
+struct SceneArguments {
+    std::optional<double> ior;
+    std::optional<std::string> attenuation_color;
+    std::optional<double> attenuation_distance;
+    double crease_angle_deg = 180.0;
+    bool remake_normals = false;
+};
+void add_scene_options(CLI::App& command, SceneArguments& arguments);
+LoadOptions load_options(const SceneArguments& arguments);
+
+struct DeviceArguments {
+    std::string device;
+    std::uint32_t threads = 0;
+    bool validate = false;
+};
+void add_device_options(CLI::App& command, DeviceArguments& arguments);
+DeviceOptions device_options(const DeviceArguments& arguments);
+
+/// Every parameter of every technique, by name.
+using ParameterArguments = std::map<std::string, std::optional<double>>;
+/// One flag for each parameter name of the registry, in the group of the techniques that have it.
+void add_parameter_options(CLI::App& command, ParameterArguments& arguments);
+/// Those that were given.
+ParameterMap given_parameters(const ParameterArguments& arguments);
+
+void add_environment_option(CLI::App& command, std::string& name_or_file);
+
+/// Help texts that list what there is.
+std::string shape_help();
+std::string technique_list();
+
+/// One line each on stderr.
+void print_warnings(const std::vector<std::string>& warnings);
+/// Throws std::runtime_error, a bug of ours, if the validation layer has said anything.
+void check_validation(const Renderer& renderer);
+
+}  // namespace pellucid::cli

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <pellucid/environment.h>
+#include <pellucid/image.h>
+#include <pellucid/progress.h>
+#include <pellucid/refracted_path.h>
+#include <pellucid/scene.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace pellucid {
+
+/// Care taken in building the hierarchy over the triangles (Embree's build qualities).
+enum class BuildQuality { kLow, kMedium, kHigh };
+
+struct TracerOptions {
+    BuildQuality quality = BuildQuality::kHigh;
+    bool deforming = false;     ///< triangles will move: set_positions() may refit instead of building anew
+    std::uint32_t threads = 0;  ///< 0, or more than there are: all cores
+};
+
+/// What the exact tracer is asked for.
+struct ExactSettings {
+    std::uint32_t width = 512;  ///< pixels
+    std::uint32_t height = 512;
+    std::uint32_t max_events = 16;  ///< K: a path of more has Status::kEventLimit; 1..65535
+    glm::dvec2 shift_px{0.0};       ///< moves every primary ray from the centre of its pixel, right and down
+    std::uint32_t packet = 1;       ///< rays traced together: 1, 4, 8, 16; the result is the same
+};
+
+/// What the path tracer is asked for.
+struct PathTraceSettings {
+    std::uint32_t width = 512;  ///< pixels
+    std::uint32_t height = 512;
+    std::uint32_t samples = 64;  ///< paths per pixel, over the pixel's area
+    std::uint32_t seed = 1;
+    std::uint32_t max_vertices = 256;  ///< a path that is longer is cut and counted
+};
+
+/// A path-traced picture. It depends on the scene, the settings and nothing else: not on threads.
+struct PathTracedImage {
+    Image radiance;        ///< RGB, scene-linear, mean over the samples
+    Image standard_error;  ///< RGB, of that mean; 0 for one sample
+    std::uint32_t samples = 0;
+    std::uint64_t cut_paths = 0;  ///< paths that reached max_vertices, over all pixels
+};
+
+/// Exact ray tracing on the CPU (Embree): the truth that techniques are held against. Shares no
+/// optics code with the renderer.
+///
+/// A ray refracts at every interface by the interpolated normal; which side of a solid it is on
+/// follows from the triangles it crossed. Where solids overlap, the smaller one (by its bounding box)
+/// displaces the larger one: liquid displaces the goblet, a bubble the block around it.
+class Tracer {
+public:
+    /// Builds the hierarchy. `scene` must be checked (load_scene does it) and outlive the tracer.
+    explicit Tracer(const Scene& scene, const TracerOptions& options = {});
+    ~Tracer();
+    Tracer(Tracer&&) noexcept;
+    Tracer& operator=(Tracer&&) noexcept;
+
+    /// Time that building the hierarchy took last, ms.
+    double build_ms() const;
+
+    /// One path per pixel, through its centre; rows from the top.
+    std::vector<RefractedPath> exact(const Camera& camera, const ExactSettings& settings,
+                                     const Progress& progress = {}) const;
+
+    /// Unidirectional path tracing with next-event estimation (Kajiya 1986; Veach 1997, chapters 9
+    /// and 10). Light of point, spot and directional lights does not come through refracting glass:
+    /// a path can only meet such a light by aiming at it.
+    PathTracedImage path_trace(const Camera& camera, const Environment& environment, const PathTraceSettings& settings,
+                               const Progress& progress = {}) const;
+
+    /// Moves the vertices of Scene::meshes[mesh] (its own coordinate frame, as many as it has, normals
+    /// alike) in every object that shows it, and refits the hierarchy (needs TracerOptions::deforming)
+    /// or builds it anew. The first refit after a build takes as long as a build of medium quality:
+    /// Embree makes the hierarchy that it refits then. Throws Error if the counts differ.
+    enum class Update { kRefit, kRebuild };
+    void set_positions(int mesh, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
+                       Update update);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pellucid

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "gpu/memory.h"
+
+#include <cstdint>
+#include <string>
+
+namespace pellucid {
+
+/// What an acceleration structure is made for.
+enum class StructureUse {
+    kStatic,   ///< built once, traced often: a good tree
+    kRefit,    ///< the same tree, its boxes fitted again to triangles that have moved
+    kRebuild,  ///< built anew in every frame: fast
+};
+
+/// One level of the hierarchy that rays go through (VkAccelerationStructureKHR): triangles of a mesh,
+/// or placements of such structures. Empty until Recorder::build(). Needs Device::ray_tracing().
+class AccelerationStructure {
+public:
+    /// Triangles, three vertices each, `stride` bytes apart; a vertex begins with its position (3 floats).
+    struct Triangles {
+        vk::DeviceAddress vertices;
+        std::uint32_t stride;
+        std::uint32_t vertex_count;
+    };
+    /// Records of vk::AccelerationStructureInstanceKHR.
+    struct Instances {
+        vk::DeviceAddress records;
+        std::uint32_t count;
+    };
+    /// Throw Error if the device builds none of this size, naming `name`.
+    AccelerationStructure(const Device& device, std::string name, Triangles triangles, StructureUse use);
+    AccelerationStructure(const Device& device, std::string name, Instances instances, StructureUse use);
+
+    vk::AccelerationStructureKHR handle() const { return *structure_; }
+    vk::DeviceAddress address() const { return address_; }
+    ResourceId id() const { return storage_.id(); }
+
+    /// Bytes of scratch memory that building it, or refitting it, needs at most.
+    vk::DeviceSize scratch_size() const { return scratch_size_; }
+    /// The build as vkCmdBuildAccelerationStructuresKHR wants it; pGeometries points into this object.
+    vk::AccelerationStructureBuildGeometryInfoKHR build_info(vk::BuildAccelerationStructureModeKHR mode) const;
+    std::uint32_t primitive_count() const { return primitive_count_; }
+
+private:
+    void create(const Device& device, std::string name, vk::AccelerationStructureTypeKHR type, StructureUse use);
+
+    Buffer storage_;  // outlives structure_
+    vk::raii::AccelerationStructureKHR structure_ = nullptr;
+    vk::DeviceAddress address_ = 0;
+    vk::AccelerationStructureTypeKHR type_ = vk::AccelerationStructureTypeKHR::eGeneric;
+    vk::BuildAccelerationStructureFlagsKHR flags_;
+    vk::AccelerationStructureGeometryKHR geometry_;
+    std::uint32_t primitive_count_ = 0;
+    vk::DeviceSize scratch_size_ = 0;
+};
+
+/// Scratch memory for builds that need `size` bytes at most.
+class BuildScratch {
+public:
+    BuildScratch(const Device& device, vk::DeviceSize size);
+    vk::DeviceAddress address() const { return address_; }  ///< aligned as the device wants it
+    ResourceId id() const { return buffer_.id(); }
+
+private:
+    Buffer buffer_;
+    vk::DeviceAddress address_;
+};
+
+}  // namespace pellucid

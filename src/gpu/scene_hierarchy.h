@@ -1,0 +1,42 @@
+#pragma once
+
+#include "gpu/acceleration_structure.h"
+#include "gpu/gpu_scene.h"
+
+#include <optional>
+#include <vector>
+
+namespace pellucid {
+
+/// Hierarchy over a scene's solids of glass: one structure per mesh, and one over their placements.
+/// Facing is as the meshes wind their triangles, seen from outside, whether a placement mirrors or not;
+/// the custom index of an instance is its object.
+class SceneHierarchy {
+public:
+    /// Nothing is built yet. The scene's vertices must stay where they are. Needs Device::ray_tracing().
+    SceneHierarchy(const Device& device, const GpuScene& scene, StructureUse use);
+    SceneHierarchy(const SceneHierarchy&) = delete;
+    SceneHierarchy& operator=(const SceneHierarchy&) = delete;
+
+    /// True if it is the hierarchy of `scene` made for `use`.
+    bool is_of(const GpuScene& scene, StructureUse use) const;
+
+    /// Records, in a scope of its own, what a frame needs before it can trace: the first time the build
+    /// ("build"), later what the use asks for: nothing, "refit" or "build".
+    void update(Recorder& recorder);
+
+    const AccelerationStructure& top() const { return *top_; }
+
+private:
+    void record(Recorder& recorder, vk::BuildAccelerationStructureModeKHR mode) const;
+
+    StructureUse use_;
+    ResourceId vertices_;
+    std::vector<AccelerationStructure> meshes_;
+    Buffer instances_;
+    std::optional<AccelerationStructure> top_;
+    std::optional<BuildScratch> scratch_;  // none once a static hierarchy is built
+    bool built_ = false;
+};
+
+}  // namespace pellucid

@@ -1,0 +1,183 @@
+#include "reference/bsdf.h"
+
+#include "reference/dielectric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pellucid::reference {
+namespace {
+
+using std::numbers::pi;
+
+Microfacets facets_of(double roughness) { return {roughness * roughness}; }
+
+/// Schlick, "An inexpensive BRDF model for physically-based rendering", 1994.
+double schlick_weight(double cos_theta) {
+    const double grazing = std::clamp(1.0 - cos_theta, 0.0, 1.0);
+    return grazing * grazing * grazing * grazing * grazing;
+}
+
+glm::dvec3 mirrored(const glm::dvec3& wo) { return {-wo.x, -wo.y, wo.z}; }
+glm::dvec3 mirrored(const glm::dvec3& wo, const glm::dvec3& m) { return 2.0 * glm::dot(wo, m) * m - wo; }
+glm::dvec3 to_other_side(const glm::dvec3& w) { return {w.x, w.y, -w.z}; }
+
+glm::dvec3 cosine_weighted(const glm::dvec2& u) {
+    const double radius = std::sqrt(u.x), angle = 2.0 * pi * u.y;
+    return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(1.0 - u.x, 0.0))};
+}
+
+/// Reflection by facets that reflect everything: BRDF times cos theta_i, and the density of wi if normals
+/// are sampled by visibility. Both on one side.
+struct FacetReflection {
+    glm::dvec3 m{0.0};  ///< the facets' normal
+    double value = 0.0;
+    double pdf = 0.0;
+};
+FacetReflection reflect_by_facets(const Microfacets& facets, const glm::dvec3& wo, const glm::dvec3& wi) {
+    const glm::dvec3 m = glm::normalize(wo + wi);
+    const double density = facets.density(m) / (4.0 * wo.z);
+    return {m, density * facets.masking_shadowing(wo, wi), density * facets.masking(wo)};
+}
+
+/// A direction that was chosen in proportion to the BSDF, or nothing where that is 0: light that the next
+/// facet would catch.
+template <class AnyBsdf>
+std::optional<BsdfSample> weighted(const AnyBsdf& bsdf, const glm::dvec3& wo, const glm::dvec3& wi) {
+    const BsdfValue value = bsdf.evaluate(wo, wi);
+    if (!(value.pdf > 0.0)) return std::nullopt;
+    return BsdfSample{wi, value.value / value.pdf, value.pdf, false};
+}
+
+}  // namespace
+
+OpaqueBsdf::OpaqueBsdf(const glm::dvec3& base, double metallic, double roughness, double ior)
+    : facets_(facets_of(roughness)), diffuse_((1.0 - metallic) * base) {
+    const double f0 = (ior - 1.0) / (ior + 1.0);
+    coat_at_normal_ = f0 * f0;
+    at_normal_ = glm::mix(glm::dvec3(coat_at_normal_), base, metallic);
+}
+
+glm::dvec3 OpaqueBsdf::reflectance(double cos_theta) const {
+    // Where nothing is reflected head-on there is no boundary to reflect at grazing angles either.
+    const glm::dvec3 grazing = glm::dvec3(glm::greaterThan(at_normal_, glm::dvec3(0.0)));
+    return glm::mix(at_normal_, grazing, schlick_weight(cos_theta));
+}
+
+double OpaqueBsdf::coat(double cos_theta) const {
+    return coat_at_normal_ > 0.0 ? glm::mix(coat_at_normal_, 1.0, schlick_weight(cos_theta)) : 0.0;
+}
+
+/// How often sample() chooses the coat: about its share of the light.
+double OpaqueBsdf::mirror_share(const glm::dvec3& wo) const {
+    const glm::dvec3 mirror = reflectance(wo.z), diffuse = diffuse_ * (1.0 - coat(wo.z));
+    const double a = std::max({mirror.r, mirror.g, mirror.b}), b = std::max({diffuse.r, diffuse.g, diffuse.b});
+    return a > 0.0 ? a / (a + b) : 0.0;
+}
+
+BsdfValue OpaqueBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi) const {
+    if (wo.z <= 0.0 || wi.z <= 0.0) return {};
+    const double share = mirror_share(wo);
+    // Mean of the coat's reflectance over diffuse light; what it throws back is scattered once more.
+    const double mean_coat = coat_at_normal_ > 0.0 ? coat_at_normal_ + (1.0 - coat_at_normal_) / 21.0 : 0.0;
+    const double passes = (1.0 - coat(wo.z)) * (1.0 - coat(wi.z)) / (1.0 - mean_coat);
+    BsdfValue result{diffuse_ * (passes * wi.z / pi), (1.0 - share) * wi.z / pi};
+    if (!facets_.smooth()) {
+        const FacetReflection facets = reflect_by_facets(facets_, wo, wi);
+        result.value += reflectance(glm::dot(wo, facets.m)) * facets.value;
+        result.pdf += share * facets.pdf;
+    }
+    return result;
+}
+
+std::optional<BsdfSample> OpaqueBsdf::sample(const glm::dvec3& wo, Random& random) const {
+    const double share = mirror_share(wo);
+    BsdfSample sample;
+    if (random.next() < share) {
+        if (facets_.smooth()) {
+            sample.wi = mirrored(wo);
+            sample.weight = reflectance(wo.z) / share;
+            sample.mirror = true;
+            return sample;
+        }
+        sample.wi = mirrored(wo, facets_.sample_visible(wo, random.next2()));
+    } else {
+        sample.wi = cosine_weighted(random.next2());
+    }
+    return weighted(*this, wo, sample.wi);
+}
+
+InterfaceBsdf::InterfaceBsdf(double n_o, double n_i, double roughness, const glm::dvec3& tint)
+    : facets_(facets_of(n_o == n_i ? 0.0 : roughness)), n_o_(n_o), n_i_(n_i), tint_(tint) {}
+
+BsdfValue InterfaceBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi) const {
+    if (facets_.smooth() || wo.z <= 0.0 || wi.z == 0.0) return {};
+    if (wi.z > 0.0) {
+        const FacetReflection facets = reflect_by_facets(facets_, wo, wi);
+        const double f = incidence(-wo, facets.m, n_o_, n_i_).reflectance;
+        return {glm::dvec3(f * facets.value), f * facets.pdf};
+    }
+    // Equation 16 for the facets that refract wi to wo, 17 for their density, 21 for the BTDF (less eta^2).
+    const double eta = n_o_ / n_i_;
+    const glm::dvec3 sum = eta * wo + wi;
+    const double length = glm::length(sum);
+    if (!(length > 0.0)) return {};
+    const glm::dvec3 m = sum.z < 0.0 ? -sum / length : sum / length;
+    const double cos_o = glm::dot(wo, m), cos_i = glm::dot(wi, m);
+    if (cos_o <= 0.0 || cos_i >= 0.0) return {};
+    const double transmitted = 1.0 - incidence(-wo, m, n_o_, n_i_).reflectance;
+    const double stretch = eta * cos_o + cos_i;
+    const double density = transmitted * facets_.density(m) * cos_o * -cos_i / (wo.z * stretch * stretch);
+    return {tint_ * (density * facets_.masking_shadowing(wo, wi)), density * facets_.masking(wo)};
+}
+
+std::optional<BsdfSample> InterfaceBsdf::sample(const glm::dvec3& wo, Random& random) const {
+    const glm::dvec3 m = facets_.smooth() ? glm::dvec3(0.0, 0.0, 1.0) : facets_.sample_visible(wo, random.next2());
+    const Incidence in = incidence(-wo, m, n_o_, n_i_);
+    const bool reflects = random.next() < in.reflectance;
+    BsdfSample sample;
+    sample.wi = reflects ? reflected(-wo, m, in) : refracted(-wo, m, n_o_, n_i_, in);
+    if (facets_.smooth()) {
+        sample.weight = reflects ? glm::dvec3(1.0) : tint_;
+        sample.mirror = true;
+        return sample;
+    }
+    if ((sample.wi.z > 0.0) != reflects) return std::nullopt;  // light that the next facet would catch
+    return weighted(*this, wo, sample.wi);
+}
+
+PaneBsdf::PaneBsdf(double ior, double roughness, const glm::dvec3& tint)
+    : facets_(facets_of(roughness)), ior_(ior), tint_(tint) {}
+
+/// 2 F / (1 + F): the series over the pane's two faces.
+double PaneBsdf::reflectance(double cos_theta_o) const {
+    const double f = incidence({0.0, 0.0, -cos_theta_o}, {0.0, 0.0, 1.0}, 1.0, ior_).reflectance;
+    return 2.0 * f / (1.0 + f);
+}
+
+BsdfValue PaneBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi) const {
+    if (facets_.smooth() || wo.z <= 0.0 || wi.z == 0.0) return {};
+    const FacetReflection facets = reflect_by_facets(facets_, wo, wi.z > 0.0 ? wi : to_other_side(wi));
+    const double r = reflectance(glm::dot(wo, facets.m));
+    if (wi.z > 0.0) return {glm::dvec3(r * facets.value), r * facets.pdf};
+    return {tint_ * ((1.0 - r) * facets.value), (1.0 - r) * facets.pdf};
+}
+
+std::optional<BsdfSample> PaneBsdf::sample(const glm::dvec3& wo, Random& random) const {
+    const glm::dvec3 m = facets_.smooth() ? glm::dvec3(0.0, 0.0, 1.0) : facets_.sample_visible(wo, random.next2());
+    const bool reflects = random.next() < reflectance(glm::dot(wo, m));
+    BsdfSample sample;
+    if (facets_.smooth()) {
+        sample.wi = reflects ? mirrored(wo) : -wo;
+        sample.weight = reflects ? glm::dvec3(1.0) : tint_;
+        sample.mirror = true;
+        return sample;
+    }
+    sample.wi = mirrored(wo, m);
+    if (sample.wi.z <= 0.0) return std::nullopt;  // light that the next facet would catch
+    if (!reflects) sample.wi = to_other_side(sample.wi);
+    return weighted(*this, wo, sample.wi);
+}
+
+}  // namespace pellucid::reference

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "reference/camera_rays.h"
+#include "reference/geometry.h"
+
+#include <pellucid/refracted_path.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pellucid::reference {
+
+/// One exact path on its way from surface to surface. Made once per lane and used for many pixels.
+class ExactPath {
+public:
+    ExactPath(const Geometry& geometry, std::uint32_t max_events);
+
+    /// Starts anew. `inside`: the solids around ray.origin.
+    void start(const CameraRay& ray, const MediumStack& inside);
+    /// What the path looks for next; valid until advance().
+    const Query& query() const { return ray_; }
+    /// Goes on to what was found. Returns false at the end of the path.
+    bool advance(const Hit& hit);
+    const RefractedPath& result() const { return result_; }
+
+private:
+    Hit touching(const Hit& hit) const;
+    void travel(const Hit& hit);
+    bool cross(const Hit& hit);
+    const Hit& displacing() const;
+    void bend(const Hit& hit);
+    bool finish(Status status);
+
+    const Geometry& geometry_;
+    std::uint32_t max_events_;
+    Query ray_;
+    MediumStack inside_;              ///< the solids around the origin
+    MediumStack beyond_;              ///< those behind the boundaries that are being met
+    std::vector<Hit> boundaries_;     ///< what is being met: one, or several where solids touch
+    std::vector<Crossing> standing_;  ///< triangles that the origin lies on
+    glm::dvec3 transmittance_{1.0};
+    double length_ = 0.0, length_inside_ = 0.0;
+    RefractedPath result_;
+};
+
+}  // namespace pellucid::reference

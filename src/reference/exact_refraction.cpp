@@ -1,0 +1,135 @@
+#include "reference/exact_refraction.h"
+
+#include "reference/camera_rays.h"
+#include "reference/exact_path.h"
+#include "reference/start_media.h"
+#include "scene/check_scene.h"
+
+#include <pellucid/error.h>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+
+namespace pellucid::reference {
+namespace {
+
+constexpr std::uint32_t kTile = 32;  ///< pixels along a side; a multiple of every block's
+
+/// Pixels that are traced together: as square as it gets.
+glm::uvec2 block_size(std::uint32_t packet) {
+    switch (packet) {
+        case 4:
+            return {2, 2};
+        case 8:
+            return {4, 2};
+        case 16:
+            return {4, 4};
+        default:
+            return {1, 1};
+    }
+}
+
+void check(const ExactSettings& s) {
+    if (s.width == 0 || s.height == 0) throw Error(fmt::format("a picture of {}x{} has no pixels", s.width, s.height));
+    if (s.max_events == 0 || s.max_events > 65535) {
+        throw Error(fmt::format("the exact path follows 1 to 65535 events, not {}", s.max_events));
+    }
+    if (s.packet != 1 && s.packet != 4 && s.packet != 8 && s.packet != 16) {
+        throw Error(fmt::format("rays are traced in packets of 1, 4, 8 or 16, not {}", s.packet));
+    }
+    if (!std::isfinite(s.shift_px.x) || !std::isfinite(s.shift_px.y)) {
+        throw Error("the shift of the primary rays is not finite");
+    }
+}
+
+/// Paths of neighbouring pixels, traced in step.
+class Block {
+public:
+    Block(const Geometry& geometry, const ExactSettings& settings)
+        : geometry_(geometry), settings_(settings), size_(block_size(settings.packet)),
+          paths_(settings.packet, ExactPath(geometry, settings.max_events)), queries_(settings.packet),
+          active_(settings.packet), hits_(settings.packet) {}
+
+    glm::uvec2 size() const { return size_; }
+
+    void trace(glm::uvec2 first, const CameraRays& rays, const StartMedia& media, std::vector<RefractedPath>& picture) {
+        std::uint32_t running = 0;
+        for (std::uint32_t i = 0; i < settings_.packet; ++i) {
+            const glm::uvec2 pixel = first + glm::uvec2(i % size_.x, i / size_.x);
+            active_[i] = pixel.x < settings_.width && pixel.y < settings_.height ? 1 : 0;
+            if (active_[i] == 0) continue;
+            const CameraRay ray = rays.at(glm::dvec2(pixel) + 0.5 + settings_.shift_px);
+            paths_[i].start(ray, media.around(ray));
+            ++running;
+        }
+        while (running > 0) running -= step();
+        for (std::uint32_t i = 0; i < settings_.packet; ++i) {
+            const glm::uvec2 pixel = first + glm::uvec2(i % size_.x, i / size_.x);
+            if (pixel.x >= settings_.width || pixel.y >= settings_.height) continue;
+            picture[std::size_t(pixel.y) * settings_.width + pixel.x] = paths_[i].result();
+        }
+    }
+
+private:
+    /// Takes every path on to its next surface; returns how many ended.
+    std::uint32_t step() {
+        if (settings_.packet == 1) return paths_[0].advance(geometry_.intersect(paths_[0].query())) ? 0 : 1;
+        for (std::uint32_t i = 0; i < settings_.packet; ++i) {
+            if (active_[i] != 0) queries_[i] = paths_[i].query();
+        }
+        geometry_.intersect(queries_, active_, hits_);
+        std::uint32_t ended = 0;
+        for (std::uint32_t i = 0; i < settings_.packet; ++i) {
+            if (active_[i] == 0 || paths_[i].advance(hits_[i])) continue;
+            active_[i] = 0;
+            ++ended;
+        }
+        return ended;
+    }
+
+    const Geometry& geometry_;
+    const ExactSettings& settings_;
+    glm::uvec2 size_;
+    std::vector<ExactPath> paths_;
+    std::vector<Query> queries_;
+    std::vector<int> active_;
+    std::vector<Hit> hits_;
+};
+
+}  // namespace
+
+std::vector<RefractedPath> trace_exact(const Geometry& geometry, const Camera& camera, const ExactSettings& settings,
+                                       std::uint32_t threads, const Progress& progress) {
+    check(settings);
+    check_camera(camera);
+    const CameraRays rays(camera, settings.width, settings.height);
+    const StartMedia media(geometry, rays, {settings.width, settings.height});
+    std::vector<RefractedPath> picture(std::size_t(settings.width) * settings.height);
+
+    const std::uint32_t columns = (settings.width + kTile - 1) / kTile;
+    const std::uint32_t tiles = columns * ((settings.height + kTile - 1) / kTile);
+    std::mutex mutex;
+    std::uint32_t done = 0;
+    const auto trace_tile = [&](std::uint32_t tile) {
+        Block block(geometry, settings);
+        const glm::uvec2 corner = kTile * glm::uvec2(tile % columns, tile / columns);
+        const glm::uvec2 end = glm::min(corner + kTile, glm::uvec2(settings.width, settings.height));
+        for (std::uint32_t y = corner.y; y < end.y; y += block.size().y) {
+            for (std::uint32_t x = corner.x; x < end.x; x += block.size().x) block.trace({x, y}, rays, media, picture);
+        }
+        if (!progress) return;
+        const std::lock_guard lock(mutex);
+        progress(double(++done) / double(tiles));
+    };
+    tbb::task_arena arena(threads > 0 ? int(threads) : tbb::task_arena::automatic);
+    arena.execute([&] { tbb::parallel_for(0u, tiles, trace_tile); });
+    return picture;
+}
+
+}  // namespace pellucid::reference

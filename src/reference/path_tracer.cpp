@@ -1,0 +1,138 @@
+#include "reference/path_tracer.h"
+
+#include "reference/camera_rays.h"
+#include "reference/environment_sampler.h"
+#include "reference/path_walk.h"
+#include "reference/random.h"
+#include "reference/start_media.h"
+#include "scene/check_scene.h"
+
+#include <pellucid/error.h>
+
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+namespace pellucid::reference {
+namespace {
+
+constexpr std::uint32_t kTile = 16;  ///< pixels along a side of what one thread takes on
+
+void check(const PathTraceSettings& s) {
+    if (s.width == 0 || s.height == 0) throw Error(fmt::format("a picture of {}x{} has no pixels", s.width, s.height));
+    if (s.samples == 0) throw Error("path tracing needs at least 1 sample");
+    if (s.max_vertices == 0) throw Error("a path needs at least 1 vertex");
+}
+
+/// Mean and its standard error, updated value by value (Welford 1962): no cancellation.
+class RunningMean {
+public:
+    void add(const glm::dvec3& value) {
+        ++count_;
+        const glm::dvec3 before = value - mean_;
+        mean_ += before / double(count_);
+        squares_ += before * (value - mean_);
+    }
+    glm::dvec3 mean() const { return mean_; }
+    glm::dvec3 standard_error() const {
+        if (count_ < 2) return glm::dvec3(0.0);
+        return glm::sqrt(squares_ / (double(count_) * double(count_ - 1)));
+    }
+
+private:
+    std::uint64_t count_ = 0;
+    glm::dvec3 mean_{0.0}, squares_{0.0};
+};
+
+void store(Image& image, glm::uvec2 pixel, const glm::dvec3& value) {
+    float* to = image.at(int(pixel.x), int(pixel.y));
+    for (int c = 0; c < 3; ++c) to[c] = float(value[c]);
+}
+
+class Painter {
+public:
+    Painter(const PathWorld& world, const CameraRays& rays, const PathTraceSettings& settings)
+        : world_(world), rays_(rays), settings_(settings),
+          media_(world.geometry, rays, {settings.width, settings.height}) {}
+
+    /// Traces one pixel; returns how many paths were cut.
+    std::uint64_t paint(glm::uvec2 pixel, PathWalk& walk, PathTracedImage& image) const {
+        const std::uint64_t index = std::uint64_t(pixel.y) * settings_.width + pixel.x;
+        RunningMean mean;
+        std::uint64_t cut = 0;
+        for (std::uint32_t sample = 0; sample < settings_.samples; ++sample) {
+            Random random(settings_.seed, index, sample);
+            const CameraRay ray = rays_.at(glm::dvec2(pixel) + random.next2());
+            const PathWalk::Result result = walk.walk(ray, media_.around(ray), random);
+            mean.add(result.radiance);
+            cut += result.cut ? 1 : 0;
+        }
+        store(image.radiance, pixel, mean.mean());
+        store(image.standard_error, pixel, mean.standard_error());
+        return cut;
+    }
+
+    std::uint64_t paint_tile(glm::uvec2 first, PathTracedImage& image) const {
+        PathWalk walk(world_);
+        const glm::uvec2 end = glm::min(first + kTile, glm::uvec2(settings_.width, settings_.height));
+        std::uint64_t cut = 0;
+        for (std::uint32_t y = first.y; y < end.y; ++y) {
+            for (std::uint32_t x = first.x; x < end.x; ++x) cut += paint({x, y}, walk, image);
+        }
+        return cut;
+    }
+
+private:
+    const PathWorld& world_;
+    const CameraRays& rays_;
+    const PathTraceSettings& settings_;
+    StartMedia media_;
+};
+
+bool has_panes(const Geometry& geometry) {
+    for (std::uint32_t object = 0; object < geometry.object_count(); ++object) {
+        if (geometry.kind(object) == SurfaceKind::kThin) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+PathTracedImage trace_paths(const Geometry& geometry, const Scene& scene, const Camera& camera,
+                            const Environment& environment, const PathTraceSettings& settings, std::uint32_t threads,
+                            const Progress& progress) {
+    check(settings);
+    check_camera(camera);
+    check_environment(environment);
+    PathTracedImage image;
+    image.samples = settings.samples;
+    image.radiance = Image(int(settings.width), int(settings.height), 3);
+    image.standard_error = image.radiance;
+
+    const EnvironmentSampler sampler(environment);
+    const PathWorld world{geometry, scene, environment, sampler, settings.max_vertices, has_panes(geometry)};
+    const CameraRays rays(camera, settings.width, settings.height);
+    const Painter painter(world, rays, settings);
+    const std::uint32_t columns = (settings.width + kTile - 1) / kTile;
+    const std::uint32_t tiles = columns * ((settings.height + kTile - 1) / kTile);
+    std::mutex mutex;
+    std::uint32_t done = 0;
+    const auto paint_tile = [&](std::uint32_t tile) {
+        const std::uint64_t cut = painter.paint_tile(kTile * glm::uvec2(tile % columns, tile / columns), image);
+        const std::lock_guard lock(mutex);
+        image.cut_paths += cut;
+        if (progress) progress(double(++done) / double(tiles));
+    };
+    const int cores = tbb::info::default_concurrency();  // TBB complains if asked for more
+    tbb::task_arena arena(threads > 0 ? std::min(int(threads), cores) : cores);
+    arena.execute([&] { tbb::parallel_for(0u, tiles, paint_tile); });
+    return image;
+}
+
+}  // namespace pellucid::reference

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "reference/geometry.h"
+
+#include <pellucid/environment.h>
+#include <pellucid/progress.h>
+#include <pellucid/reference.h>
+#include <pellucid/scene.h>
+
+#include <cstdint>
+
+namespace pellucid::reference {
+
+/// See Tracer::path_trace. `scene` is the one that `geometry` was built from; `threads` 0: all cores.
+/// Throws Error for a camera, an environment or settings that do not hold what they promise.
+PathTracedImage trace_paths(const Geometry& geometry, const Scene& scene, const Camera& camera,
+                            const Environment& environment, const PathTraceSettings& settings, std::uint32_t threads,
+                            const Progress& progress);
+
+}  // namespace pellucid::reference

@@ -1,0 +1,284 @@
+#include "reference/path_walk.h"
+
+#include "reference/boundaries.h"
+#include "reference/punctual_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace pellucid::reference {
+namespace {
+
+/// Paths are ended at random from this surface on (Russian roulette).
+constexpr std::uint32_t kRouletteFrom = 4;
+
+/// Beer-Lambert; no way or no absorption leaves all of it, whatever the other is.
+glm::dvec3 beer_lambert(const glm::dvec3& sigma_a, double distance) {
+    glm::dvec3 left(1.0);
+    for (int c = 0; c < 3; ++c) {
+        if (sigma_a[c] > 0.0 && distance > 0.0) left[c] = std::exp(-sigma_a[c] * distance);
+    }
+    return left;
+}
+
+/// Weight of a direction chosen with density `pdf` that `other` might have chosen, too (Veach 1997,
+/// section 9.2.4, exponent 2).
+double power_heuristic(double pdf, double other) {
+    const double ratio = other / pdf;
+    return 1.0 / (1.0 + ratio * ratio);
+}
+
+/// Rotation that takes the z axis to the unit vector n: Duff et al., "Building an orthonormal basis,
+/// revisited", 2017, listing 3.
+glm::dmat3 world_from_local(const glm::dvec3& n) {
+    const double sign = std::copysign(1.0, n.z);
+    const double a = -1.0 / (sign + n.z);
+    const double b = n.x * n.y * a;
+    return {glm::dvec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), glm::dvec3(b, sign + n.y * n.y * a, -n.y),
+            n};
+}
+
+}  // namespace
+
+PathWalk::Result PathWalk::walk(const CameraRay& ray, const MediumStack& inside, Random& random) {
+    start(ray, inside);
+    for (std::uint32_t vertices = 0;; ++vertices) {
+        const Hit hit = world_.geometry.intersect(ray_);
+        if (!hit.found) {
+            see_environment();
+            return {radiance_, false};
+        }
+        if (vertices == world_.max_vertices) return {radiance_, true};
+        travel(hit);
+        if (!meet(hit, random)) return {radiance_, false};
+        if (vertices >= kRouletteFrom && !survives(random)) return {radiance_, false};
+    }
+}
+
+void PathWalk::start(const CameraRay& ray, const MediumStack& inside) {
+    ray_ = {};
+    ray_.origin = ray.origin;
+    ray_.direction = ray.direction;
+    ray_.t_max = ray.t_max;
+    standing_.clear();
+    inside_ = inside;
+    throughput_ = glm::dvec3(1.0);
+    radiance_ = glm::dvec3(0.0);
+    pdf_ = 0.0;
+}
+
+/// Goes straight on to what was met.
+void PathWalk::travel(const Hit& hit) {
+    if (inside_.object() != kAir) throughput_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
+    ray_.origin = hit.position;
+    ray_.t_max = std::numeric_limits<double>::infinity();  // the camera's planes cut off what it sees first
+    world_.geometry.step_onto(hit, standing_);
+    ray_.standing = standing_;
+}
+
+void PathWalk::turn_to(const glm::dvec3& direction) {
+    ray_.direction = direction;
+    for (Crossing& on : standing_) on.sense = world_.geometry.sense(on.object, on.triangle, direction);
+    ray_.standing = standing_;
+}
+
+PathWalk::Vertex PathWalk::vertex_at(const Hit& hit, const glm::dvec3& direction) const {
+    const Geometry& geometry = world_.geometry;
+    const auto [object, triangle, sense] = hit.crossing;
+    const Mesh& mesh = world_.scene.meshes[std::size_t(world_.scene.objects[object].mesh)];
+    Vertex vertex{hit, geometry.material(object),
+                  interpolate_attributes(mesh, triangle, glm::vec2(float(hit.u), float(hit.v))), glm::dvec4(1.0),
+                  glm::dvec3(0.0)};
+    vertex.base = base_color(world_.scene, vertex.material, vertex.attributes);
+    const double side = sense == Sense::kEntering ? 1.0 : -1.0;
+    vertex.normal = side * geometry.shading_normal(hit);
+    // An interpolated normal can face away from where the path comes from: nothing is seen of such a side.
+    if (!(glm::dot(vertex.normal, direction) < 0.0)) vertex.normal = side * geometry.geometric_normal(hit);
+    return vertex;
+}
+
+bool PathWalk::crosses(const Hit& hit, const glm::dvec3& direction) const {
+    return world_.geometry.sense(hit.crossing.object, hit.crossing.triangle, direction) == hit.crossing.sense;
+}
+
+/// What happens at a surface. Returns false where the path ends.
+bool PathWalk::meet(const Hit& hit, Random& random) {
+    const SurfaceKind kind = world_.geometry.kind(hit.crossing.object);
+    if (kind == SurfaceKind::kRefractive) return meet_solid(hit, random);
+    if (inside_.object() != kAir) {
+        const Hit wall = touching_boundary(world_.geometry, ray_, hit);
+        if (wall.found && wall.crossing.sense == Sense::kLeaving) {  // what a solid stands on is outside of it
+            standing_.back() = wall.crossing;
+            ray_.standing = standing_;
+            return meet_solid(wall, random);
+        }
+    }
+    const Vertex vertex = vertex_at(hit, ray_.direction);
+    return kind == SurfaceKind::kThin ? meet_pane(vertex, random) : meet_opaque(vertex, random);
+}
+
+bool PathWalk::meet_opaque(const Vertex& vertex, Random& random) {
+    if (vertex.material.unlit) {
+        radiance_ += throughput_ * glm::dvec3(vertex.base);
+        return false;
+    }
+    emit(vertex);
+    return scatter(vertex, opaque_bsdf(vertex), random);
+}
+
+void PathWalk::emit(const Vertex& vertex) {
+    radiance_ += throughput_ * glm::dvec3(emission(world_.scene, vertex.material, vertex.attributes));
+}
+
+Bsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
+    const Material& material = vertex.material;
+    return OpaqueBsdf(glm::dvec3(vertex.base), double(material.metallic), double(material.roughness),
+                      double(material.ior));
+}
+
+/// Glass with probability `transmission`, else the opaque surface that is mixed into it.
+bool PathWalk::transmits(const Vertex& vertex, Random& random) const {
+    const double share = double(transmission(world_.scene, vertex.material, vertex.attributes));
+    return share >= 1.0 || random.next() < share;
+}
+
+bool PathWalk::meet_solid(const Hit& hit, Random& random) {
+    const Hit interface = cross_boundaries(world_.geometry, ray_, hit, standing_, inside_, beyond_);
+    if (beyond_.object() == inside_.object()) {  // a boundary inside a solid that displaces it
+        std::swap(inside_, beyond_);
+        turn_to(ray_.direction);
+        pdf_ = 0.0;
+        return true;
+    }
+    const Vertex vertex = vertex_at(interface, ray_.direction);
+    const Material& material = vertex.material;
+    const bool entering = interface.crossing.sense == Sense::kEntering;
+    if (entering) emit(vertex);
+    if (entering && !transmits(vertex, random)) return scatter(vertex, opaque_bsdf(vertex), random);
+    // A solid's base colour tints light once on its way through, where the path comes in, as does the
+    // renderer. The same goes for the opaque part: it is a coat of the outside.
+    const glm::dvec3 tint = entering ? glm::dvec3(vertex.base) : glm::dvec3(1.0);
+    return scatter(vertex, InterfaceBsdf(inside_.medium().ior, beyond_.medium().ior, double(material.roughness), tint),
+                   random);
+}
+
+bool PathWalk::meet_pane(const Vertex& vertex, Random& random) {
+    emit(vertex);
+    if (!transmits(vertex, random)) return scatter(vertex, opaque_bsdf(vertex), random);
+    return scatter(vertex,
+                   PaneBsdf(double(vertex.material.ior), double(vertex.material.roughness), glm::dvec3(vertex.base)),
+                   random);
+}
+
+bool PathWalk::scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random) {
+    const glm::dmat3 to_world = world_from_local(vertex.normal);
+    const Facing facing{to_world, -ray_.direction * to_world};
+    if (!std::visit([](const auto& b) { return b.only_mirrors(); }, bsdf)) add_light(vertex, bsdf, facing, random);
+
+    const std::optional<BsdfSample> sample =
+        std::visit([&](const auto& b) { return b.sample(facing.wo, random); }, bsdf);
+    if (!sample) return false;
+    const glm::dvec3 direction = glm::normalize(to_world * sample->wi);
+    // Interpolated normals can send light to the other side of the surface itself than they mean to. Out of
+    // an opaque one nothing comes; at glass, the path then is where it is.
+    const bool through = crosses(vertex.hit, direction);
+    const bool means_to = sample->wi.z < 0.0;
+    const bool opaque = std::holds_alternative<OpaqueBsdf>(bsdf);
+    if (opaque && through) return false;
+    if (through && std::holds_alternative<InterfaceBsdf>(bsdf)) std::swap(inside_, beyond_);
+
+    throughput_ *= sample->weight;
+    const bool straight = sample->mirror && means_to && std::holds_alternative<PaneBsdf>(bsdf);
+    if (!straight) pdf_ = sample->mirror || through != means_to ? 0.0 : sample->pdf;
+    turn_to(direction);
+    return true;
+}
+
+/// Russian roulette on what the path still can carry; lossless paths always go on.
+bool PathWalk::survives(Random& random) {
+    const double most = std::max({throughput_.r, throughput_.g, throughput_.b});
+    if (most >= 1.0) return true;
+    if (!(random.next() < most)) return false;
+    throughput_ /= most;
+    return true;
+}
+
+/// The path leaves the scene. In an open mesh it may seem to be inside glass of no end, which then does
+/// not absorb.
+void PathWalk::see_environment() {
+    const glm::dvec3 light = radiance(world_.environment, glm::vec3(ray_.direction));
+    const double weight = pdf_ > 0.0 ? power_heuristic(pdf_, world_.sampler.pdf(ray_.direction)) : 1.0;
+    radiance_ += throughput_ * light * weight;
+}
+
+/// Light from the environment and from the scene's lights, chosen by them.
+void PathWalk::add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random) {
+    const auto value_towards = [&](const glm::dvec3& direction) {
+        const glm::dvec3 wi = direction * facing.world_from_local;
+        if (crosses(vertex.hit, direction) != (wi.z < 0.0)) return BsdfValue{};
+        return std::visit([&](const auto& b) { return b.evaluate(facing.wo, wi); }, bsdf);
+    };
+    if (!world_.sampler.dark()) {
+        const EnvironmentSampler::Sample chosen = world_.sampler.sample(random);
+        const BsdfValue bsdf_value = value_towards(chosen.direction);
+        if (bsdf_value.pdf > 0.0) {
+            const glm::dvec3 light = radiance(world_.environment, glm::vec3(chosen.direction));
+            const double weight = power_heuristic(chosen.pdf, bsdf_value.pdf) / chosen.pdf;
+            radiance_ += throughput_ * bsdf_value.value * light * weight *
+                         visibility(vertex.hit, chosen.direction, std::numeric_limits<double>::infinity());
+        }
+    }
+    for (const Light& light : world_.scene.lights) {
+        const std::optional<ArrivingLight> arriving = arriving_light(light, vertex.hit.position);
+        if (!arriving) continue;
+        const BsdfValue bsdf_value = value_towards(arriving->direction);
+        if (!(bsdf_value.pdf > 0.0)) continue;
+        radiance_ += throughput_ * bsdf_value.value * arriving->irradiance *
+                     visibility(vertex.hit, arriving->direction, arriving->distance);
+    }
+}
+
+/// Share of the light from a source at `distance` that reaches a surface.
+glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, double distance) {
+    shadow_standing_ = standing_;
+    for (Crossing& on : shadow_standing_) on.sense = world_.geometry.sense(on.object, on.triangle, direction);
+    const bool refracted =
+        crosses(from, direction) && world_.geometry.kind(from.crossing.object) == SurfaceKind::kRefractive;
+    const MediumStack& inside = refracted ? beyond_ : inside_;
+    Query query;
+    query.origin = from.position;
+    query.direction = direction;
+    query.t_max = distance;
+    query.standing = shadow_standing_;
+    query.kinds = only(SurfaceKind::kOpaque) | only(SurfaceKind::kRefractive);
+    if (world_.geometry.occluded(query)) return glm::dvec3(0.0);
+    glm::dvec3 share(1.0);
+    // To infinity there is no glass on the way but that of open meshes; see see_environment().
+    if (inside.object() != kAir && std::isfinite(distance)) share = beer_lambert(inside.medium().sigma_a, distance);
+    return world_.has_panes ? share * pane_transmittance(query) : share;
+}
+
+/// What smooth panes leave of light that comes straight through them; rough ones scatter it.
+glm::dvec3 PathWalk::pane_transmittance(Query query) {
+    query.kinds = only(SurfaceKind::kThin);
+    glm::dvec3 share(1.0);
+    for (;;) {
+        const Hit hit = world_.geometry.intersect(query);
+        if (!hit.found) return share;
+        const Vertex pane = vertex_at(hit, query.direction);
+        const PaneBsdf bsdf(double(pane.material.ior), double(pane.material.roughness), glm::dvec3(pane.base));
+        if (!bsdf.only_mirrors()) return glm::dvec3(0.0);
+        share *= bsdf.straight_through(-glm::dot(pane.normal, query.direction)) *
+                 double(transmission(world_.scene, pane.material, pane.attributes));
+        if (share == glm::dvec3(0.0)) return share;
+        world_.geometry.step_onto(hit, shadow_standing_);
+        query.standing = shadow_standing_;
+        query.origin = hit.position;
+        query.t_max -= hit.t;
+    }
+}
+
+}  // namespace pellucid::reference

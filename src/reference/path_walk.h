@@ -1,0 +1,99 @@
+#pragma once
+
+#include "reference/bsdf.h"
+#include "reference/camera_rays.h"
+#include "reference/environment_sampler.h"
+#include "reference/geometry.h"
+#include "reference/random.h"
+#include "reference/texture_lookup.h"
+
+#include <pellucid/environment.h>
+#include <pellucid/scene.h>
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace pellucid::reference {
+
+/// What all paths of a picture share.
+struct PathWorld {
+    const Geometry& geometry;
+    const Scene& scene;
+    const Environment& environment;
+    const EnvironmentSampler& sampler;
+    std::uint32_t max_vertices = 256;
+    bool has_panes = false;  ///< the scene has thin-walled glass
+};
+
+/// One light path at a time, from the eye backwards (Kajiya 1986), with light sources and the
+/// environment asked for at every surface that scatters (Veach, "Robust Monte Carlo methods for light
+/// transport simulation", 1997, sections 9.2 and 10.2).
+///
+/// The environment is reached in two ways, by a direction that it chose or one that the surface chose,
+/// combined by the power heuristic. Light that was chosen by its source comes through holes and smooth
+/// panes, but not through refracting glass, so what a path finds behind such glass, or in any perfect
+/// mirror, counts in full.
+class PathWalk {
+public:
+    explicit PathWalk(const PathWorld& world)
+        : world_(world), inside_(world.geometry.solids()), beyond_(world.geometry.solids()) {}
+
+    struct Result {
+        glm::dvec3 radiance{0.0};
+        bool cut = false;  ///< reached max_vertices; what would have come after is missing
+    };
+    /// `inside`: the solids around the ray's origin.
+    Result walk(const CameraRay& ray, const MediumStack& inside, Random& random);
+
+private:
+    /// A surface that the path has come to.
+    struct Vertex {
+        Hit hit;
+        const Material& material;
+        SurfaceAttributes attributes;
+        glm::dvec4 base;    ///< base colour, 0..1
+        glm::dvec3 normal;  ///< unit, on the side that the path comes from
+    };
+    /// The surface's own frame, and the way back in it.
+    struct Facing {
+        glm::dmat3 world_from_local;
+        glm::dvec3 wo;
+    };
+
+    void start(const CameraRay& ray, const MediumStack& inside);
+    void travel(const Hit& hit);
+    void turn_to(const glm::dvec3& direction);
+    Vertex vertex_at(const Hit& hit, const glm::dvec3& direction) const;
+    bool crosses(const Hit& hit, const glm::dvec3& direction) const;
+
+    bool meet(const Hit& hit, Random& random);
+    bool meet_opaque(const Vertex& vertex, Random& random);
+    bool meet_solid(const Hit& hit, Random& random);
+    bool meet_pane(const Vertex& vertex, Random& random);
+    void emit(const Vertex& vertex);
+    bool transmits(const Vertex& vertex, Random& random) const;
+    Bsdf opaque_bsdf(const Vertex& vertex) const;
+    bool scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random);
+    bool survives(Random& random);
+
+    void see_environment();
+    void add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
+    glm::dvec3 visibility(const Hit& from, const glm::dvec3& direction, double distance);
+    glm::dvec3 pane_transmittance(Query query);
+
+    const PathWorld& world_;
+    Query ray_;
+    std::vector<Crossing> standing_;  ///< what ray_.origin lies on
+    std::vector<Crossing> shadow_standing_;
+    MediumStack inside_;  ///< the solids around the ray
+    MediumStack beyond_;  ///< those on the other side of the surface at hand
+    glm::dvec3 throughput_{1.0};
+    glm::dvec3 radiance_{0.0};
+    /// Density, per steradian, with which the last surface that scattered chose the ray's direction; 0 if
+    /// no source can choose this path.
+    double pdf_ = 0.0;
+};
+
+}  // namespace pellucid::reference

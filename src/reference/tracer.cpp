@@ -1,0 +1,53 @@
+#include "reference/exact_refraction.h"
+#include "reference/geometry.h"
+#include "reference/path_tracer.h"
+
+#include <pellucid/reference.h>
+
+#include <tbb/info.h>
+
+#include <algorithm>
+
+namespace pellucid {
+
+struct Tracer::Impl {
+    const Scene& scene;
+    std::uint32_t threads;
+    reference::Geometry geometry;
+};
+
+namespace {
+
+/// TBB has no more threads than cores, and says so on the terminal if it is asked for more.
+TracerOptions within_cores(TracerOptions options) {
+    options.threads = std::min(options.threads, std::uint32_t(tbb::info::default_concurrency()));
+    return options;
+}
+
+}  // namespace
+
+Tracer::Tracer(const Scene& scene, const TracerOptions& options)
+    : impl_(new Impl{scene, within_cores(options).threads, reference::Geometry(scene, within_cores(options))}) {}
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+
+double Tracer::build_ms() const { return impl_->geometry.build_ms(); }
+
+std::vector<RefractedPath> Tracer::exact(const Camera& camera, const ExactSettings& settings,
+                                         const Progress& progress) const {
+    return reference::trace_exact(impl_->geometry, camera, settings, impl_->threads, progress);
+}
+
+PathTracedImage Tracer::path_trace(const Camera& camera, const Environment& environment,
+                                   const PathTraceSettings& settings, const Progress& progress) const {
+    return reference::trace_paths(impl_->geometry, impl_->scene, camera, environment, settings, impl_->threads,
+                                  progress);
+}
+
+void Tracer::set_positions(int mesh, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
+                           Update update) {
+    impl_->geometry.update(mesh, positions, normals, update);
+}
+
+}  // namespace pellucid

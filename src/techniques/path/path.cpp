@@ -1,0 +1,60 @@
+#include "techniques/path/path.h"
+
+#include "techniques/reference/reference.h"
+
+namespace pellucid {
+namespace {
+
+constexpr ParameterInfo kParameters[] = {
+    {.name = "seed",
+     .unit = "",
+     .default_value = 1,
+     .minimum = 0,
+     .maximum = 4294967295.0,
+     .whole = true,
+     .doc = "of the random numbers"},
+    {.name = "vertices",
+     .unit = "",
+     .default_value = 256,
+     .minimum = 2,
+     .maximum = 65535,
+     .whole = true,
+     .doc = "surfaces after which a path is cut"},
+};
+
+/// What is asked about the refraction behind the picture (AOVs, counts) is the exact path's.
+constexpr std::uint32_t kMaxEvents = 16;
+
+Refraction record(Recorder&, const Frame& frame, const Layers&, const ParameterValues&) {
+    return upload_exact_paths(frame, kMaxEvents);
+}
+
+PathTracedImage trace_picture(const TracedView& view, const Environment& environment, vk::Extent2D extent,
+                              std::uint32_t samples, const ParameterValues& parameters) {
+    return view.tracer.path_trace(view.camera, environment,
+                                  {.width = extent.width,
+                                   .height = extent.height,
+                                   .samples = samples,
+                                   .seed = parameters.whole("seed"),
+                                   .max_vertices = parameters.whole("vertices")},
+                                  view.progress);
+}
+
+}  // namespace
+
+constexpr Technique kPath{
+    .info = {.name = "path",
+             .summary = "path tracing on the CPU: all light, converging with the samples",
+             .source = {.authors = "James T. Kajiya",
+                        .title = "The rendering equation",
+                        .venue = "SIGGRAPH",
+                        .year = 1986,
+                        .section = ""},
+             .parameters = kParameters,
+             .reference = true},
+    .layer_count = [](const ParameterValues&) { return 1u; },
+    .record = record,
+    .trace_picture = trace_picture,
+};
+
+}  // namespace pellucid

@@ -1,0 +1,69 @@
+#include "techniques/ray_tracing/ray_tracing.h"
+
+#include <array>
+
+namespace pellucid {
+namespace {
+
+constexpr std::uint32_t kRaygen[] = {
+#include "ray_tracing.rgen.inc"
+};
+constexpr std::uint32_t kMiss[] = {
+#include "ray_tracing.rmiss.inc"
+};
+constexpr std::uint32_t kClosestHit[] = {
+#include "ray_tracing.rchit.inc"
+};
+
+constexpr std::array kParameters = {
+    ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed"},
+    ParameterInfo{"rebuild", "", 0, 0, 2, true, "hierarchy: 0 kept, 1 refitted in every frame, 2 built in every frame"},
+};
+
+/// Twin of Push in surface_hit.glsl.
+struct Push {
+    std::uint32_t vertices_low;
+    std::uint32_t vertices_high;
+    std::uint32_t max_events;
+};
+
+StructureUse structure_use(std::uint32_t rebuild) {
+    return std::array{StructureUse::kStatic, StructureUse::kRefit, StructureUse::kRebuild}.at(rebuild);
+}
+
+Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
+    const Refraction refraction = allocate_refraction(frame);
+    SceneHierarchy& hierarchy = frame.workspace.hierarchy(frame.scene, structure_use(parameters.whole("rebuild")));
+    hierarchy.update(recorder);
+
+    const Recorder::Scope scope(recorder, "trace");
+    const vk::DeviceAddress vertices = frame.scene.geometry.address();
+    const Push push{std::uint32_t(vertices), std::uint32_t(vertices >> 32), parameters.whole("events")};
+    recorder.trace(
+        frame.workspace.ray_tracing({.raygen = {"ray_tracing.rgen", kRaygen},
+                                     .miss = {"ray_tracing.rmiss", kMiss},
+                                     .closest_hit = {"ray_tracing.rchit", kClosestHit}}),
+        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+         reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
+         reads("layer_surface", layers.surface), writes("exit_direction", refraction.exit_direction),
+         writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
+         writes("path_events", refraction.events), reads("solids", hierarchy.top())},
+        push, frame.extent);
+    return refraction;
+}
+
+}  // namespace
+
+constexpr Technique kRayTracing{
+    .info = {.name = "ray-tracing",
+             .summary = "every interface by ray-tracing pipelines, on devices that have them",
+             .source = {},
+             .parameters = kParameters},
+    .lacking = [](const Device& device) -> std::string {
+        return device.ray_tracing() ? "" : "VK_KHR_ray_tracing_pipeline and VK_KHR_acceleration_structure";
+    },
+    .layer_count = [](const ParameterValues&) { return 1u; },
+    .record = record,
+};
+
+}  // namespace pellucid

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "techniques/technique.h"
+
+namespace pellucid {
+
+extern const Technique kReference;
+
+/// Traces one exact path per pixel of `frame.traced` on the CPU, up to `max_events` events, and
+/// brings the result to the device.
+Refraction upload_exact_paths(const Frame& frame, std::uint32_t max_events);
+
+}  // namespace pellucid

@@ -1,0 +1,112 @@
+"""`pellucid compare`: the measures, the report, and what it refuses."""
+import json
+import os
+import unittest
+
+import cli
+from cli import CliTest
+
+STATUSES = ["ok", "missing_layer", "left_screen", "step_limit", "event_limit"]
+
+
+class Compare(CliTest):
+    def compare(self, *arguments, size="48x48", **options):
+        return self.run_cli("compare", *arguments, "--size", size, "--validate", **options)
+
+    def runs(self, *arguments, **options):
+        result = self.compare(*arguments, "--json", "runs.json", **options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(self.read("runs.json"))
+
+    def test_json(self):
+        content = self.runs("shape:sphere", "shape:torus", "--techniques", "one-interface,wang-2014", "--views", "2")
+        for key in ("device", "driver", "version"):
+            self.assertIsInstance(content[key], str)
+        runs = content["runs"]
+        self.assertEqual([(run["scene"], run["view"], run["technique"]) for run in runs],
+                         [(scene, view, technique) for scene in ("shape:sphere", "shape:torus") for view in (0, 1)
+                          for technique in ("one-interface", "wang-2014")])
+        for run in runs:
+            self.assertEqual((run["width"], run["height"]), (48, 48))
+            self.assertGreater(run["triangles"], 0)
+            self.assertGreater(run["covered"], 0)
+            for key in ("stable_share", "self_within_1deg", "within_1deg", "within_5deg", "within_1deg_stable",
+                        "flip_mean"):
+                self.assertGreaterEqual(run[key], 0, key)
+                self.assertLessEqual(run[key], 1, key)
+            self.assertLessEqual(run["within_1deg"], run["within_5deg"])
+            self.assertLessEqual(run["median_deg"], run["p95_deg"])
+            self.assertGreaterEqual(run["rmse"], 0)
+            self.assertEqual(list(run["status"]), STATUSES)
+            self.assertAlmostEqual(sum(run["status"].values()), 1)
+            groups = run["by_events"]
+            self.assertEqual(list(groups), ["2", "4", "more", "tir"])
+            self.assertAlmostEqual(sum(groups[name]["share"] for name in ("2", "4", "more")), 1)
+            self.assertGreater(run["frame_ms"], 0)
+
+    def test_known_accuracy(self):
+        """On a sphere two interfaces are all there is: wang-2014 is right, one-interface is not."""
+        one, wang = self.runs("shape:sphere", "--techniques", "one-interface,wang-2014", "--views", "1",
+                              size="128x128")["runs"]
+        self.assertGreater(wang["within_1deg"], 0.995)
+        self.assertGreater(wang["within_1deg_stable"], 0.998)
+        self.assertLess(one["within_1deg"], 0.02)
+        # At the very rim the interpolated normal turns an exit into a reflection.
+        self.assertLess(wang["by_events"]["more"]["share"], 0.005)
+        self.assertLess(wang["flip_mean"], 0.01)
+        self.assertGreater(one["flip_mean"], 0.05)
+        # 70% of the height: a disc of 0.7 x 128 pixels.
+        self.assertAlmostEqual(wang["covered"] / (3.14159 / 4 * (0.7 * 128) ** 2), 1, delta=0.01)
+
+    def test_reference_is_exact(self):
+        """The reference held against itself: no error, and FLIP 0 against its own picture."""
+        run, = self.runs("shape:knot", "--techniques", "reference", "--views", "1")["runs"]
+        self.assertGreaterEqual(run["within_1deg"], run["self_within_1deg"] - 0.02)
+        self.assertEqual(run["median_deg"], 0)
+        self.assertEqual(run["flip_mean"], 0)
+        self.assertEqual(run["rmse"], 0)
+        self.assertNotIn("frame_ms", run)
+
+    def test_default_techniques_are_no_references(self):
+        runs = self.runs("shape:cube", "--views", "1", size="16x16")["runs"]
+        names = [run["technique"] for run in runs]
+        self.assertIn("wang-2014", names)
+        self.assertNotIn("reference", names)
+        self.assertNotIn("path", names)
+
+    def test_truth_by_path_tracing(self):
+        """All light against the exact transmitted path: reflections inside are missing from the latter."""
+        arguments = ("shape:sphere", "--techniques", "reference", "--views", "1", "--environment", "sky")
+        run, = self.runs(*arguments, "--truth", "path", "--truth-samples", "16")["runs"]
+        self.assertGreater(run["flip_mean"], 0.005)
+
+    def test_report(self):
+        result = self.compare("shape:sphere", "--views", "1", "--html", "report")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(os.path.join("report", "index.html"), self.files())
+        pictures = [file for file in self.files() if file.endswith(".png")]
+        # The exact picture; picture, analysis, error and FLIP of each technique.
+        self.assertGreaterEqual(len(pictures), 1 + 4 * 2)
+
+    def test_a_bad_scene_loses_nothing(self):
+        self.write("bad.obj", "v 1 2\n")
+        result = self.compare("shape:sphere", "bad.obj", "--views", "1", "--json", "runs.json",
+                              "--techniques", "one-interface")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"\Apellucid: bad\.obj[^\n]*\n\Z")
+        self.assertEqual(len(json.loads(self.read("runs.json"))["runs"]), 1)
+
+    def test_refusals(self):
+        for words, arguments in (
+                (["unknown technique 'nonsense'", "wang-2014"], ("shape:sphere", "--techniques", "nonsense")),
+                (["twice"], ("shape:sphere", "shape:sphere")),
+                (["--views"], ("shape:sphere", "--views", "0")),
+                (["--truth"], ("shape:sphere", "--truth", "wang-2014")),
+                (["--steps"], ("shape:sphere", "--techniques", "one-interface", "--steps", "10")),
+                (["nowhere"], ("shape:sphere", "--json", "nowhere/runs.json"))):
+            with self.subTest(arguments):
+                self.assert_refused(self.run_cli("compare", "--size", "16x16", *arguments), *words)
+
+
+if __name__ == "__main__":
+    cli.main()

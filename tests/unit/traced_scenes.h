@@ -1,0 +1,133 @@
+#pragma once
+
+// Scenes for the exact tracer, and what is asked of its paths.
+#include "test_meshes.h"
+
+#include <pellucid/reference.h>
+#include <pellucid/scene.h>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace pellucid::test {
+
+inline Material glass(float ior = 1.5f) {
+    Material material;
+    material.transmission = 1.0f;
+    material.thickness = 1.0f;
+    material.ior = ior;
+    return material;
+}
+
+/// `mesh` with the normals of its triangles.
+inline Mesh with_flat_normals(const Mesh& mesh) {
+    Mesh flat = unwelded(mesh);
+    flat.normals.resize(flat.positions.size());
+    for (const glm::uvec3 t : flat.triangles)
+        for (int k = 0; k < 3; ++k) flat.normals[t[k]] = face_normal(flat, t);
+    return flat;
+}
+
+inline Mesh inside_out(Mesh mesh) {
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    for (glm::vec3& n : mesh.normals) n = -n;
+    return mesh;
+}
+
+/// A prism along Z, 4 m long, over a triangle in the XY plane, counter-clockwise.
+inline Mesh prism(glm::vec2 a, glm::vec2 b, glm::vec2 c) {
+    Mesh mesh;
+    for (const float z : {-2.0f, 2.0f})
+        for (const glm::vec2 p : {a, b, c}) mesh.positions.emplace_back(p, z);
+    mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+    return with_flat_normals(mesh);
+}
+
+/// A square of 2 m in the plane z = 0 that faces +Z.
+inline Mesh square() {
+    Mesh mesh;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.normals.assign(4, {0, 0, 1});
+    return mesh;
+}
+
+inline void add(Scene& scene, Mesh mesh, const Material& material, const glm::mat4& world_from_object = glm::mat4(1)) {
+    Object object;
+    object.mesh = int(scene.meshes.size());
+    object.material = int(scene.materials.size());
+    object.world_from_object = world_from_object;
+    scene.meshes.push_back(std::move(mesh));
+    scene.materials.push_back(material);
+    scene.objects.push_back(object);
+}
+
+inline Scene scene_of(Mesh mesh, const Material& material = glass()) {
+    Scene scene;
+    add(scene, std::move(mesh), material);
+    return scene;
+}
+
+/// An orthographic camera whose rays all run along `direction`, the middle one through `target`.
+inline Camera parallel_camera(glm::vec3 target, glm::vec3 direction, float extent, float distance = 10.0f) {
+    Camera camera;
+    const glm::vec3 up = std::abs(direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
+    camera.world_from_view = glm::inverse(glm::lookAt(target - distance * direction, target, up));
+    camera.orthographic = true;
+    camera.vertical_extent = extent;
+    return camera;
+}
+
+/// The camera that `pellucid compare` uses.
+inline Camera view_of(const Scene& scene, float azimuth_deg) {
+    const float fov = 0.5235988f;
+    return orbit_camera(scene_bounds(scene), azimuth_deg, 15.0f, framing_distance(fov, 0.7f), fov);
+}
+
+inline std::vector<RefractedPath> trace(const Scene& scene, const Camera& camera, std::uint32_t size,
+                                        std::uint32_t packet = 1) {
+    ExactSettings settings;
+    settings.width = settings.height = size;
+    settings.packet = packet;
+    return Tracer(scene).exact(camera, settings);
+}
+
+/// The one path along `direction` through `target`.
+inline RefractedPath trace_ray(const Scene& scene, glm::vec3 target, glm::vec3 direction) {
+    return trace(scene, parallel_camera(target, direction, 0.01f), 1).front();
+}
+
+inline double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::degrees(2.0 * std::atan2(glm::length(a - b), glm::length(a + b)));
+}
+
+inline bool same_bits(const RefractedPath& a, const RefractedPath& b) {
+    return a.direction == b.direction && a.position == b.position && a.transmittance == b.transmittance &&
+           a.length_inside == b.length_inside && a.length == b.length && a.object == b.object && a.events == b.events &&
+           a.reflections == b.reflections && a.status == b.status && a.side_conflict == b.side_conflict;
+}
+
+inline std::size_t count_different(const std::vector<RefractedPath>& a, const std::vector<RefractedPath>& b) {
+    std::size_t count = a.size() == b.size() ? 0 : 1;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) count += !same_bits(a[i], b[i]);
+    return count;
+}
+
+/// Share of the pixels covered by glass in `a` whose directions in `b` are within `tolerance_deg`.
+inline double agreement(const std::vector<RefractedPath>& a, const std::vector<RefractedPath>& b,
+                        double tolerance_deg) {
+    double covered = 0, alike = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (a[i].events == 0) continue;
+        ++covered;
+        alike += b[i].events > 0 && angle_deg(a[i].direction, b[i].direction) <= tolerance_deg;
+    }
+    return alike / covered;
+}
+
+}  // namespace pellucid::test
