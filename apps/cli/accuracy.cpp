@@ -26,8 +26,20 @@ bool has_parameter(const TechniqueInfo& technique, std::string_view name) {
 
 }  // namespace
 
-Camera comparison_camera(const Bounds& bounds, int index, int count, std::uint32_t width, std::uint32_t height) {
-    return framing_camera(bounds, width, height, Camera{}.vertical_fov, 360.0f * float(index) / float(count));
+Camera OrbitView::camera(const Bounds& bounds) const {
+    return orbit_camera(bounds, azimuth_deg, elevation_deg, distance, Camera{}.vertical_fov);
+}
+
+std::string OrbitView::description() const {
+    return fmt::format("orbit:{},{},{}", azimuth_deg, elevation_deg, distance);
+}
+
+OrbitView comparison_view(const Bounds& bounds, int index, int count, std::uint32_t width, std::uint32_t height) {
+    constexpr float kShare = 0.7f, kElevationDeg = 15.0f;
+    const float share = kShare * std::min(1.0f, float(width) / float(height));
+    const float largest = std::max({bounds.half_size.x, bounds.half_size.y, bounds.half_size.z});
+    const float distance = framing_distance(Camera{}.vertical_fov, share) * largest / bounds.radius;
+    return {360.0f * float(index) / float(count), kElevationDeg, distance};
 }
 
 ExactView trace_exact_view(const Tracer& tracer, const Camera& camera, std::uint32_t width, std::uint32_t height,
@@ -71,14 +83,17 @@ Judgement judge(const ExactView& exact, const std::vector<RefractedPath>& paths)
 }
 
 void add_accuracy(nlohmann::ordered_json& run, const ExactView& exact, const PathAccuracy& accuracy) {
+    // Of no pixels there is no share: null.
+    const auto known = [](bool any, double value) { return any ? nlohmann::ordered_json(value) : nullptr; };
+    const bool any = accuracy.covered > 0;
     run["covered"] = accuracy.covered;
-    run["stable_share"] = accuracy.stable_share;
-    run["self_within_1deg"] = exact.self_within_1deg;
-    run["within_1deg"] = accuracy.within_1deg;
-    run["within_5deg"] = accuracy.within_5deg;
-    run["within_1deg_stable"] = accuracy.within_1deg_stable;
-    run["median_deg"] = accuracy.median_deg;
-    run["p95_deg"] = accuracy.p95_deg;
+    run["stable_share"] = known(any, accuracy.stable_share);
+    run["self_within_1deg"] = known(any, exact.self_within_1deg);
+    run["within_1deg"] = known(any, accuracy.within_1deg);
+    run["within_5deg"] = known(any, accuracy.within_5deg);
+    run["within_1deg_stable"] = known(any && accuracy.stable_share > 0.0, accuracy.within_1deg_stable);
+    run["median_deg"] = known(any, accuracy.median_deg);
+    run["p95_deg"] = known(any, accuracy.p95_deg);
     for (std::uint32_t status = 0; status < kStatusCount; ++status)
         run["status"][std::string(status_name(Status(status)))] = accuracy.status[status];
     const auto group = [](const GroupAccuracy& g) {
@@ -122,7 +137,7 @@ void check_parameters(const std::vector<const TechniqueInfo*>& techniques, const
                                        [&, wanted = std::string_view(name)](const TechniqueInfo* technique) {
                                            return has_parameter(*technique, wanted);
                                        });
-        if (!known) throw Error(fmt::format("--{}: none of the techniques compared has this parameter", name));
+        if (!known) throw Error(fmt::format("--{}: none of the techniques has this parameter", name));
     }
 }
 

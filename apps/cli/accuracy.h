@@ -10,9 +10,18 @@
 
 namespace pellucid::cli {
 
-/// View `index` of `count` around a scene: azimuth 360 index / count degrees, elevation 15, the object
-/// filling 70% of the picture's height, 30 degree field of view.
-Camera comparison_camera(const Bounds& bounds, int index, int count, std::uint32_t width, std::uint32_t height);
+/// A camera around a scene, as `--camera orbit:AZ,EL,DIST` gives it.
+struct OrbitView {
+    float azimuth_deg, elevation_deg;
+    float distance;  ///< in bounding-sphere radii
+
+    Camera camera(const Bounds& bounds) const;
+    std::string description() const;  ///< "orbit:AZ,EL,DIST"
+};
+/// View `index` of `count`: azimuth 360 index / count degrees, elevation 15, 30 degree field of view. The
+/// distance is the same for all: the largest side of the object's box, taken for the diameter of a
+/// sphere, fills 70% of the picture's height (or of its width where that is less).
+OrbitView comparison_view(const Bounds& bounds, int index, int count, std::uint32_t width, std::uint32_t height);
 
 /// The exact paths of a view, and how far they can be trusted.
 struct ExactView {
@@ -35,7 +44,7 @@ struct Judgement {
 };
 Judgement judge(const ExactView& exact, const std::vector<RefractedPath>& paths);
 
-/// Adds what MEASURES calls error to a run: shares of pixels, statuses, groups by exact events.
+/// Adds the error to a run: shares of pixels (null of none), statuses, groups by exact events.
 void add_accuracy(nlohmann::ordered_json& run, const ExactView& exact, const PathAccuracy& accuracy);
 
 /// "A,B,.." as techniques; empty: every one that the device offers and that is no reference.

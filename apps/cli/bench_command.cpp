@@ -16,7 +16,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <thread>
 
 namespace pellucid::cli {
 namespace {
@@ -31,6 +30,7 @@ struct BenchArguments {
     std::string environment = "studio";
     bool deforming = false;
     std::optional<std::string> json;
+    std::string command;  ///< the command line without folders, which differ from machine to machine
     SceneArguments how;
     DeviceArguments device;
     ParameterArguments parameters;
@@ -50,11 +50,17 @@ struct Bench {
 /// One view of one scene, with what ray tracing makes of it.
 struct BenchView {
     const BenchCase& bench_case;
+    std::unique_ptr<const Scene> scene;  ///< stays where it is: the tracer refers to it
     Camera camera;
     RenderSettings settings;  ///< without the technique
     ExactView exact;
-    std::uint32_t packet;
+    TimedTracer embree;
+    std::uint32_t packet = 1;
     nlohmann::ordered_json described;  ///< what the runs of this view have in common
+
+    TimedTrace trace() const {
+        return {embree.tracer, camera, {.width = settings.width, .height = settings.height, .packet = packet}};
+    }
 };
 
 std::string cpu_name() {
@@ -71,35 +77,52 @@ nlohmann::ordered_json as_json(const std::vector<double>& times_ms) {
     return {{"median", s.median}, {"p95", s.p95}};
 }
 
+/// Share of covered pixels on which what is timed agrees with the exact paths to 1 degree.
+double trace_within_1deg(const BenchView& view) {
+    const TimedTrace trace = view.trace();
+    std::vector<glm::vec3> directions(view.exact.paths.size());
+    trace.tracer.trace_fast(trace.camera, trace.settings, directions);
+    std::vector<RefractedPath> paths = view.exact.paths;
+    for (std::size_t i = 0; i < paths.size(); ++i) paths[i].direction = directions[i];
+    return judge(view.exact, paths).accuracy.within_1deg;
+}
+
+void add_deforming(BenchView& view, std::uint32_t threads) {
+    const DeformingTimes times = time_deforming(*view.scene, view.camera, view.trace().settings, threads);
+    view.described["embree_refit_ms"] = times.refit_ms;
+    view.described["embree_rebuild_ms"] = {{"low", times.rebuild_low_ms}, {"medium", times.rebuild_medium_ms}};
+    view.described["embree_deforming_ms"] = times.best_ms;
+}
+
 BenchView prepare_view(Bench& bench, const BenchCase& bench_case) {
     const BenchArguments& arguments = bench.arguments;
-    const Scene scene = with_copies(load_scene(bench_case.source, load_options(arguments.how)), bench_case.copies);
-    bench.warnings.insert(scene.warnings.begin(), scene.warnings.end());
-    bench.renderer.set_scene(scene);
+    auto scene = std::make_unique<const Scene>(
+        with_copies(load_scene(bench_case.source, load_options(arguments.how)), bench_case.copies));
+    bench.warnings.insert(scene->warnings.begin(), scene->warnings.end());
+    bench.renderer.set_scene(*scene);
 
     RenderSettings settings;
     std::tie(settings.width, settings.height) = bench_case.size ? *bench_case.size : parse_size(arguments.size);
-    const Camera camera = bench_camera(bench_case, scene, settings.width, settings.height);
+    const Camera camera = bench_camera(bench_case, *scene, settings.width, settings.height);
     bench.renderer.set_camera(camera);
 
     ProgressBar bar(fmt::format("{}, exact", bench_case.scene));
-    const Tracer& tracer = bench.renderer.tracer();
-    const ExactSettings exact{.width = settings.width, .height = settings.height};
-    BenchView view{bench_case,
-                   camera,
-                   settings,
-                   trace_exact_view(tracer, camera, settings.width, settings.height, exact.max_events, bar.progress()),
-                   fastest_packet(tracer, camera, exact),
-                   {{"objects", scene.objects.size()}, {"triangles", scene.triangle_count()}}};
-    view.described["embree_build_ms"] = tracer.build_ms();
-    if (arguments.deforming) {
-        const DeformingTimes times =
-            time_deforming(scene, camera, {.width = settings.width, .height = settings.height, .packet = view.packet},
-                           arguments.device.threads);
-        view.described["embree_refit_ms"] = times.refit_ms;
-        view.described["embree_rebuild_ms"] = {{"low", times.rebuild_low_ms}, {"medium", times.rebuild_medium_ms}};
-        view.described["embree_deforming_ms"] = times.best_ms;
-    }
+    ExactView exact = trace_exact_view(bench.renderer.tracer(), camera, settings.width, settings.height,
+                                       ExactSettings{}.max_events, bar.progress());
+    TimedTracer embree = build_timed(*scene, arguments.device.threads);
+    BenchView view{.bench_case = bench_case,
+                   .scene = std::move(scene),
+                   .camera = camera,
+                   .settings = settings,
+                   .exact = std::move(exact),
+                   .embree = std::move(embree),
+                   .described = {}};
+    view.packet = fastest_packet(view.trace());
+    view.described["objects"] = view.scene->objects.size();
+    view.described["triangles"] = view.scene->triangle_count();
+    view.described["embree_within_1deg"] = trace_within_1deg(view);
+    view.described["embree_build_ms"] = view.embree.build_ms;
+    if (arguments.deforming) add_deforming(view, arguments.device.threads);
     return view;
 }
 
@@ -125,8 +148,7 @@ nlohmann::ordered_json run_technique(Bench& bench, const BenchView& view, const 
 
     ProgressBar bar(fmt::format("{}, {}", view.bench_case.scene, technique.name));
     const AlternatingTimes times =
-        time_alternately(bench.renderer, settings, bench.arguments.frames, view.camera,
-                         {.width = settings.width, .height = settings.height, .packet = view.packet}, bar.progress());
+        time_alternately(bench.renderer, settings, bench.arguments.frames, view.trace(), bar.progress());
 
     nlohmann::ordered_json run{{"scene", view.bench_case.scene}, {"technique", technique.name}};
     if (!view.bench_case.varied.empty()) run["varied"] = view.bench_case.varied;
@@ -209,7 +231,24 @@ void check_arguments(const BenchArguments& arguments) {
     if (arguments.frames < 1) throw Error(fmt::format("--frames must be at least 1, not {}", arguments.frames));
     if (arguments.models && !std::filesystem::is_directory(*arguments.models))
         throw Error(fmt::format("--models: {}: no such folder", *arguments.models));
-    if (arguments.json) check_writable(*arguments.json);
+}
+
+void check_json(const BenchArguments& arguments, const std::vector<BenchCase>& cases) {
+    if (!arguments.json) return;
+    std::vector<std::string> inputs{arguments.environment};
+    for (const BenchCase& each : cases) inputs.push_back(each.source);
+    check_outputs({*arguments.json}, inputs);
+}
+
+/// Draws nothing once with every technique: what the renderer refuses it refuses before long work.
+void check_drawing(Bench& bench) {
+    RenderSettings settings;
+    std::tie(settings.width, settings.height) = parse_size(bench.arguments.size);
+    for (const TechniqueInfo* technique : bench.techniques) {
+        settings.technique = technique->name;
+        settings.parameters = parameters_of(*technique, bench.parameters);
+        bench.renderer.render(settings);
+    }
 }
 
 std::vector<const TechniqueInfo*> timed_techniques(const std::string& names, const Renderer& renderer) {
@@ -226,6 +265,7 @@ void run_bench(const BenchArguments& arguments) {
     check_arguments(arguments);
     std::vector<std::string> missing;
     std::vector<BenchCase> cases = cases_of(arguments, missing);
+    check_json(arguments, cases);
     std::string environment_warning;
     const Environment environment = load_environment(arguments.environment, &environment_warning);
     Bench bench{.arguments = arguments,
@@ -238,13 +278,15 @@ void run_bench(const BenchArguments& arguments) {
     if (!environment_warning.empty()) bench.warnings.insert(environment_warning);
     bench.techniques = timed_techniques(arguments.techniques, bench.renderer);
     check_parameters(bench.techniques, bench.parameters);
+    check_drawing(bench);
     bench.renderer.set_environment(environment);
     const DeviceInfo& device = bench.renderer.device();
     bench.json = {{"device", device.name},
                   {"driver", device.driver},
                   {"version", version()},
                   {"cpu", cpu_name()},
-                  {"cpu_threads", std::thread::hardware_concurrency()},
+                  {"cpu_threads", bench.renderer.tracer().threads()},
+                  {"command", arguments.command},
                   {"suite", arguments.suite.value_or("")},
                   {"environment", arguments.environment},
                   {"warnings", bench.warnings},
@@ -254,6 +296,20 @@ void run_bench(const BenchArguments& arguments) {
     write_json(bench);
     print_warnings({bench.warnings.begin(), bench.warnings.end()});
     check_validation(bench.renderer);
+}
+
+/// The command line with which others can repeat the measurement: files by their names, the folder of models as DIR,
+/// without the file that it writes.
+std::string command_without_folders(const CLI::App& command) {
+    std::string line = "pellucid " + command.get_name();
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->count() == 0 || option->check_lname("json")) continue;
+        if (!option->get_positional()) line += " --" + option->get_lnames().front();
+        if (option->get_items_expected_max() == 0) continue;  // a flag
+        for (const std::string& value : option->reduced_results())
+            line += " " + (option->check_lname("models") ? "DIR" : std::filesystem::path(value).filename().string());
+    }
+    return line;
 }
 
 }  // namespace
@@ -285,7 +341,10 @@ void add_bench_command(CLI::App& app) {
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);
     add_parameter_options(*command, a.parameters);
-    command->callback([arguments] { run_bench(*arguments); });
+    command->callback([arguments, command] {
+        arguments->command = command_without_folders(*command);
+        run_bench(*arguments);
+    });
 }
 
 }  // namespace pellucid::cli

@@ -107,7 +107,7 @@ Camera bench_camera(const BenchCase& bench_case, const Scene& scene, std::uint32
     const Bounds bounds = scene_bounds(scene);
     if (bench_case.distance)
         return orbit_camera(bounds, 0.0f, kElevationDeg, *bench_case.distance, Camera{}.vertical_fov);
-    return scene.cameras.empty() ? comparison_camera(bounds, 0, 1, width, height) : scene.cameras.front();
+    return scene.cameras.empty() ? comparison_view(bounds, 0, 1, width, height).camera(bounds) : scene.cameras.front();
 }
 
 Scene with_copies(Scene scene, int copies) {

@@ -11,11 +11,17 @@ namespace pellucid::cli {
 namespace {
 
 constexpr int kFramesPerBlock = 5;  // and traces
-constexpr int kDeformations = 5;
+constexpr int kDeformations = 5, kBuilds = 3;
 
-double trace_ms(const Tracer& tracer, const Camera& camera, const ExactSettings& exact) {
+using Directions = std::vector<glm::vec3>;
+
+Directions buffer_for(const ExactSettings& settings) {
+    return Directions(std::size_t(settings.width) * settings.height);
+}
+
+double trace_ms(const TimedTrace& trace, Directions& directions) {
     const auto start = std::chrono::steady_clock::now();
-    tracer.exact(camera, exact);
+    trace.tracer.trace_fast(trace.camera, trace.settings, directions);
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -31,56 +37,70 @@ void add_frame(AlternatingTimes& times, const std::vector<PassTime>& frame) {
     times.frames_ms.push_back(total);
 }
 
-/// Median times of moving every vertex a little and of tracing what results.
+/// Moves every vertex of the scene a little, to and fro; returns what the update of the hierarchy took.
+double deform(Tracer& tracer, const Scene& scene, bool forth, Tracer::Update how) {
+    std::vector<std::vector<glm::vec3>> positions;
+    std::vector<MovedMesh> moved;
+    positions.reserve(scene.meshes.size());  // the meshes are seen through spans
+    for (const Mesh& mesh : scene.meshes) {
+        positions.push_back(mesh.positions);
+        for (glm::vec3& position : positions.back()) position.y *= forth ? 1.01f : 1.0f;
+        moved.push_back({int(moved.size()), positions.back(), mesh.normals});
+    }
+    tracer.set_positions(moved, how);
+    return tracer.build_ms();
+}
+
+/// Median times of moving every vertex and of tracing what results.
 struct Update {
     double update_ms, trace_ms;
 };
 Update time_update(const Scene& scene, BuildQuality quality, Tracer::Update how, const Camera& camera,
-                   const ExactSettings& exact, std::uint32_t threads) {
-    Tracer tracer(scene, {.quality = quality, .deforming = true, .threads = threads});
+                   const ExactSettings& settings, std::uint32_t threads) {
+    Tracer tracer(scene, {.quality = quality, .deforming = true, .robust = false, .threads = threads});
+    const TimedTrace trace{tracer, camera, settings};
+    Directions directions = buffer_for(settings);
+    deform(tracer, scene, false, how);  // not counted: the first refit after a build is a build
     std::vector<double> updates, traces;
     for (int i = 0; i < kDeformations; ++i) {
-        double update = 0.0;
-        for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-            std::vector<glm::vec3> positions = scene.meshes[mesh].positions;
-            const float stretch = i % 2 == 0 ? 1.01f : 1.0f;
-            for (glm::vec3& position : positions) position.y *= stretch;
-            tracer.set_positions(int(mesh), positions, scene.meshes[mesh].normals, how);
-            update += tracer.build_ms();
-        }
-        updates.push_back(update);
-        traces.push_back(trace_ms(tracer, camera, exact));
+        updates.push_back(deform(tracer, scene, i % 2 == 0, how));
+        traces.push_back(trace_ms(trace, directions));
     }
     return {spread(updates).median, spread(traces).median};
 }
 
 }  // namespace
 
-AlternatingTimes time_alternately(Renderer& renderer, RenderSettings settings, int frames, const Camera& camera,
-                                  const ExactSettings& exact, const Progress& progress) {
+AlternatingTimes time_alternately(Renderer& renderer, RenderSettings settings, int frames, const TimedTrace& trace,
+                                  const Progress& progress) {
     AlternatingTimes times;
+    Directions directions = buffer_for(trace.settings);
     while (int(times.frames_ms.size()) < frames) {
-        settings.samples = std::uint32_t(std::min(kFramesPerBlock, frames - int(times.frames_ms.size())));
-        for (const std::vector<PassTime>& frame : renderer.render(settings).frames) {
+        const int missing = frames - int(times.frames_ms.size());
+        // One sample alone is drawn otherwise: through pixel centres, without a sum.
+        settings.samples = std::uint32_t(std::clamp(missing, 2, kFramesPerBlock));
+        std::vector<std::vector<PassTime>> drawn = renderer.render(settings).frames;
+        drawn.resize(std::min(drawn.size(), std::size_t(missing)));
+        for (const std::vector<PassTime>& frame : drawn) {
             if (frame.empty()) throw DeviceError(fmt::format("{} has no timestamps", renderer.device().name));
             add_frame(times, frame);
         }
-        while (times.traces_ms.size() < times.frames_ms.size())
-            times.traces_ms.push_back(trace_ms(renderer.tracer(), camera, exact));
+        while (times.traces_ms.size() < times.frames_ms.size()) times.traces_ms.push_back(trace_ms(trace, directions));
         if (progress) progress(double(times.frames_ms.size()) / frames);
     }
     return times;
 }
 
-std::uint32_t fastest_packet(const Tracer& tracer, const Camera& camera, ExactSettings exact) {
-    constexpr int kRounds = 2;
+std::uint32_t fastest_packet(TimedTrace trace) {
+    constexpr int kRounds = 3;
     constexpr std::array<std::uint32_t, 4> kPackets{1, 4, 8, 16};
+    Directions directions = buffer_for(trace.settings);
     std::uint32_t best = 1;
     double best_ms = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
         for (const std::uint32_t packet : kPackets) {
-            exact.packet = packet;
-            const double ms = trace_ms(tracer, camera, exact);
+            trace.settings.packet = packet;
+            const double ms = trace_ms(trace, directions);
             if (ms >= best_ms) continue;
             best_ms = ms;
             best = packet;
@@ -89,13 +109,26 @@ std::uint32_t fastest_packet(const Tracer& tracer, const Camera& camera, ExactSe
     return best;
 }
 
-DeformingTimes time_deforming(const Scene& scene, const Camera& camera, const ExactSettings& exact,
+TimedTracer build_timed(const Scene& scene, std::uint32_t threads) {
+    const TracerOptions options{.robust = false, .threads = threads};
+    TimedTracer timed{Tracer(scene, options), 0.0};
+    std::vector<double> builds;
+    for (int i = 0; i < kBuilds; ++i) {
+        timed.tracer = Tracer(scene, options);
+        builds.push_back(timed.tracer.build_ms());
+    }
+    timed.build_ms = spread(builds).median;
+    return timed;
+}
+
+DeformingTimes time_deforming(const Scene& scene, const Camera& camera, const ExactSettings& settings,
                               std::uint32_t threads) {
     using How = Tracer::Update;
-    // Refitting keeps the shape of the hierarchy: built with care once, it is worth refitting.
-    const Update refit = time_update(scene, BuildQuality::kHigh, How::kRefit, camera, exact, threads);
-    const Update low = time_update(scene, BuildQuality::kLow, How::kRebuild, camera, exact, threads);
-    const Update medium = time_update(scene, BuildQuality::kMedium, How::kRebuild, camera, exact, threads);
+    // How the scene was built does not matter to a refit: the first one makes the hierarchy, of medium quality, that
+    // the others keep.
+    const Update refit = time_update(scene, BuildQuality::kMedium, How::kRefit, camera, settings, threads);
+    const Update low = time_update(scene, BuildQuality::kLow, How::kRebuild, camera, settings, threads);
+    const Update medium = time_update(scene, BuildQuality::kMedium, How::kRebuild, camera, settings, threads);
     const auto total = [](const Update& update) { return update.update_ms + update.trace_ms; };
     return {.refit_ms = refit.update_ms,
             .rebuild_low_ms = low.update_ms,

@@ -54,6 +54,7 @@ struct Comparison {
 struct ComparedView {
     std::string scene;
     int index;
+    OrbitView orbit;
     std::uint64_t triangles;
     ExactView exact;
     RenderResult truth;  ///< the picture that the others are held against
@@ -69,29 +70,48 @@ double median_frame_ms(const RenderResult& result) {
     return spread(totals).median;
 }
 
-nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedView& view,
-                                         const TechniqueInfo& technique) {
+/// Exact paths are as long everywhere as those that the techniques are held against.
+RenderSettings settings_for(const Comparison& comparison, const TechniqueInfo& technique) {
     RenderSettings settings = comparison.settings;
     settings.technique = technique.name;
-    settings.parameters = parameters_of(technique, comparison.parameters);
+    ParameterMap parameters = comparison.parameters;
+    if (technique.reference) parameters.try_emplace("events", double(comparison.arguments.exact_events));
+    settings.parameters = parameters_of(technique, parameters);
+    return settings;
+}
+
+RenderSettings settings_of_truth(const Comparison& comparison) {
+    RenderSettings settings = settings_for(comparison, comparison.truth);
+    if (comparison.truth.all_light) settings.samples = comparison.arguments.truth_samples;
+    return settings;
+}
+
+nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedView& view,
+                                         const TechniqueInfo& technique) {
+    RenderSettings settings = settings_for(comparison, technique);
     settings.paths = true;
     const RenderResult result = comparison.renderer.render(settings);
-    comparison.warnings.insert(result.warnings.begin(), result.warnings.end());
+    for (const std::string& warning : result.warnings)
+        comparison.warnings.insert(fmt::format("{}: {}: {}", view.scene, technique.name, warning));
 
     const Judgement judgement = judge(view.exact, result.paths);
     const Image flip = flip_ldr(view.truth.display, result.display);
-    nlohmann::ordered_json run{{"scene", view.scene},
-                               {"technique", technique.name},
-                               {"view", view.index},
-                               {"width", settings.width},
-                               {"height", settings.height},
-                               {"triangles", view.triangles},
-                               {"parameters", describe_parameters(technique, settings.parameters)}};
+    nlohmann::ordered_json run{
+        {"scene", view.scene},         {"technique", technique.name},
+        {"view", view.index},          {"camera", view.orbit.description()},
+        {"width", settings.width},     {"height", settings.height},
+        {"triangles", view.triangles}, {"parameters", describe_parameters(technique, settings.parameters)}};
     add_accuracy(run, view.exact, judgement.accuracy);
-    run["flip_mean"] = mean(flip, view.exact.covered);
-    run["rmse"] = rmse(view.truth.radiance, result.radiance, view.exact.covered);
-    if (!technique.reference && !result.frames.empty() && !result.frames.front().empty())
+    if (judgement.accuracy.covered > 0) {
+        run["flip_mean"] = mean(flip, view.exact.covered);
+        run["rmse"] = rmse(view.truth.radiance, result.radiance, view.exact.covered);
+    } else {
+        run["flip_mean"] = run["rmse"] = nullptr;
+    }
+    if (!technique.reference && !result.frames.empty() && !result.frames.front().empty()) {
         run["frame_ms"] = median_frame_ms(result);
+        run["frames"] = result.frames.size();
+    }
 
     if (comparison.report) {
         const PictureOf of{view.scene, view.index, std::string(technique.name)};
@@ -109,20 +129,20 @@ nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedV
 ComparedView exact_view(Comparison& comparison, const std::string& name, const Scene& scene, int index) {
     const CompareArguments& arguments = comparison.arguments;
     RenderSettings settings = comparison.settings;
-    const Camera camera =
-        comparison_camera(scene_bounds(scene), index, arguments.views, settings.width, settings.height);
+    const Bounds bounds = scene_bounds(scene);
+    const OrbitView orbit = comparison_view(bounds, index, arguments.views, settings.width, settings.height);
+    const Camera camera = orbit.camera(bounds);
     comparison.renderer.set_camera(camera);
 
     ProgressBar bar(fmt::format("{}, view {} of {}, exact", name, index + 1, arguments.views));
     ComparedView view{name,
                       index,
+                      orbit,
                       scene.triangle_count(),
                       trace_exact_view(comparison.renderer.tracer(), camera, settings.width, settings.height,
                                        arguments.exact_events, bar.progress()),
                       {}};
-    settings.technique = comparison.truth.name;
-    settings.parameters = {};
-    if (comparison.truth.name == "path") settings.samples = arguments.truth_samples;
+    settings = settings_of_truth(comparison);
     settings.progress = bar.progress();
     view.truth = comparison.renderer.render(settings);
     if (comparison.report) comparison.report->add_picture({name, index, ""}, PictureKind::kImage, view.truth.display);
@@ -136,25 +156,48 @@ void write_json(const Comparison& comparison) {
                     comparison.json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
+void print_head() {
+    fmt::print("{:<28} {:>4} {:<22} {:>7} {:>7} {:>8} {:>7} {:>8}\n", "scene", "view", "technique", "1 deg%", "5 deg%",
+               "stable%", "median", "FLIP");
+}
+
+void print_row(const nlohmann::ordered_json& run) {
+    const auto cell = [&](const char* key, double scale, int width, int digits) {
+        const auto& value = run[key];
+        return value.is_null() ? fmt::format("{:>{}}", "-", width)
+                               : fmt::format("{:>{}.{}f}", scale * value.get<double>(), width, digits);
+    };
+    fmt::print("{:<28} {:>4} {:<22} {} {} {} {} {}\n", run["scene"].get<std::string>(), run["view"].get<int>(),
+               run["technique"].get<std::string>(), cell("within_1deg", 100.0, 7, 2), cell("within_5deg", 100.0, 7, 2),
+               cell("within_1deg_stable", 100.0, 8, 2), cell("median_deg", 1.0, 7, 2), cell("flip_mean", 1.0, 8, 4));
+    std::fflush(stdout);
+}
+
 void compare_scene(Comparison& comparison, const std::string& name) {
     const Scene scene = load_scene(name, load_options(comparison.arguments.how));
     comparison.warnings.insert(scene.warnings.begin(), scene.warnings.end());
     comparison.renderer.set_scene(scene);
+    if (comparison.json["runs"].empty()) print_head();
+    // An older report in the folder is replaced when there is something to replace it with.
+    if (comparison.arguments.html && !comparison.report) comparison.report.emplace(*comparison.arguments.html);
     for (int index = 0; index < comparison.arguments.views; ++index) {
         const ComparedView view = exact_view(comparison, name, scene, index);
         for (const TechniqueInfo* technique : comparison.techniques) {
             nlohmann::ordered_json run = compare_technique(comparison, view, *technique);
-            fmt::print("{:<28} {:>4} {:<22} {:>7.2f} {:>7.2f} {:>8.2f} {:>7.2f} {:>8.4f}\n", name, index,
-                       technique->name, 100.0 * run["within_1deg"].get<double>(),
-                       100.0 * run["within_5deg"].get<double>(), 100.0 * run["within_1deg_stable"].get<double>(),
-                       run["median_deg"].get<double>(), run["flip_mean"].get<double>());
-            std::fflush(stdout);
+            print_row(run);
             if (comparison.report) comparison.report->add_run(run);
             comparison.json["runs"].push_back(std::move(run));
         }
     }
     comparison.json["warnings"] = comparison.warnings;
     write_json(comparison);  // after every scene, so that a bad one later loses nothing
+}
+
+bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    std::error_code error;
+    const auto relative = std::filesystem::weakly_canonical(file, error)
+                              .lexically_relative(std::filesystem::weakly_canonical(folder, error));
+    return !relative.empty() && *relative.begin() != "..";
 }
 
 void check_arguments(const CompareArguments& arguments) {
@@ -167,7 +210,12 @@ void check_arguments(const CompareArguments& arguments) {
     for (const std::string& scene : arguments.scenes) {
         if (!seen.insert(scene).second) throw Error(fmt::format("{} is given twice", scene));
     }
-    if (arguments.json) check_writable(*arguments.json);
+    if (!arguments.json) return;
+    std::vector<std::string> inputs = arguments.scenes;
+    inputs.push_back(arguments.environment);
+    check_outputs({*arguments.json}, inputs);
+    if (arguments.html && is_in_folder(*arguments.json, *arguments.html))
+        throw Error(fmt::format("{}: lies in the folder of --html, which is the report's own", *arguments.json));
 }
 
 RenderSettings settings_of(const CompareArguments& arguments) {
@@ -180,8 +228,19 @@ RenderSettings settings_of(const CompareArguments& arguments) {
 }
 
 std::string describe_truth(const CompareArguments& arguments) {
-    const std::uint32_t samples = arguments.truth == "path" ? arguments.truth_samples : arguments.samples;
-    return fmt::format("{}, samples per pixel: {}", arguments.truth, samples);
+    const bool all_light = find_technique(arguments.truth).all_light;
+    return fmt::format("{}, samples per pixel: {}", arguments.truth,
+                       all_light ? arguments.truth_samples : arguments.samples);
+}
+
+/// Says before any work what could not be drawn.
+void check_settings(const Comparison& comparison) {
+    std::vector<const TechniqueInfo*> with_truth = comparison.techniques;
+    with_truth.push_back(&comparison.truth);
+    check_parameters(with_truth, comparison.parameters);
+    comparison.renderer.check(settings_of_truth(comparison));
+    for (const TechniqueInfo* technique : comparison.techniques)
+        comparison.renderer.check(settings_for(comparison, *technique));
 }
 
 void compare(const CompareArguments& arguments) {
@@ -199,21 +258,20 @@ void compare(const CompareArguments& arguments) {
                           .warnings = {}};
     if (!environment_warning.empty()) comparison.warnings.insert(environment_warning);
     comparison.techniques = parse_techniques(arguments.techniques, comparison.renderer);
-    check_parameters(comparison.techniques, comparison.parameters);
+    check_settings(comparison);
     comparison.renderer.set_environment(environment);
     const DeviceInfo& device = comparison.renderer.device();
-    comparison.json = {{"device", device.name},
-                       {"driver", device.driver},
-                       {"version", version()},
-                       {"environment", arguments.environment},
-                       {"exact_events", arguments.exact_events},
-                       {"image_truth", describe_truth(arguments)},
-                       {"warnings", nlohmann::ordered_json::array()},
-                       {"runs", nlohmann::ordered_json::array()}};
-    if (arguments.html) comparison.report.emplace(*arguments.html);
+    comparison.json = {
+        {"device", device.name},
+        {"driver", device.driver},
+        {"version", version()},
+        {"environment", arguments.environment},
+        {"exact_events", arguments.exact_events},
+        {"image_truth", describe_truth(arguments)},
+        {"image_truth_parameters", describe_parameters(comparison.truth, settings_of_truth(comparison).parameters)},
+        {"warnings", nlohmann::ordered_json::array()},
+        {"runs", nlohmann::ordered_json::array()}};
 
-    fmt::print("{:<28} {:>4} {:<22} {:>7} {:>7} {:>8} {:>7} {:>8}\n", "scene", "view", "technique", "1 deg%", "5 deg%",
-               "stable%", "median", "FLIP");
     for (const std::string& scene : arguments.scenes) compare_scene(comparison, scene);
     if (comparison.report) {
         const std::filesystem::path page = comparison.report->finish({.device = device.name,

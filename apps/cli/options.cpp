@@ -1,10 +1,13 @@
 #include "options.h"
 
+#include "core/file.h"
 #include "core/math.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 
 namespace pellucid::cli {
@@ -13,6 +16,14 @@ namespace {
 std::string parameter_help(const ParameterInfo& parameter) {
     return fmt::format("{}{}{} [{} to {}, default {}]", parameter.doc, parameter.unit.empty() ? "" : ", ",
                        parameter.unit, parameter.minimum, parameter.maximum, parameter.default_value);
+}
+
+namespace fs = std::filesystem;
+
+bool same_file(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error)) return true;
+    return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
 }  // namespace
@@ -96,6 +107,19 @@ void add_environment_option(CLI::App& command, std::string& name_or_file) {
                     "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
         ->capture_default_str()
         ->type_name("NAME|FILE");
+}
+
+void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    const auto is_one_of = [](const std::string& file, auto begin, auto end) {
+        return std::any_of(begin, end, [&](const std::string& other) { return same_file(other, file); });
+    };
+    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+        check_writable(*output);
+        if (is_one_of(*output, inputs.begin(), inputs.end()))
+            throw Error(fmt::format("{}: would overwrite what is read", *output));
+        if (is_one_of(*output, outputs.begin(), output))
+            throw Error(fmt::format("{}: is given for two outputs", *output));
+    }
 }
 
 std::string shape_help() {

@@ -53,6 +53,10 @@ ParameterMap given_parameters(const ParameterArguments& arguments);
 
 void add_environment_option(CLI::App& command, std::string& name_or_file);
 
+/// Says before any work what could not be written after it. Throws Error for a file that cannot be written,
+/// that is one of `inputs`, or that is given for two outputs.
+void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
 /// Help texts that list what there is.
 std::string shape_help();
 std::string technique_list();

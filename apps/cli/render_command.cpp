@@ -15,15 +15,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 
 namespace pellucid::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The command line as given; strings are parsed when the command runs, so that errors are ours.
 struct RenderArguments {
@@ -80,31 +77,15 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     return settings;
 }
 
-bool same_file(const fs::path& a, const fs::path& b) {
-    std::error_code error;
-    if (fs::equivalent(a, b, error)) return true;
-    return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
-}
-
-/// Says before any work what could not be written after it, and what would overwrite something.
-void check_outputs(const RenderArguments& arguments) {
+void check_render_outputs(const RenderArguments& arguments) {
     const std::string extension = lower_extension(arguments.output);
     if (extension != ".png" && extension != ".exr") {
         throw Error(fmt::format("--output: '{}': pictures are written as .png or .exr", arguments.output));
     }
-    std::vector<std::string> taken{arguments.scene, arguments.environment};
     std::vector<std::string> outputs{arguments.output};
     for (const std::string& aov : arguments.aovs) outputs.push_back(parse_aov(aov).second);
     if (arguments.json) outputs.push_back(*arguments.json);
-    for (const std::string& output : outputs) {
-        check_writable(output);
-        for (std::size_t i = 0; i < taken.size(); ++i) {
-            if (!same_file(taken[i], output)) continue;
-            throw Error(
-                fmt::format("{}: {}", output, i < 2 ? "would overwrite what is read" : "is given for two outputs"));
-        }
-        taken.push_back(output);
-    }
+    check_outputs(outputs, {arguments.scene, arguments.environment});
 }
 
 /// Median over the frames of each pass's time, in the order of the passes.
@@ -113,8 +94,7 @@ std::vector<PassTime> median_times(const std::vector<std::vector<PassTime>>& fra
     for (std::size_t pass = 0; !frames.empty() && pass < frames.front().size(); ++pass) {
         std::vector<double> times;
         for (const auto& frame : frames) times.push_back(frame[pass].time_ms);
-        std::nth_element(times.begin(), times.begin() + std::ptrdiff_t(times.size() / 2), times.end());
-        medians.push_back({frames.front()[pass].name, times[times.size() / 2]});
+        medians.push_back({frames.front()[pass].name, spread(std::move(times)).median});
     }
     return medians;
 }
@@ -146,7 +126,8 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
         json["passes"][pass.name] = {{"median", pass.time_ms}};
         frame_ms += pass.time_ms;
     }
-    json["frame_ms"] = frame_ms;
+    // Of a technique that traces on the CPU the passes are the least part.
+    if (!find_technique(settings.technique).reference) json["frame_ms"] = frame_ms;
     if (!result.standard_error.pixels.empty()) json["cut_paths"] = result.cut_paths;
     json["frames"] = result.frames.size();
     json["warnings"] = warnings;
@@ -186,7 +167,7 @@ void write_outputs(const RenderArguments& arguments, const RenderResult& result,
 }
 
 void render(const RenderArguments& arguments) {
-    check_outputs(arguments);
+    check_render_outputs(arguments);
     RenderSettings settings = render_settings(arguments);
     const TechniqueInfo& technique = find_technique(settings.technique);  // unknown names are said before any work
     const Scene scene = load_scene(arguments.scene, load_options(arguments.how));

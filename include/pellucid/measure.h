@@ -20,9 +20,11 @@ struct GroupAccuracy {
 /// How far a technique's paths are from the exact ones. Shares are of the covered pixels, those
 /// where the exact path meets refracting glass first.
 ///
-/// A pixel is right if the exit directions differ by less than the angle; one that the technique gave up on (status other
-/// than ok) or did not cover is wrong. A path that ends on an opaque object is right if the technique's ends on the same one
-/// within a pixel's footprint of the same point.
+/// A pixel is right if the exit directions differ by less than the angle; one that the technique gave up
+/// on (status other than ok) or did not cover is wrong. Where the exact path is itself cut after K events
+/// (Status::kEventLimit), one that is cut, too, is right if the directions there agree. A path that ends on
+/// an opaque object is right if the technique's ends on the same one within a pixel's footprint of the
+/// same point.
 struct PathAccuracy {
     std::uint64_t covered = 0;
     double within_1deg = 1.0;

@@ -97,15 +97,20 @@ public:
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// Uploads, and keeps a copy for techniques that trace on the CPU; `scene` may go afterwards. Throws Error if the device cannot hold it.
+    /// Uploads, and keeps a copy for techniques that trace on the CPU; `scene` may go afterwards. Throws
+    /// Error if the device cannot hold it.
     void set_scene(const Scene& scene);
     void set_environment(const Environment& environment);
     /// Default: the scene's first camera, or one that frames the scene (azimuth 0, elevation 15
     /// degrees, 30 degrees of field, the bounding sphere filling 70% of the height).
     void set_camera(const Camera& camera);
 
-    /// Renders what was set; before that there are no objects and the studio environment. Throws Error for settings out of range, unknown names, or sizes beyond the device.
+    /// Renders what was set; before that there are no objects and the studio environment. Throws Error for
+    /// settings out of range, unknown names, or sizes beyond the device, DeviceError for a technique that
+    /// the device does not offer.
     RenderResult render(const RenderSettings& settings);
+    /// Throws what render() would throw at once for these settings.
+    void check(const RenderSettings& settings) const;
 
     /// The exact tracer of the scene that was set, built on first use; valid until the next set_scene().
     const Tracer& tracer();

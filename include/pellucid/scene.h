@@ -113,12 +113,13 @@ struct Scene {
     std::uint64_t triangle_count() const;  ///< over all objects; instances count each time
 };
 
-/// Sphere around a set of objects, in world coordinates.
+/// Sphere around a set of objects, in world coordinates, and their axis-aligned box about the same centre.
 struct Bounds {
     glm::vec3 center{0.0f};
     float radius = 0.0f;
+    glm::vec3 half_size{0.0f};  ///< half the sides of the box, m
 };
-/// Bounding sphere of all objects (centre of the axis-aligned box, radius to the farthest vertex).
+/// Bounds of all objects: centre of the box, radius to the farthest vertex.
 Bounds scene_bounds(const Scene& scene);
 
 /// How files without materials of their own become glass, and how meshes are repaired.
@@ -164,9 +165,8 @@ Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg
 /// Distance, in radii, at which a sphere fills `share` of the image height (0 < share < 1).
 float framing_distance(float vertical_fov, float share);
 
-/// The default camera: elevation 15 degrees, `bounds` filling 70% of the picture's height, or of its width
-/// where that is less.
-Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov,
-                      float azimuth_deg = 0.0f);
+/// The default camera: azimuth 0, elevation 15 degrees, `bounds` filling 70% of the picture's height,
+/// or of its width where that is less.
+Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov);
 
 }  // namespace pellucid

@@ -51,7 +51,10 @@ void check_sizes(std::size_t pixels, std::span<const RefractedPath> exact, std::
 
 float path_error_deg(const RefractedPath& exact, const RefractedPath& candidate, const PixelFootprint& footprint) {
     if (!covered(exact)) return kNotCovered;
-    if (!covered(candidate) || candidate.status != Status::kOk) return kWrong;
+    // Where the exact path itself is cut after K events, one that is cut at the same place agrees with it.
+    const bool both_cut = exact.status == Status::kEventLimit && candidate.status == Status::kEventLimit &&
+                          candidate.events == exact.events;
+    if (!covered(candidate) || (candidate.status != Status::kOk && !both_cut)) return kWrong;
     if (exact.object >= 0) return same_end(exact, candidate, footprint) ? 0.0f : kWrong;
     if (candidate.object >= 0) return kWrong;
     return angle_deg(exact.direction, candidate.direction);

@@ -1,5 +1,6 @@
 #include "reference/boundaries.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -21,35 +22,36 @@ std::int64_t rank(const Geometry& geometry, const Hit& boundary, const MediumSta
 
 }  // namespace
 
-Hit touching_boundary(const Geometry& geometry, Query ray, const Hit& hit) {
+Hit touching_boundary(const Geometry& geometry, const Query& ray, const Hit& hit) {
     if (!geometry.touches_others(hit.crossing.object)) return {};
     const double apart = geometry.coincidence();
-    ray.t_max = apart / std::abs(glm::dot(ray.direction, geometry.geometric_normal(hit)));
-    ray.kinds = only(SurfaceKind::kRefractive);
-    const Hit other = geometry.intersect(ray);
+    Query nearby = ray;
+    nearby.t_max = apart / std::abs(glm::dot(ray.direction, geometry.geometric_normal(hit)));
+    nearby.kinds = only(SurfaceKind::kRefractive);
+    const Hit other = geometry.intersect(nearby);
     if (!other.found || other.crossing.object == hit.crossing.object) return {};
     const double distance = glm::dot(other.position - hit.position, geometry.geometric_normal(other));
     return std::abs(distance) <= apart ? other : Hit{};
 }
 
-Hit cross_boundaries(const Geometry& geometry, Query ray, const Hit& hit, std::vector<Crossing>& standing,
+Hit cross_boundaries(const Geometry& geometry, const Query& ray, const Hit& hit, std::vector<Crossing>& standing,
                      MediumStack& inside, MediumStack& beyond) {
     beyond = inside;
     cross(geometry, hit, inside, beyond);
-    std::vector<Hit> others;
+    if (!geometry.touches_others(hit.crossing.object)) return hit;
+    std::vector<Hit> boundaries{hit};
+    Query from = ray;
     for (;;) {
-        ray.standing = standing;
-        const Hit next = touching_boundary(geometry, ray, hit);
+        from.standing = standing;
+        const Hit next = touching_boundary(geometry, from, hit);
         if (!next.found) break;
         cross(geometry, next, inside, beyond);
         standing.push_back(next.crossing);
-        others.push_back(next);
+        boundaries.push_back(next);
     }
-    Hit displacing = hit;
-    for (const Hit& other : others) {
-        if (rank(geometry, other, inside, beyond) > rank(geometry, displacing, inside, beyond)) displacing = other;
-    }
-    return displacing;
+    return *std::max_element(boundaries.begin(), boundaries.end(), [&](const Hit& a, const Hit& b) {
+        return rank(geometry, a, inside, beyond) < rank(geometry, b, inside, beyond);
+    });
 }
 
 }  // namespace pellucid::reference

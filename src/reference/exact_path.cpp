@@ -1,16 +1,14 @@
 #include "reference/exact_path.h"
 
+#include "reference/boundaries.h"
 #include "reference/dielectric.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace pellucid::reference {
 namespace {
 
 constexpr SurfaceKinds kMet = only(SurfaceKind::kOpaque) | only(SurfaceKind::kRefractive);
-
-glm::dvec3 beer_lambert(const glm::dvec3& sigma_a, double distance) { return glm::exp(-sigma_a * distance); }
 
 }  // namespace
 
@@ -41,20 +39,6 @@ bool ExactPath::finish(Status status) {
     return false;
 }
 
-/// The boundary of another solid at the very place of `hit`, on which the path stands. Where solids
-/// touch, the order in which their surfaces are found is chance.
-Hit ExactPath::touching(const Hit& hit) const {
-    if (!geometry_.touches_others(hit.crossing.object)) return {};
-    const double apart = geometry_.coincidence();
-    Query query = ray_;
-    query.t_max = apart / std::abs(glm::dot(ray_.direction, geometry_.geometric_normal(hit)));
-    query.kinds = only(SurfaceKind::kRefractive);
-    const Hit other = geometry_.intersect(query);
-    if (!other.found || other.crossing.object == hit.crossing.object) return {};
-    const double distance = glm::dot(other.position - hit.position, geometry_.geometric_normal(other));
-    return std::abs(distance) <= apart ? other : Hit{};
-}
-
 /// Goes straight on to what was met.
 void ExactPath::travel(const Hit& hit) {
     length_ += hit.t;
@@ -66,17 +50,6 @@ void ExactPath::travel(const Hit& hit) {
     ray_.t_max = std::numeric_limits<double>::infinity();  // the camera's planes cut off what it sees first
     geometry_.step_onto(hit, standing_);
     ray_.standing = standing_;
-}
-
-/// Of the boundaries being met, the one between the two media: that of the solid that displaces the other.
-const Hit& ExactPath::displacing() const {
-    const auto rank = [&](const Hit& hit) {
-        const std::uint32_t object = hit.crossing.object;
-        const bool between = std::int32_t(object) == inside_.object() || std::int32_t(object) == beyond_.object();
-        return between ? std::int64_t(geometry_.solids()[object].precedence) : -1;
-    };
-    return *std::max_element(boundaries_.begin(), boundaries_.end(),
-                             [&](const Hit& a, const Hit& b) { return rank(a) < rank(b); });
 }
 
 /// Refracts or totally reflects the path at an interface. The interpolated normal may send a reflected
@@ -103,25 +76,11 @@ void ExactPath::bend(const Hit& hit) {
 
 /// Meets the boundary of a solid, and those of others that touch it there.
 bool ExactPath::cross(const Hit& hit) {
-    boundaries_.assign(1, hit);
-    if (geometry_.touches_others(hit.crossing.object)) {
-        for (Hit next = touching(hit); next.found; next = touching(hit)) {
-            boundaries_.push_back(next);
-            standing_.push_back(next.crossing);
-            ray_.standing = standing_;
-        }
-    }
-    beyond_ = inside_;
-    for (const Hit& boundary : boundaries_) {
-        const auto [object, triangle, sense] = boundary.crossing;
-        // An open surface met from behind: its normal alone says that the path was inside.
-        if (!geometry_.solids()[object].closed) inside_.set(object, sense == Sense::kLeaving ? 1 : 0);
-        beyond_.cross(object, sense);
-    }
+    const Hit interface = cross_boundaries(geometry_, ray_, hit, standing_, inside_, beyond_);
+    ray_.standing = standing_;
     bool through = true;
     if (beyond_.object() != inside_.object()) {
         if (result_.events == max_events_) return finish(Status::kEventLimit);
-        const Hit& interface = displacing();
         bend(interface);
         through = crossing_sense(ray_.direction, interface.normal) == interface.crossing.sense;
     }
@@ -134,7 +93,7 @@ bool ExactPath::advance(const Hit& hit) {
     travel(hit);
     if (geometry_.kind(hit.crossing.object) == SurfaceKind::kRefractive) return cross(hit);
     if (inside_.object() != kAir) {
-        const Hit wall = touching(hit);  // what a solid stands on is outside of it
+        const Hit wall = touching_boundary(geometry_, ray_, hit);  // what a solid stands on is outside of it
         if (wall.found && wall.crossing.sense == Sense::kLeaving) {
             standing_.back() = wall.crossing;
             return cross(wall);

@@ -24,10 +24,8 @@ public:
     const RefractedPath& result() const { return result_; }
 
 private:
-    Hit touching(const Hit& hit) const;
     void travel(const Hit& hit);
     bool cross(const Hit& hit);
-    const Hit& displacing() const;
     void bend(const Hit& hit);
     bool finish(Status status);
 
@@ -36,7 +34,6 @@ private:
     Query ray_;
     MediumStack inside_;              ///< the solids around the origin
     MediumStack beyond_;              ///< those behind the boundaries that are being met
-    std::vector<Hit> boundaries_;     ///< what is being met: one, or several where solids touch
     std::vector<Crossing> standing_;  ///< triangles that the origin lies on
     glm::dvec3 transmittance_{1.0};
     double length_ = 0.0, length_inside_ = 0.0;

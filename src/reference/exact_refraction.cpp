@@ -2,51 +2,18 @@
 
 #include "reference/camera_rays.h"
 #include "reference/exact_path.h"
+#include "reference/picture_tiles.h"
 #include "reference/start_media.h"
 #include "scene/check_scene.h"
 
 #include <pellucid/error.h>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <mutex>
 
 namespace pellucid::reference {
 namespace {
-
-constexpr std::uint32_t kTile = 32;  ///< pixels along a side; a multiple of every block's
-
-/// Pixels that are traced together: as square as it gets.
-glm::uvec2 block_size(std::uint32_t packet) {
-    switch (packet) {
-        case 4:
-            return {2, 2};
-        case 8:
-            return {4, 2};
-        case 16:
-            return {4, 4};
-        default:
-            return {1, 1};
-    }
-}
-
-void check(const ExactSettings& s) {
-    if (s.width == 0 || s.height == 0) throw Error(fmt::format("a picture of {}x{} has no pixels", s.width, s.height));
-    if (s.max_events == 0 || s.max_events > 65535) {
-        throw Error(fmt::format("the exact path follows 1 to 65535 events, not {}", s.max_events));
-    }
-    if (s.packet != 1 && s.packet != 4 && s.packet != 8 && s.packet != 16) {
-        throw Error(fmt::format("rays are traced in packets of 1, 4, 8 or 16, not {}", s.packet));
-    }
-    if (!std::isfinite(s.shift_px.x) || !std::isfinite(s.shift_px.y)) {
-        throw Error("the shift of the primary rays is not finite");
-    }
-}
 
 /// Paths of neighbouring pixels, traced in step.
 class Block {
@@ -104,31 +71,39 @@ private:
 
 }  // namespace
 
+void check_exact_settings(const ExactSettings& s) {
+    if (s.width == 0 || s.height == 0) throw Error(fmt::format("a picture of {}x{} has no pixels", s.width, s.height));
+    if (s.max_events == 0 || s.max_events > 65535) {
+        throw Error(fmt::format("the exact path follows 1 to 65535 events, not {}", s.max_events));
+    }
+    if (s.packet != 1 && s.packet != 4 && s.packet != 8 && s.packet != 16) {
+        throw Error(fmt::format("rays are traced in packets of 1, 4, 8 or 16, not {}", s.packet));
+    }
+    if (!std::isfinite(s.shift_px.x) || !std::isfinite(s.shift_px.y)) {
+        throw Error("the shift of the primary rays is not finite");
+    }
+}
+
 std::vector<RefractedPath> trace_exact(const Geometry& geometry, const Camera& camera, const ExactSettings& settings,
                                        std::uint32_t threads, const Progress& progress) {
-    check(settings);
+    check_exact_settings(settings);
     check_camera(camera);
     const CameraRays rays(camera, settings.width, settings.height);
     const StartMedia media(geometry, rays, {settings.width, settings.height});
     std::vector<RefractedPath> picture(std::size_t(settings.width) * settings.height);
 
-    const std::uint32_t columns = (settings.width + kTile - 1) / kTile;
-    const std::uint32_t tiles = columns * ((settings.height + kTile - 1) / kTile);
+    const glm::uvec2 size(settings.width, settings.height);
     std::mutex mutex;
     std::uint32_t done = 0;
-    const auto trace_tile = [&](std::uint32_t tile) {
+    for_each_tile(size, threads, [&](glm::uvec2 first, glm::uvec2 end) {
         Block block(geometry, settings);
-        const glm::uvec2 corner = kTile * glm::uvec2(tile % columns, tile / columns);
-        const glm::uvec2 end = glm::min(corner + kTile, glm::uvec2(settings.width, settings.height));
-        for (std::uint32_t y = corner.y; y < end.y; y += block.size().y) {
-            for (std::uint32_t x = corner.x; x < end.x; x += block.size().x) block.trace({x, y}, rays, media, picture);
+        for (std::uint32_t y = first.y; y < end.y; y += block.size().y) {
+            for (std::uint32_t x = first.x; x < end.x; x += block.size().x) block.trace({x, y}, rays, media, picture);
         }
         if (!progress) return;
         const std::lock_guard lock(mutex);
-        progress(double(++done) / double(tiles));
-    };
-    tbb::task_arena arena(threads > 0 ? int(threads) : tbb::task_arena::automatic);
-    arena.execute([&] { tbb::parallel_for(0u, tiles, trace_tile); });
+        progress(double(++done) / double(tile_count(size)));
+    });
     return picture;
 }
 

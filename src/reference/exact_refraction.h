@@ -9,6 +9,9 @@
 
 namespace pellucid::reference {
 
+/// Throws Error for settings out of range.
+void check_exact_settings(const ExactSettings& settings);
+
 /// Tracer::exact. One path per pixel: refracted at every interface, reflected where it is totally
 /// reflected; it ends in the environment, on an opaque surface, or at an interface beyond max_events.
 ///

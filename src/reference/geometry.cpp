@@ -52,7 +52,8 @@ Geometry::Geometry(const Scene& scene, const TracerOptions& options)
     device_.reset(rtcNewDevice(nullptr));
     if (!device_) throw Error(fmt::format("Embree cannot start: error {}", int(rtcGetDeviceError(nullptr))));
     embree_.reset(rtcNewScene(device_.get()));
-    const unsigned flags = unsigned(RTC_SCENE_FLAG_ROBUST) | unsigned(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION) |
+    const unsigned flags = unsigned(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION) |
+                           (options.robust ? unsigned(RTC_SCENE_FLAG_ROBUST) : 0u) |
                            (options.deforming ? unsigned(RTC_SCENE_FLAG_DYNAMIC) : 0u);
     rtcSetSceneFlags(embree_.get(), RTCSceneFlags(flags));
     // Only in a scene of low quality does Embree keep a hierarchy per object, which it can refit; the
@@ -177,27 +178,33 @@ bool Geometry::in_air(const glm::dvec3& low, const glm::dvec3& high) const {
     });
 }
 
-void Geometry::update(int moved, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                      Tracer::Update update) {
-    if (moved < 0 || std::size_t(moved) >= scene_.meshes.size()) {
-        throw Error(fmt::format("there is no mesh {} to move; the scene has {}", moved, scene_.meshes.size()));
+void Geometry::check_moved(const MovedMesh& moved) const {
+    if (moved.mesh < 0 || std::size_t(moved.mesh) >= scene_.meshes.size()) {
+        throw Error(fmt::format("there is no mesh {} to move; the scene has {}", moved.mesh, scene_.meshes.size()));
     }
-    const Mesh& m = scene_.meshes[std::size_t(moved)];
-    if (positions.size() != m.positions.size() || normals.size() != m.normals.size()) {
-        throw Error(fmt::format("mesh {} '{}' has {} positions and {} normals, but was given {} and {}", moved, m.name,
-                                m.positions.size(), m.normals.size(), positions.size(), normals.size()));
+    const Mesh& m = scene_.meshes[std::size_t(moved.mesh)];
+    if (moved.positions.size() != m.positions.size() || moved.normals.size() != m.normals.size()) {
+        throw Error(fmt::format("mesh {} '{}' has {} positions and {} normals, but was given {} and {}", moved.mesh,
+                                m.name, m.positions.size(), m.normals.size(), moved.positions.size(),
+                                moved.normals.size()));
     }
+}
+
+void Geometry::update(std::span<const MovedMesh> moved, Tracer::Update update) {
+    for (const MovedMesh& each : moved) check_moved(each);
     const bool refit = update == Tracer::Update::kRefit;
     if (refit && !options_.deforming) {
         throw Error("a hierarchy can only be refitted if it was built with TracerOptions::deforming");
     }
-    for (std::uint32_t i = 0; i < object_count(); ++i) {
-        if (scene_.objects[i].mesh != moved) continue;
-        place(i, positions, normals);
-        const RTCGeometry geometry = rtcGetGeometry(embree_.get(), i);
-        rtcSetGeometryBuildQuality(geometry, refit ? RTC_BUILD_QUALITY_REFIT : embree_quality(options_.quality));
-        rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-        rtcCommitGeometry(geometry);
+    for (const MovedMesh& each : moved) {
+        for (std::uint32_t i = 0; i < object_count(); ++i) {
+            if (scene_.objects[i].mesh != each.mesh) continue;
+            place(i, each.positions, each.normals);
+            const RTCGeometry geometry = rtcGetGeometry(embree_.get(), i);
+            rtcSetGeometryBuildQuality(geometry, refit ? RTC_BUILD_QUALITY_REFIT : embree_quality(options_.quality));
+            rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+            rtcCommitGeometry(geometry);
+        }
     }
     commit();
 }

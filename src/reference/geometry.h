@@ -107,6 +107,18 @@ public:
     /// Outward unit normal, interpolated between the vertices.
     glm::dvec3 shading_normal(const Hit& hit) const;
 
+    /// What a search in single precision needs: the hierarchy, whose geometries are the objects and which has no
+    /// filter function of its own; the largest magnitude of any coordinate, m; and an object's triangles.
+    RTCScene hierarchy() const { return embree_.get(); }
+    double scale() const { return scale_; }
+    bool mirrored(std::uint32_t object) const { return objects_[object].mirrored; }
+    glm::vec3 unnormalized_normal(std::uint32_t object, std::uint32_t triangle, float u, float v) const {
+        const auto& [n0, n1, n2] = objects_[object].facets[triangle].normals;
+        return (1.0f - u - v) * n0 + u * n1 + v * n2;
+    }
+    /// True where the surface has a hole by its alpha.
+    bool cut_out(std::uint32_t object, std::uint32_t triangle, double u, double v) const;
+
     /// Distance, m, to which surfaces of different objects can be told apart: the rounding of their
     /// world coordinates to float.
     double coincidence() const;
@@ -124,8 +136,7 @@ public:
     bool in_air(const glm::dvec3& low, const glm::dvec3& high) const;
 
     /// See Tracer::set_positions.
-    void update(int mesh, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                Tracer::Update update);
+    void update(std::span<const MovedMesh> moved, Tracer::Update update);
     double build_ms() const { return build_ms_; }
 
 private:
@@ -164,13 +175,13 @@ private:
         return c;
     }
     bool accepts(const Query& query, std::uint32_t object, std::uint32_t triangle) const;
-    bool cut_out(std::uint32_t object, std::uint32_t triangle, double u, double v) const;
     Hit locate(const Query& query, std::uint32_t object, std::uint32_t triangle) const;
     RTCRay embree_ray(const Query& query, unsigned id) const;
     template <int N>
     void intersect_packet(std::span<const Query> queries, std::span<const int> active, std::span<Hit> hits) const;
     static void filter(const RTCFilterFunctionNArguments* arguments);
 
+    void check_moved(const MovedMesh& moved) const;
     void place(std::uint32_t object, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
     void attach(std::uint32_t object);
     void rank_solids();

@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,6 +22,16 @@ struct Medium {
     double ior = 1.0;
     glm::dvec3 sigma_a{0.0};  ///< absorption coefficient, 1/m
 };
+
+/// Share of the light that is left after a distance, m (Beer-Lambert). No way or no absorption leaves all of it,
+/// whatever the other is.
+inline glm::dvec3 beer_lambert(const glm::dvec3& sigma_a, double distance) {
+    glm::dvec3 left(1.0);
+    for (int c = 0; c < 3; ++c) {
+        if (sigma_a[c] > 0.0 && distance > 0.0) left[c] = std::exp(-sigma_a[c] * distance);
+    }
+    return left;
+}
 
 /// What the geometry knows of one object as a solid. Only refractive objects are ever entered.
 struct Solid {

@@ -15,15 +15,6 @@ namespace {
 /// Paths are ended at random from this surface on (Russian roulette).
 constexpr std::uint32_t kRouletteFrom = 4;
 
-/// Beer-Lambert; no way or no absorption leaves all of it, whatever the other is.
-glm::dvec3 beer_lambert(const glm::dvec3& sigma_a, double distance) {
-    glm::dvec3 left(1.0);
-    for (int c = 0; c < 3; ++c) {
-        if (sigma_a[c] > 0.0 && distance > 0.0) left[c] = std::exp(-sigma_a[c] * distance);
-    }
-    return left;
-}
-
 /// Weight of a direction chosen with density `pdf` that `other` might have chosen, too (Veach 1997,
 /// section 9.2.4, exponent 2).
 double power_heuristic(double pdf, double other) {

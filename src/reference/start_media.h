@@ -28,6 +28,9 @@ public:
     }
     MediumStack around(const CameraRay& ray) const { return per_ray_ ? geometry_.solids_around(ray.origin) : fixed_; }
 
+    /// True if around() is the same for every ray.
+    bool fixed() const { return !per_ray_; }
+
 private:
     const Geometry& geometry_;
     MediumStack fixed_;

@@ -1,4 +1,5 @@
 #include "reference/exact_refraction.h"
+#include "reference/float_trace.h"
 #include "reference/geometry.h"
 #include "reference/path_tracer.h"
 
@@ -20,7 +21,8 @@ namespace {
 
 /// TBB has no more threads than cores, and says so on the terminal if it is asked for more.
 TracerOptions within_cores(TracerOptions options) {
-    options.threads = std::min(options.threads, std::uint32_t(tbb::info::default_concurrency()));
+    const std::uint32_t cores = std::uint32_t(tbb::info::default_concurrency());
+    options.threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
     return options;
 }
 
@@ -33,6 +35,7 @@ Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
 double Tracer::build_ms() const { return impl_->geometry.build_ms(); }
+std::uint32_t Tracer::threads() const { return impl_->threads; }
 
 std::vector<RefractedPath> Tracer::exact(const Camera& camera, const ExactSettings& settings,
                                          const Progress& progress) const {
@@ -45,9 +48,12 @@ PathTracedImage Tracer::path_trace(const Camera& camera, const Environment& envi
                                   progress);
 }
 
-void Tracer::set_positions(int mesh, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                           Update update) {
-    impl_->geometry.update(mesh, positions, normals, update);
+void Tracer::trace_fast(const Camera& camera, const ExactSettings& settings, std::span<glm::vec3> directions) const {
+    reference::trace_float(impl_->geometry, camera, settings, impl_->threads, directions);
+}
+
+void Tracer::set_positions(const std::vector<MovedMesh>& moved, Update update) {
+    impl_->geometry.update(moved, update);
 }
 
 }  // namespace pellucid

@@ -6,7 +6,7 @@
 
 namespace pellucid {
 
-std::vector<std::string> approximations(const Scene& scene) {
+std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique) {
     std::set<int> used;
     std::size_t refractive = 0, thin = 0, opaque = 0;
     for (const Object& object : scene.objects) {
@@ -20,11 +20,12 @@ std::vector<std::string> approximations(const Scene& scene) {
     for (const int index : used) {
         const Material& material = scene.materials[std::size_t(index)];
         const std::string name = material.name.empty() ? fmt::format("{}", index) : material.name;
-        if (material.transmissive() && material.roughness > 0.0f) {
-            lines.push_back(fmt::format("material {}: rough glass is drawn smooth", name));
-        }
         if (material.refractive() && material.dispersion > 0.0f) {
             lines.push_back(fmt::format("material {}: dispersion is not drawn", name));
+        }
+        if (technique.all_light) continue;
+        if (material.transmissive() && material.roughness > 0.0f) {
+            lines.push_back(fmt::format("material {}: rough glass is drawn smooth", name));
         }
         if (material.transmissive() && material.emission != glm::vec3(0.0f)) {
             lines.push_back(fmt::format("material {}: the emission of glass is not drawn", name));
@@ -33,7 +34,8 @@ std::vector<std::string> approximations(const Scene& scene) {
             lines.push_back(fmt::format("material {}: metal is drawn as a diffuse surface", name));
         }
     }
-    if (refractive > 1) {
+    if (technique.all_light) return lines;
+    if (refractive > 1 && !technique.many_media) {
         lines.push_back(fmt::format("behind the first surface {} refracting objects count as one solid", refractive));
     }
     if (refractive > 0 && opaque + thin > 0) {
@@ -41,8 +43,8 @@ std::vector<std::string> approximations(const Scene& scene) {
             "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
     if (!scene.lights.empty()) {
-        lines.push_back(fmt::format("{} light{} drawn by the technique path only", scene.lights.size(),
-                                    scene.lights.size() == 1 ? " is" : "s are"));
+        lines.push_back(
+            fmt::format("{} light{} not drawn", scene.lights.size(), scene.lights.size() == 1 ? " is" : "s are"));
     }
     return lines;
 }

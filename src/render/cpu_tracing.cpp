@@ -1,10 +1,12 @@
 #include "render/cpu_tracing.h"
 
+#include <utility>
+
 namespace pellucid {
 
-void CpuTracing::set_scene(const Scene& scene) {
+void CpuTracing::set_scene(Scene scene) {
     tracer_.reset();
-    scene_ = scene;
+    scene_ = std::move(scene);
 }
 
 const Tracer& CpuTracing::tracer() {

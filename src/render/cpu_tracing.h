@@ -14,7 +14,8 @@ public:
     CpuTracing(const CpuTracing&) = delete;
     CpuTracing& operator=(const CpuTracing&) = delete;
 
-    void set_scene(const Scene& scene);
+    void set_scene(Scene scene);
+    const Scene& scene() const { return scene_; }
     const Tracer& tracer();
 
 private:

@@ -105,7 +105,6 @@ struct Renderer::Impl {
     FragmentPool pool;
     vk::Extent2D pool_extent;  // the size that `pool` was measured at
     std::optional<GpuScene> scene;
-    std::vector<std::string> scene_warnings;
     Environment environment;
     std::optional<GpuImage> environment_map;
     std::optional<Buffer> constants;
@@ -113,7 +112,7 @@ struct Renderer::Impl {
     std::optional<Camera> scene_camera;  // the scene's first
     gpu::FrameConstants environment_constants{};
 
-    FrameSettings frame_settings(const RenderSettings& settings, RenderResult& result) const;
+    FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
     /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
     /// the pass times. `progress` is of this sample.
     std::vector<PassTime> run_frame(Frame frame, const FrameSettings& chosen, const RenderSettings& settings,
@@ -139,16 +138,17 @@ Camera Renderer::Impl::camera_for(const RenderSettings& settings) const {
     return framing_camera(scene->bounds, settings.width, settings.height, Camera{}.vertical_fov);
 }
 
-FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, RenderResult& result) const {
+FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const {
     const TechniqueInfo& info = find_technique(settings.technique);
     if (const std::string lacking = lacking_for(device, info); !lacking.empty()) {
         throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
     }
+    warnings = approximations(cpu.scene(), info);
     FrameSettings chosen{technique_of(info), ParameterValues(info, settings.parameters), settings.layer_builder,
                          settings.view};
     if (chosen.layer_builder == LayerBuilder::kSinglePass && !device.fragment_atomics()) {
         chosen.layer_builder = LayerBuilder::kDepthPeeling;
-        result.warnings.push_back(
+        warnings.push_back(
             fmt::format("{} has no fragment-shader atomics: layers are built by depth peeling", device.info().name));
     }
     return chosen;
@@ -233,16 +233,18 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 void Renderer::set_scene(const Scene& scene) {
     check_scene(scene);
     if (!scene.cameras.empty()) check_camera(scene.cameras.front());
+    Scene copy = scene;
     impl_->scene.reset();  // freed first: a large scene may fit once only
     impl_->pool = {};
+    impl_->cpu.set_scene(Scene{});
+    impl_->scene_camera.reset();
     try {
         impl_->scene.emplace(impl_->device, scene);
     } catch (...) {
         impl_->scene.emplace(impl_->device, Scene{});
         throw;
     }
-    impl_->cpu.set_scene(scene);
-    impl_->scene_warnings = approximations(scene);
+    impl_->cpu.set_scene(std::move(copy));
     impl_->scene_camera = scene.cameras.empty() ? std::nullopt : std::optional(scene.cameras.front());
 }
 
@@ -266,8 +268,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     Impl& impl = *impl_;
     check_settings(settings, impl.device);
     RenderResult result;
-    result.warnings = impl.scene_warnings;
-    const FrameSettings chosen = impl.frame_settings(settings, result);
+    const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
     const Frame frame{
         impl.workspace, *impl.scene, *impl.constants, *impl.environment_map, {settings.width, settings.height}};
     impl.workspace.trim();
@@ -288,6 +289,11 @@ RenderResult Renderer::render(const RenderSettings& settings) {
 }
 
 const Tracer& Renderer::tracer() { return impl_->cpu.tracer(); }
+void Renderer::check(const RenderSettings& settings) const {
+    check_settings(settings, impl_->device);
+    std::vector<std::string> warnings;
+    impl_->frame_settings(settings, warnings);
+}
 const DeviceInfo& Renderer::device() const { return impl_->device.info(); }
 std::string Renderer::lacking(const TechniqueInfo& technique) const {
     return lacking_for(impl_->device, find_technique(technique.name));

@@ -55,10 +55,9 @@ float framing_distance(float vertical_fov, float share) {
     return static_cast<float>(1.0 / std::sin(half_angle));
 }
 
-Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov,
-                      float azimuth_deg) {
+Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov) {
     const float share = 0.7f * std::min(1.0f, float(width) / float(height));
-    return orbit_camera(bounds, azimuth_deg, 15.0f, framing_distance(vertical_fov, share), vertical_fov);
+    return orbit_camera(bounds, 0.0f, 15.0f, framing_distance(vertical_fov, share), vertical_fov);
 }
 
 }  // namespace pellucid

@@ -40,7 +40,7 @@ Bounds scene_bounds(const Scene& scene) {
         const glm::dvec3 d = p - glm::dvec3(center);
         radius2 = std::max(radius2, glm::dot(d, d));
     });
-    return {center, static_cast<float>(std::sqrt(radius2))};
+    return {center, static_cast<float>(std::sqrt(radius2)), glm::vec3(0.5 * (high - low))};
 }
 
 }  // namespace pellucid

@@ -21,7 +21,10 @@ class Bench(CliTest):
                                "--steps", "30", frames="7")
         for key in ("device", "driver", "version", "cpu"):
             self.assertTrue(content[key], key)
-        self.assertGreaterEqual(content["cpu_threads"], 1)
+        self.assertLessEqual(1, content["cpu_threads"])
+        self.assertLessEqual(content["cpu_threads"], len(os.sched_getaffinity(0)))
+        self.assertEqual(content["command"], "pellucid bench shape:sphere,segments=8 shape:gem --techniques "
+                         "wang-2014,one-interface --size 32x32 --frames 7 --validate --steps 30")
         runs = content["runs"]
         self.assertEqual([(run["scene"], run["technique"]) for run in runs],
                          [(scene, technique) for scene in ("shape:sphere,segments=8", "shape:gem")
@@ -36,7 +39,8 @@ class Bench(CliTest):
         self.assertEqual((run["width"], run["height"], run["objects"], run["frames"]), (32, 32, 1, 7))
         self.assertGreater(run["covered"], 0)
         self.assertGreater(run["layers"], 0)
-        for key in ("stable_share", "within_1deg", "within_1deg_stable"):
+        self.assertGreater(run["embree_within_1deg"], 0.98)
+        for key in ("stable_share", "within_1deg", "within_1deg_stable", "embree_within_1deg"):
             self.assertGreaterEqual(run[key], 0)
             self.assertLessEqual(run[key], 1)
         self.assertLessEqual({"layers", "trace", "shade"}, set(run["passes"]))
@@ -65,6 +69,32 @@ class Bench(CliTest):
         self.assertGreater(min(times), 0)
         self.assertGreater(run["embree_deforming_ms"], min(times))
         self.assertAlmostEqual(run["ratio_embree_deforming"], run["embree_deforming_ms"] / run["frame_ms"]["median"])
+
+    def test_every_frame_has_the_same_passes(self):
+        """The first frames of a block that draws one sample would be drawn otherwise."""
+        for frames in ("1", "6"):
+            run, = self.measure("shape:cube", "--techniques", "one-interface", frames=frames)["runs"]
+            self.assertEqual(run["frames"], int(frames))
+            self.assertIn("accumulate", run["passes"])
+
+    def test_threads(self):
+        self.assertEqual(self.measure("shape:cube", "--techniques", "one-interface", "--threads", "1")["cpu_threads"],
+                         1)
+
+    def test_what_is_read_is_not_overwritten(self):
+        self.write("cell.obj", TETRAHEDRON)
+        for source in ("cell.obj", "./cell.obj"):
+            self.assert_refused(self.run_cli("bench", "cell.obj", "--json", source), "cell.obj", "overwrite")
+        self.assertEqual(self.read("cell.obj").decode(), TETRAHEDRON)
+
+    def test_command_has_no_folders(self):
+        os.mkdir(self.path("models"))
+        self.write("models/cell.obj", TETRAHEDRON)
+        content = self.measure(self.path("models/cell.obj"), "--techniques", "one-interface", "--models",
+                               self.path("models"))
+        self.assertIn("bench cell.obj ", content["command"])
+        self.assertIn("--models DIR", content["command"])
+        self.assertNotIn("/", content["command"])
 
     def test_table(self):
         result = self.bench("shape:sphere", "--techniques", "one-interface")
@@ -95,6 +125,8 @@ class Bench(CliTest):
                 (["--models", "nowhere"], ("--suite", "thesis", "--models", "nowhere")),
                 (["--frames"], ("shape:sphere", "--frames", "0")),
                 (["--size"], ("shape:sphere", "--size", "big")),
+                (["size 1000000x2"], ("shape:sphere", "missing.obj", "--size", "1000000x2")),
+                (["steps"], ("missing.obj", "--techniques", "wang-2014", "--steps", "-1")),
                 (["nowhere"], ("shape:sphere", "--json", "nowhere/bench.json"))):
             with self.subTest(arguments):
                 self.assert_refused(self.run_cli("bench", *arguments), *words)

@@ -238,10 +238,10 @@ TEST(ExactRefraction, RefusesSettingsThatMakeNoSense) {
 
     const Mesh& mesh = scene.meshes[0];
     const auto rebuild = Tracer::Update::kRebuild;
-    EXPECT_THROW(tracer.set_positions(1, mesh.positions, mesh.normals, rebuild), Error);
-    EXPECT_THROW(tracer.set_positions(0, {}, mesh.normals, rebuild), Error);
-    EXPECT_THROW(tracer.set_positions(0, mesh.positions, {}, rebuild), Error);
-    EXPECT_THROW(tracer.set_positions(0, mesh.positions, mesh.normals, Tracer::Update::kRefit), Error);
+    EXPECT_THROW(tracer.set_positions({{1, mesh.positions, mesh.normals}}, rebuild), Error);
+    EXPECT_THROW(tracer.set_positions({{0, {}, mesh.normals}}, rebuild), Error);
+    EXPECT_THROW(tracer.set_positions({{0, mesh.positions, {}}}, rebuild), Error);
+    EXPECT_THROW(tracer.set_positions({{0, mesh.positions, mesh.normals}}, Tracer::Update::kRefit), Error);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "test_files.h"
 #include "traced_scenes.h"
 
+#include <pellucid/error.h>
 #include <pellucid/reference.h>
 
 #include <gtest/gtest.h>
@@ -276,10 +277,30 @@ TEST(ExactSolids, MovedMeshTracesLikeANewOne) {
     EXPECT_GT(count_different(expected, tracer.exact(camera, settings)), 0u);
     const Mesh& mesh = moved.meshes[0];
     for (const auto update : {Tracer::Update::kRefit, Tracer::Update::kRebuild, Tracer::Update::kRefit}) {
-        tracer.set_positions(0, scene.meshes[0].positions, scene.meshes[0].normals, update);
-        tracer.set_positions(0, mesh.positions, mesh.normals, update);
+        tracer.set_positions({{0, scene.meshes[0].positions, scene.meshes[0].normals}}, update);
+        tracer.set_positions({{0, mesh.positions, mesh.normals}}, update);
         EXPECT_EQ(count_different(expected, tracer.exact(camera, settings)), 0u);
         EXPECT_GT(tracer.build_ms(), 0.0);
+    }
+}
+
+TEST(ExactSolids, MeshesMoveTogetherOrNotAtAll) {
+    Scene scene = load_scene("shape:sphere,segments=16");
+    add(scene, load_scene("shape:torus,segments=24,sides=12").meshes[0], glass());
+    Scene moved = scene;
+    for (Mesh& mesh : moved.meshes)
+        for (glm::vec3& p : mesh.positions) p.y *= 1.2f;
+    const Camera camera = view_of(moved, 0.0f);
+    const ExactSettings settings{.width = 64, .height = 64};
+    const std::vector<MovedMesh> update{{0, moved.meshes[0].positions, scene.meshes[0].normals},
+                                        {1, moved.meshes[1].positions, scene.meshes[1].normals}};
+    const std::vector<RefractedPath> before = Tracer(scene).exact(camera, settings);
+    for (const auto how : {Tracer::Update::kRefit, Tracer::Update::kRebuild}) {
+        Tracer tracer(scene, {.deforming = true});
+        EXPECT_THROW(tracer.set_positions({update[0], {7, update[1].positions, update[1].normals}}, how), Error);
+        EXPECT_EQ(count_different(before, tracer.exact(camera, settings)), 0u);
+        tracer.set_positions(update, how);
+        EXPECT_EQ(count_different(Tracer(moved).exact(camera, settings), tracer.exact(camera, settings)), 0u);
     }
 }
 

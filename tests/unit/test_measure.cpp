@@ -65,6 +65,24 @@ TEST(PathError, WithoutAnAnswer) {
     EXPECT_EQ(error(kStraight, path({0.0f, std::numeric_limits<float>::infinity(), 0.0f})), 180.0f);
 }
 
+// After K events the exact path has no end either: one cut at the same place agrees with it.
+TEST(PathError, BothCut) {
+    RefractedPath exact = path({0, 0, -1}, 16), other = path(tilted(0.5), 16);
+    exact.status = Status::kEventLimit;
+    other.status = Status::kEventLimit;
+    EXPECT_NEAR(error(exact, other), 0.5, 1e-4);
+    other.direction = tilted(30.0);
+    EXPECT_NEAR(error(exact, other), 30.0, 1e-4);
+    other = exact;
+    other.events = 3;  // given up earlier
+    EXPECT_EQ(error(exact, other), 180.0f);
+    for (const Status status : {Status::kMissingLayer, Status::kLeftScreen, Status::kStepLimit}) {
+        other = exact;
+        other.status = status;
+        EXPECT_EQ(error(exact, other), 180.0f);
+    }
+}
+
 TEST(PathError, OpaqueEnds) {
     const RefractedPath exact = ending(3, {1, 2, 3}, 10.0f);  // footprint 0.01 + 10 * 0.001
     EXPECT_EQ(error(exact, ending(3, {1.0f, 2.0f, 3.019f}, 99.0f)), 0.0f);

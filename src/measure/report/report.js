@@ -64,6 +64,7 @@
     {key: "rmse", label: "RMSE", format: fixed(4), best: Math.min},
     {key: "frame_ms", label: "Frame ms", format: fixed(2), best: Math.min},
   ];
+  const PERCENTILES = ["median_deg", "p95_deg"];
   const EVENTS = [["2", "≤ 2"], ["4", "3–4"], ["more", "> 4"], ["tir", "TIR"]].flatMap(([key, label]) => [
     {key: `by_events.${key}.share`, label: `${label},\nshare %`, format: asShare},
     {key: `by_events.${key}.within_1deg`, label: "\nwithin 1° %", format: asShare, best: Math.max},
@@ -323,6 +324,7 @@
     const own = runs.filter((run) => run.technique === technique);
     const means = {technique, runs: own.length};
     for (const {key} of ACCURACY) {
+      if (PERCENTILES.includes(key)) continue;  // the mean of percentiles is no percentile
       const values = own.map((run) => valueOf(run, key)).filter((value) => value !== undefined);
       if (values.length > 0) means[key] = values.reduce((sum, value) => sum + value, 0) / values.length;
     }

@@ -6,6 +6,7 @@ namespace pellucid {
 namespace {
 
 constexpr ParameterInfo kParameters[] = {
+    kMaxEvents,
     {.name = "seed",
      .unit = "",
      .default_value = 1,
@@ -23,10 +24,8 @@ constexpr ParameterInfo kParameters[] = {
 };
 
 /// What is asked about the refraction behind the picture (AOVs, counts) is the exact path's.
-constexpr std::uint32_t kMaxEvents = 16;
-
-Refraction record(Recorder&, const Frame& frame, const Layers&, const ParameterValues&) {
-    return upload_exact_paths(frame, kMaxEvents);
+Refraction record(Recorder&, const Frame& frame, const Layers&, const ParameterValues& parameters) {
+    return upload_exact_paths(frame, parameters.whole(kMaxEvents.name));
 }
 
 PathTracedImage trace_picture(const TracedView& view, const Environment& environment, vk::Extent2D extent,
@@ -51,7 +50,9 @@ constexpr Technique kPath{
                         .year = 1986,
                         .section = ""},
              .parameters = kParameters,
-             .reference = true},
+             .reference = true,
+             .all_light = true,
+             .many_media = true},
     .layer_count = [](const ParameterValues&) { return 1u; },
     .record = record,
     .trace_picture = trace_picture,

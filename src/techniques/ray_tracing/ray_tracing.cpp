@@ -58,7 +58,8 @@ constexpr Technique kRayTracing{
     .info = {.name = "ray-tracing",
              .summary = "every interface by ray-tracing pipelines, on devices that have them",
              .source = {},
-             .parameters = kParameters},
+             .parameters = kParameters,
+             .many_media = true},
     .lacking = [](const Device& device) -> std::string {
         return device.ray_tracing() ? "" : "VK_KHR_ray_tracing_pipeline and VK_KHR_acceleration_structure";
     },

@@ -14,18 +14,10 @@ void upload_texels(const Frame& frame, const GpuImage& image, const std::vector<
     upload(frame.workspace.device(), image, 0, std::as_bytes(std::span(texels)));
 }
 
-constexpr ParameterInfo kParameters[] = {
-    {.name = "events",
-     .unit = "",
-     .default_value = 16,
-     .minimum = 1,
-     .maximum = 4095,
-     .whole = true,
-     .doc = "interface events followed"},
-};
+constexpr ParameterInfo kParameters[] = {kMaxEvents};
 
 Refraction record(Recorder&, const Frame& frame, const Layers&, const ParameterValues& parameters) {
-    return upload_exact_paths(frame, parameters.whole("events"));
+    return upload_exact_paths(frame, parameters.whole(kMaxEvents.name));
 }
 
 }  // namespace
@@ -57,7 +49,8 @@ constexpr Technique kReference{
                  "exact refraction, traced on the CPU through the triangles: what the others are measured against",
              .source = {},
              .parameters = kParameters,
-             .reference = true},
+             .reference = true,
+             .many_media = true},
     .layer_count = [](const ParameterValues&) { return 1u; },
     .record = record,
 };

@@ -1,0 +1,270 @@
+#include "reference/float_trace.h"
+
+#include "reference/exact_refraction.h"
+#include "reference/picture_tiles.h"
+#include "reference/start_media.h"
+#include "scene/check_scene.h"
+
+#include <pellucid/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pellucid::reference {
+namespace {
+
+/// Where the search begins, in units of the largest coordinate: some 32 roundings of it.
+constexpr float kStep = 32.0f * 0x1p-23f;
+
+/// View rays of CameraRays in single precision: what they are made of is linear in the pixel.
+class FloatRays {
+public:
+    FloatRays(const Camera& camera, const ExactSettings& settings) : near_(camera.near_plane) {
+        const glm::mat3 world_from_view(camera.world_from_view);
+        const float extent = camera.orthographic ? camera.vertical_extent : 2.0f * std::tan(0.5f * camera.vertical_fov);
+        const float pixel = extent / float(settings.height);
+        const glm::vec2 corner =
+            0.5f + glm::vec2(settings.shift_px) - 0.5f * glm::vec2(float(settings.width), float(settings.height));
+        const glm::vec3 right = pixel * world_from_view[0], down = -pixel * world_from_view[1];
+        const glm::vec3 film = corner.x * right + corner.y * down;
+        direction_ = -world_from_view[2];
+        origin_ = glm::vec3(camera.world_from_view[3]) + near_ * direction_;
+        depth_ = camera.far_plane > 0.0f ? camera.far_plane - near_ : std::numeric_limits<float>::infinity();
+        // A pixel to the right moves the origin and turns the direction; a perspective one by as much per metre.
+        const float turn = camera.orthographic ? 0.0f : 1.0f, move = camera.orthographic ? 1.0f : near_;
+        direction_ += turn * film;
+        origin_ += move * film;
+        turn_ = {turn * right, turn * down};
+        move_ = {move * right, move * down};
+    }
+
+    struct Ray {
+        glm::vec3 origin, direction;
+        float t_max;
+    };
+    Ray at(glm::uvec2 pixel) const {
+        const glm::vec2 p(pixel);
+        const glm::vec3 along = direction_ + p.x * turn_[0] + p.y * turn_[1];
+        const float stretch = glm::length(along);
+        return {origin_ + p.x * move_[0] + p.y * move_[1], along / stretch, depth_ * stretch};
+    }
+
+private:
+    float near_, depth_ = 0.0f;
+    glm::vec3 origin_{0.0f}, direction_{0.0f};  ///< of the first pixel's centre; per metre of depth
+    std::array<glm::vec3, 2> move_{}, turn_{};  ///< from pixel to pixel, right and down
+};
+
+/// The solid that a path is in and the one around it, with the boundaries of each that it has entered.
+struct Media {
+    std::int32_t inside = kAir, around = kAir;
+    std::int32_t depth = 0;  ///< of `inside`
+
+    void cross(std::int32_t object, bool entering, const Geometry& geometry) {
+        const std::span<const Solid> solids = geometry.solids();
+        if (object == inside) {
+            const bool closed = solids[std::size_t(object)].closed;  // else the side alone counts, as in MediumStack
+            depth = closed ? depth + (entering ? 1 : -1) : (entering ? 1 : 0);
+            if (depth == 0) *this = {around, kAir, around == kAir ? 0 : 1};
+        } else if (!entering) {
+            if (object == around) around = kAir;
+        } else if (inside == kAir || solids[std::size_t(object)].precedence > solids[std::size_t(inside)].precedence) {
+            *this = {object, inside, 1};
+        } else {
+            around = object;
+        }
+    }
+    float ior(const Geometry& geometry) const {
+        return inside == kAir ? 1.0f : float(geometry.solids()[std::size_t(inside)].medium.ior);
+    }
+};
+
+/// Refracts or totally reflects `d` at a boundary with the unit normal `n` on the side it comes from.
+glm::vec3 bend(const glm::vec3& d, const glm::vec3& n, float n_i, float n_t) {
+    if (n_i == n_t) return d;
+    const float cos_i = std::clamp(-glm::dot(d, n), 0.0f, 1.0f), eta = n_i / n_t;
+    const float sin2_t = eta * eta * (1.0f - cos_i * cos_i);
+    if (sin2_t > 1.0f) return glm::normalize(d + 2.0f * cos_i * n);
+    return glm::normalize(eta * d + (eta * cos_i - std::sqrt(1.0f - sin2_t)) * n);
+}
+
+struct Lane {
+    glm::vec3 origin, direction;
+    Media media;
+    std::uint32_t events;
+};
+
+template <int N>
+void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRayHitNt<N>& rays) {
+    if constexpr (N == 1) rtcIntersect1(scene, context, reinterpret_cast<RTCRayHit*>(&rays));
+    if constexpr (N == 4) rtcIntersect4(valid, scene, context, reinterpret_cast<RTCRayHit4*>(&rays));
+    if constexpr (N == 8) rtcIntersect8(valid, scene, context, reinterpret_cast<RTCRayHit8*>(&rays));
+    if constexpr (N == 16) rtcIntersect16(valid, scene, context, reinterpret_cast<RTCRayHit16*>(&rays));
+}
+
+/// What all paths of a picture have in common.
+struct View {
+    const Geometry& geometry;
+    const ExactSettings& settings;
+    FloatRays rays;
+    StartMedia start_media;
+    CameraRays exact_rays;  ///< where the media differ from ray to ray
+    Media media;            ///< where they do not
+};
+
+/// Paths of neighbouring pixels, traced in step.
+template <int N>
+class FloatBlock {
+public:
+    explicit FloatBlock(const View& view) : view_(view), step_(kStep * float(view.geometry.scale())) {}
+
+    void trace(glm::uvec2 first, std::span<glm::vec3> directions) {
+        const glm::uvec2 block = block_size(N), size(view_.settings.width, view_.settings.height);
+        int running = 0;
+        for (int i = 0; i < N; ++i) {
+            const glm::uvec2 pixel = first + glm::uvec2(unsigned(i) % block.x, unsigned(i) / block.x);
+            valid_[i] = pixel.x < size.x && pixel.y < size.y ? -1 : 0;
+            if (valid_[i] == 0) continue;
+            start(i, pixel);
+            ++running;
+        }
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // until they are bent
+        while (running > 0) {
+            intersect<N>(valid_.data(), view_.geometry.hierarchy(), &context, rays_);
+            context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+            for (int i = 0; i < N; ++i) {
+                if (valid_[i] == 0 || advance(i)) continue;
+                const glm::uvec2 pixel = first + glm::uvec2(unsigned(i) % block.x, unsigned(i) / block.x);
+                directions[std::size_t(pixel.y) * size.x + pixel.x] = lanes_[i].direction;
+                valid_[i] = 0;
+                --running;
+            }
+        }
+    }
+
+private:
+    void start(int i, glm::uvec2 pixel) {
+        const FloatRays::Ray ray = view_.rays.at(pixel);
+        Media media = view_.media;
+        if (!view_.start_media.fixed()) {
+            const glm::dvec2 centre = glm::dvec2(pixel) + 0.5 + view_.settings.shift_px;
+            media.inside = view_.start_media.around(view_.exact_rays.at(centre)).object();
+            media.depth = media.inside == kAir ? 0 : 1;
+        }
+        lanes_[i] = {ray.origin, ray.direction, media, 0};
+        aim(i, 0.0f, ray.t_max);
+    }
+
+    void aim(int i, float t_min, float t_max) {
+        const Lane& lane = lanes_[i];
+        RTCRayNt<N>& ray = rays_.ray;
+        ray.org_x[i] = lane.origin.x;
+        ray.org_y[i] = lane.origin.y;
+        ray.org_z[i] = lane.origin.z;
+        ray.dir_x[i] = lane.direction.x;
+        ray.dir_y[i] = lane.direction.y;
+        ray.dir_z[i] = lane.direction.z;
+        ray.tnear[i] = t_min;
+        ray.tfar[i] = t_max;
+        ray.mask[i] = ~0u;
+        rays_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+
+    /// Goes on to what was found; false at the end of the path.
+    bool advance(int i) {
+        const RTCHitNt<N>& hit = rays_.hit;
+        const std::uint32_t object = hit.geomID[i], triangle = hit.primID[i];
+        if (object == RTC_INVALID_GEOMETRY_ID) return false;
+        const Geometry& geometry = view_.geometry;
+        const SurfaceKind kind = geometry.kind(object);
+        if (kind == SurfaceKind::kOpaque && !geometry.cut_out(object, triangle, double(hit.u[i]), double(hit.v[i]))) {
+            return false;
+        }
+        Lane& lane = lanes_[i];
+        const float t = rays_.ray.tfar[i];
+        lane.origin += t * lane.direction;
+        if (kind == SurfaceKind::kRefractive && !cross(i, lane)) return false;
+        // The origin is off by the rounding of its coordinates and by that of the way to it.
+        aim(i, std::max(step_, kStep * t), std::numeric_limits<float>::infinity());
+        return true;
+    }
+
+    bool cross(int i, Lane& lane) {
+        const RTCHitNt<N>& hit = rays_.hit;
+        const Geometry& geometry = view_.geometry;
+        const std::uint32_t object = hit.geomID[i];
+        const glm::vec3 of_triangle(hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]);
+        const float side = glm::dot(of_triangle, lane.direction);
+        const bool entering = (side < 0.0f) != geometry.mirrored(object);
+        Media beyond = lane.media;
+        beyond.cross(std::int32_t(object), entering, geometry);
+        if (beyond.inside == lane.media.inside) {
+            lane.media = beyond;
+            return true;
+        }
+        if (lane.events == view_.settings.max_events) return false;
+        ++lane.events;
+        const glm::vec3 outward =
+            glm::normalize(geometry.unnormalized_normal(object, hit.primID[i], hit.u[i], hit.v[i]));
+        lane.direction =
+            bend(lane.direction, entering ? outward : -outward, lane.media.ior(geometry), beyond.ior(geometry));
+        // The side follows from the triangle, as in exact(): the interpolated normal may mean another.
+        if ((glm::dot(of_triangle, lane.direction) < 0.0f) == (side < 0.0f)) lane.media = beyond;
+        return true;
+    }
+
+    const View& view_;
+    float step_;
+    alignas(64) RTCRayHitNt<N> rays_{};
+    alignas(64) std::array<int, N> valid_{};
+    std::array<Lane, N> lanes_{};
+};
+
+template <int N>
+void trace_blocks(const View& view, std::uint32_t threads, std::span<glm::vec3> directions) {
+    const glm::uvec2 block = block_size(N);
+    for_each_tile({view.settings.width, view.settings.height}, threads, [&](glm::uvec2 first, glm::uvec2 end) {
+        FloatBlock<N> paths(view);
+        for (std::uint32_t y = first.y; y < end.y; y += block.y) {
+            for (std::uint32_t x = first.x; x < end.x; x += block.x) paths.trace({x, y}, directions);
+        }
+    });
+}
+
+}  // namespace
+
+void trace_float(const Geometry& geometry, const Camera& camera, const ExactSettings& settings, std::uint32_t threads,
+                 std::span<glm::vec3> directions) {
+    check_exact_settings(settings);
+    check_camera(camera);
+    if (directions.size() != std::size_t(settings.width) * settings.height) {
+        throw Error(
+            fmt::format("a picture of {}x{} has no {} pixels", settings.width, settings.height, directions.size()));
+    }
+    const CameraRays exact_rays(camera, settings.width, settings.height);
+    const glm::dvec2 size(settings.width, settings.height);
+    View view{geometry, settings, FloatRays(camera, settings), StartMedia(geometry, exact_rays, size), exact_rays, {}};
+    if (view.start_media.fixed()) {
+        view.media.inside = view.start_media.around(exact_rays.at(0.5 * size)).object();
+        view.media.depth = view.media.inside == kAir ? 0 : 1;
+    }
+    switch (settings.packet) {
+        case 4:
+            return trace_blocks<4>(view, threads, directions);
+        case 8:
+            return trace_blocks<8>(view, threads, directions);
+        case 16:
+            return trace_blocks<16>(view, threads, directions);
+        default:
+            return trace_blocks<1>(view, threads, directions);
+    }
+}
+
+}  // namespace pellucid::reference
