@@ -92,6 +92,16 @@ Image display_image(vk::Extent2D extent, const std::vector<std::byte>& data) {
     return image;
 }
 
+/// Adds what an earlier attempt at the frame did and this one need not do again, as building a hierarchy.
+std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std::vector<PassTime>& earlier) {
+    for (const PassTime& pass : earlier) {
+        const bool repeated =
+            std::any_of(times.begin(), times.end(), [&](const PassTime& time) { return time.name == pass.name; });
+        if (!repeated) times.push_back(pass);
+    }
+    return times;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -171,9 +181,10 @@ std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings
         traced.emplace(TracedView{cpu.tracer(), camera_for(settings), jitter, progress});
         frame.traced = &*traced;
     }
+    std::vector<PassTime> times;
     for (;;) {
         images.emplace(record_frame(recorder, frame, chosen, pool));
-        std::vector<PassTime> times = recorder.submit_and_wait();
+        times = with_missing_passes(recorder.submit_and_wait(), times);
         if (chosen.layer_builder != LayerBuilder::kSinglePass || !fragment_pool_overflowed(frame, pool)) return times;
     }
 }
