@@ -9,13 +9,11 @@
 
 #include <pellucid/error.h>
 
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <mutex>
 
@@ -129,8 +127,7 @@ PathTracedImage trace_paths(const Geometry& geometry, const Scene& scene, const 
         image.cut_paths += cut;
         if (progress) progress(double(++done) / double(tiles));
     };
-    const int cores = tbb::info::default_concurrency();  // TBB complains if asked for more
-    tbb::task_arena arena(threads > 0 ? std::min(int(threads), cores) : cores);
+    tbb::task_arena arena(threads > 0 ? int(threads) : tbb::task_arena::automatic);
     arena.execute([&] { tbb::parallel_for(0u, tiles, paint_tile); });
     return image;
 }
