@@ -39,13 +39,14 @@ vk::DeviceAddress align_up(vk::DeviceAddress address, vk::DeviceSize alignment) 
 
 AccelerationStructure::AccelerationStructure(const Device& device, std::string name, Triangles triangles,
                                              StructureUse use)
-    : primitive_count_(triangles.vertex_count / 3) {
+    : primitive_count_(triangles.corner_count / 3) {
     check_count(device, name, "triangles", primitive_count_, device.ray_tracing()->max_triangles);
     const vk::AccelerationStructureGeometryTrianglesDataKHR data{.vertexFormat = vk::Format::eR32G32B32Sfloat,
                                                                  .vertexData = triangles.vertices,
                                                                  .vertexStride = triangles.stride,
                                                                  .maxVertex = std::max(triangles.vertex_count, 1u) - 1,
-                                                                 .indexType = vk::IndexType::eNoneKHR};
+                                                                 .indexType = vk::IndexType::eUint32,
+                                                                 .indexData = triangles.indices};
     geometry_ = vk::AccelerationStructureGeometryKHR{
         .geometryType = vk::GeometryTypeKHR::eTriangles, .geometry = data, .flags = vk::GeometryFlagBitsKHR::eOpaque};
     create(device, std::move(name), Type::eBottomLevel, use);

@@ -18,11 +18,14 @@ enum class StructureUse {
 /// or placements of such structures. Empty until Recorder::build(). Needs Device::ray_tracing().
 class AccelerationStructure {
 public:
-    /// Triangles, three vertices each, `stride` bytes apart; a vertex begins with its position (3 floats).
+    /// Triangles: three 32-bit indices each into vertices `stride` bytes apart, which begin with their position
+    /// (3 floats).
     struct Triangles {
         vk::DeviceAddress vertices;
         std::uint32_t stride;
         std::uint32_t vertex_count;
+        vk::DeviceAddress indices;
+        std::uint32_t corner_count;
     };
     /// Records of vk::AccelerationStructureInstanceKHR.
     struct Instances {

@@ -6,22 +6,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace pellucid {
 namespace {
 
-struct GeometryVertex {
+struct Vertex {
     glm::vec3 position;
     glm::vec3 normal;
 };
-static_assert(sizeof(GeometryVertex) == kGeometryStride);
+static_assert(sizeof(Vertex) == kVertexStride);
 
-struct AppearanceVertex {
+struct Appearance {
     glm::vec2 texcoord[2];
     std::uint32_t color;
 };
-static_assert(sizeof(AppearanceVertex) == 20);
+static_assert(sizeof(Appearance) == 20);
 
 std::uint32_t pack_color(glm::vec4 color) {
     const glm::uvec4 c(glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f);
@@ -35,38 +36,46 @@ Buffer upload_buffer(const Device& device, const char* name, const std::vector<T
     return buffer;
 }
 
-/// Corner-expanded vertices of every mesh, one after the other.
-struct VertexStreams {
-    std::vector<GeometryVertex> geometry;
-    std::vector<AppearanceVertex> appearance;
-    std::vector<std::uint32_t> first_vertex;  // per mesh
+/// Vertices and triangles of every mesh, one after the other.
+struct Geometry {
+    std::vector<std::uint32_t> indices;
+    std::vector<Vertex> vertices;
+    std::vector<Appearance> appearance;
+    std::vector<std::uint32_t> first_corner;  // per mesh, in `indices`
 };
 
-VertexStreams expand_meshes(const Scene& scene) {
-    std::size_t corners = 0;
-    for (const Mesh& mesh : scene.meshes) corners += 3 * mesh.triangles.size();
-    if (corners > std::numeric_limits<std::int32_t>::max()) {
+void append(Geometry& geometry, const Mesh& mesh) {
+    const auto first_vertex = std::uint32_t(geometry.vertices.size());
+    geometry.first_corner.push_back(std::uint32_t(geometry.indices.size()));
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        Appearance look{};
+        for (int set = 0; set < 2; ++set) {
+            if (!mesh.texcoords[set].empty()) look.texcoord[set] = mesh.texcoords[set][v];
+        }
+        look.color = mesh.colors.empty() ? ~0u : pack_color(mesh.colors[v]);
+        geometry.vertices.push_back({mesh.positions[v], mesh.normals[v]});
+        geometry.appearance.push_back(look);
+    }
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        for (int corner = 0; corner < 3; ++corner) geometry.indices.push_back(first_vertex + triangle[corner]);
+    }
+}
+
+Geometry join_meshes(const Scene& scene) {
+    std::size_t corners = 0, vertices = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        corners += 3 * mesh.triangles.size();
+        vertices += mesh.positions.size();
+    }
+    if (std::max(corners, vertices) > std::numeric_limits<std::int32_t>::max()) {
         throw Error(fmt::format("{}: {} triangles are more than can be addressed", scene.source, corners / 3));
     }
-    VertexStreams streams;
-    streams.geometry.reserve(corners);
-    streams.appearance.reserve(corners);
-    for (const Mesh& mesh : scene.meshes) {
-        streams.first_vertex.push_back(std::uint32_t(streams.geometry.size()));
-        for (const glm::uvec3& triangle : mesh.triangles) {
-            for (int corner = 0; corner < 3; ++corner) {
-                const std::uint32_t v = triangle[corner];
-                AppearanceVertex look{};
-                for (int set = 0; set < 2; ++set) {
-                    if (!mesh.texcoords[set].empty()) look.texcoord[set] = mesh.texcoords[set][v];
-                }
-                look.color = mesh.colors.empty() ? ~0u : pack_color(mesh.colors[v]);
-                streams.geometry.push_back({mesh.positions[v], mesh.normals[v]});
-                streams.appearance.push_back(look);
-            }
-        }
-    }
-    return streams;
+    Geometry geometry;
+    geometry.indices.reserve(corners);
+    geometry.vertices.reserve(vertices);
+    geometry.appearance.reserve(vertices);
+    for (const Mesh& mesh : scene.meshes) append(geometry, mesh);
+    return geometry;
 }
 
 gpu::MaterialRecord material_record(const Material& material, TextureTable& textures) {
@@ -98,25 +107,8 @@ void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, st
 
 }  // namespace
 
-std::vector<std::uint32_t> stream_strides(bool with_appearance) {
-    std::vector<std::uint32_t> strides{sizeof(GeometryVertex)};
-    if (with_appearance) strides.push_back(sizeof(AppearanceVertex));
-    return strides;
-}
-
-std::vector<Program::VertexAttribute> vertex_attributes(bool with_appearance) {
-    std::vector<Program::VertexAttribute> attributes{{vk::Format::eR32G32B32Sfloat, 0, 0},
-                                                     {vk::Format::eR32G32B32Sfloat, 0, 12}};
-    if (with_appearance) {
-        attributes.push_back({vk::Format::eR32G32Sfloat, 1, 0});
-        attributes.push_back({vk::Format::eR32G32Sfloat, 1, 8});
-        attributes.push_back({vk::Format::eR8G8B8A8Unorm, 1, 16});
-    }
-    return attributes;
-}
-
 GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_bounds(scene)) {
-    const VertexStreams streams = expand_meshes(scene);
+    const Geometry geometry = join_meshes(scene);
     TextureTable texture_table(scene);
     std::vector<gpu::MaterialRecord> material_records;
     for (const Material& material : scene.materials)
@@ -133,10 +125,10 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
         record.first_triangle = std::uint32_t(triangle_count);
         first_triangles.push_back(record.first_triangle);
         world_from_object.push_back(object.world_from_object);
-        record.first_vertex = streams.first_vertex[std::size_t(object.mesh)];
+        record.first_corner = geometry.first_corner[std::size_t(object.mesh)];
         record.mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0f ? 1u : 0u;
 
-        const DrawCall call{record.first_vertex, std::uint32_t(3 * mesh.triangles.size()),
+        const DrawCall call{record.first_corner, std::uint32_t(3 * mesh.triangles.size()),
                             std::uint32_t(object_records.size())};
         auto& list = material.refractive() ? refractive : material.transmissive() ? thin_walled : opaque;
         list.push_back(call);
@@ -152,14 +144,17 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
         throw Error(fmt::format("{}: {} triangles are more than can be addressed", scene.source, triangle_count));
     }
     object_count = std::uint32_t(object_records.size());
+    vertex_count = std::uint32_t(geometry.vertices.size());
 
     using Usage = vk::BufferUsageFlagBits;
-    vk::BufferUsageFlags geometry_usage = Usage::eVertexBuffer;
+    vk::BufferUsageFlags geometry_usage = Usage::eStorageBuffer;
     if (device.ray_tracing()) {
         geometry_usage |= Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress;
     }
-    geometry = upload_buffer(device, "the scene's vertices", streams.geometry, geometry_usage);
-    appearance = upload_buffer(device, "the scene's texture coordinates", streams.appearance, Usage::eVertexBuffer);
+    indices = upload_buffer(device, "the scene's triangles", geometry.indices, geometry_usage);
+    vertices = upload_buffer(device, "the scene's vertices", geometry.vertices, geometry_usage);
+    appearance =
+        upload_buffer(device, "the scene's texture coordinates", geometry.appearance, Usage::eStorageBuffer);
     objects = upload_buffer(device, "the scene's objects", object_records, Usage::eStorageBuffer);
     materials = upload_buffer(device, "the scene's materials", material_records, Usage::eStorageBuffer);
     texture_pages = texture_table.upload_pages(device);

@@ -12,13 +12,15 @@ namespace pellucid {
 
 /// A Scene in device memory.
 ///
-/// Vertices are stored per triangle corner, so that a shader knows the triangle from gl_VertexIndex
-/// alone: gl_PrimitiveID in a fragment shader would need an optional feature (geometryShader).
+/// Shaders fetch vertices from storage buffers (vertices.glsl): vertex shaders by gl_VertexIndex, which counts
+/// triangle corners and so tells the triangle (gl_PrimitiveID in a fragment shader would need an optional
+/// feature, geometryShader), compute shaders by the triangle of a layer record.
 struct GpuScene {
     GpuScene(const Device& device, const Scene& scene);
 
-    Buffer geometry;    ///< vertex stream: position, normal (6 floats)
-    Buffer appearance;  ///< vertex stream: texcoord 0, texcoord 1 (4 floats), colour (RGBA8)
+    Buffer indices;     ///< per triangle corner, the vertex; meshes one after the other
+    Buffer vertices;    ///< per vertex: position, normal (6 floats, in the frame of its mesh)
+    Buffer appearance;  ///< per vertex: texcoord 0, texcoord 1 (4 floats), colour (RGBA8)
     Buffer objects;     ///< ObjectRecord[]
     Buffer materials;   ///< MaterialRecord[]
     Buffer textures;    ///< TextureRecord[]
@@ -26,6 +28,7 @@ struct GpuScene {
 
     std::uint32_t object_count = 0;
     std::uint64_t triangle_count = 0;
+    std::uint32_t vertex_count = 0;
     std::vector<std::uint32_t> first_triangles;  ///< per object; ascending
     std::vector<glm::mat4> world_from_object;    ///< per object
     std::vector<DrawCall> refractive;            ///< solids of glass
@@ -36,11 +39,7 @@ struct GpuScene {
     std::vector<glm::vec3> refractive_corners;  ///< corners of the refractive objects' boxes, world
 };
 
-/// Bytes from one vertex of GpuScene::geometry to the next.
-inline constexpr std::uint32_t kGeometryStride = 24;
-
-/// Layout of the two vertex streams; pass `with_appearance` where a shader wants locations 2 to 4.
-std::vector<std::uint32_t> stream_strides(bool with_appearance);
-std::vector<Program::VertexAttribute> vertex_attributes(bool with_appearance);
+/// Bytes from one vertex of GpuScene::vertices to the next.
+inline constexpr std::uint32_t kVertexStride = 24;
 
 }  // namespace pellucid

@@ -87,15 +87,25 @@ void Program::make_layouts(const Device& device) {
                                                     .pPushConstantRanges = &range});
 }
 
-Program Program::compute(const Device& device, ShaderCode shader) {
+Program Program::compute(const Device& device, ShaderCode shader, std::span<const std::uint32_t> constants) {
     Program program;
     program.name_ = shader.name;
     program.bind_point_ = vk::PipelineBindPoint::eCompute;
     program.reflect(shader, vk::ShaderStageFlagBits::eCompute);
     program.make_layouts(device);
     const vk::raii::ShaderModule module = make_module(device, shader);
-    program.pipeline_ = device.handle().createComputePipeline(
-        nullptr, {.stage = stage_info(vk::ShaderStageFlagBits::eCompute, module), .layout = *program.layout_});
+    std::vector<vk::SpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < constants.size(); ++i) {
+        entries.push_back({.constantID = i, .offset = i * 4, .size = 4});
+    }
+    const vk::SpecializationInfo specialization{.mapEntryCount = std::uint32_t(entries.size()),
+                                                .pMapEntries = entries.data(),
+                                                .dataSize = constants.size_bytes(),
+                                                .pData = constants.data()};
+    vk::PipelineShaderStageCreateInfo stage = stage_info(vk::ShaderStageFlagBits::eCompute, module);
+    if (!constants.empty()) stage.pSpecializationInfo = &specialization;
+    program.pipeline_ =
+        device.handle().createComputePipeline(nullptr, {.stage = stage, .layout = *program.layout_});
     return program;
 }
 
@@ -111,20 +121,7 @@ Program Program::graphics(const Device& device, const Graphics& state) {
     const std::array stages = {stage_info(vk::ShaderStageFlagBits::eVertex, vertex),
                                stage_info(vk::ShaderStageFlagBits::eFragment, fragment)};
 
-    std::vector<vk::VertexInputBindingDescription> streams;
-    for (std::uint32_t i = 0; i < state.stream_strides.size(); ++i) {
-        streams.push_back({.binding = i, .stride = state.stream_strides[i], .inputRate = vk::VertexInputRate::eVertex});
-    }
-    std::vector<vk::VertexInputAttributeDescription> attributes;
-    for (std::uint32_t i = 0; i < state.attributes.size(); ++i) {
-        const VertexAttribute& a = state.attributes[i];
-        attributes.push_back({.location = i, .binding = a.stream, .format = a.format, .offset = a.offset});
-    }
-    const vk::PipelineVertexInputStateCreateInfo vertex_input{
-        .vertexBindingDescriptionCount = std::uint32_t(streams.size()),
-        .pVertexBindingDescriptions = streams.data(),
-        .vertexAttributeDescriptionCount = std::uint32_t(attributes.size()),
-        .pVertexAttributeDescriptions = attributes.data()};
+    const vk::PipelineVertexInputStateCreateInfo vertex_input{};
     const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
     const vk::PipelineRasterizationStateCreateInfo raster{.polygonMode = vk::PolygonMode::eFill,
@@ -139,10 +136,10 @@ Program Program::graphics(const Device& device, const Graphics& state) {
         .blendEnable = state.blend != Blend::kReplace,
         .srcColorBlendFactor = state.blend == Blend::kMultiply ? vk::BlendFactor::eDstColor : vk::BlendFactor::eOne,
         .dstColorBlendFactor = state.blend == Blend::kAdd ? vk::BlendFactor::eOne : vk::BlendFactor::eZero,
-        .colorBlendOp = vk::BlendOp::eAdd,
+        .colorBlendOp = state.blend == Blend::kMax ? vk::BlendOp::eMax : vk::BlendOp::eAdd,
         .srcAlphaBlendFactor = vk::BlendFactor::eOne,
         .dstAlphaBlendFactor = vk::BlendFactor::eZero,
-        .alphaBlendOp = vk::BlendOp::eAdd,
+        .alphaBlendOp = state.blend == Blend::kMax ? vk::BlendOp::eMax : vk::BlendOp::eAdd,
         .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA};
     const std::vector<vk::PipelineColorBlendAttachmentState> blends(state.colors.size(), blend);
     const vk::PipelineColorBlendStateCreateInfo color{.attachmentCount = std::uint32_t(blends.size()),

@@ -27,7 +27,7 @@ struct BindingSlot {
 };
 
 /// How a fragment's colour joins what the target holds.
-enum class Blend { kReplace, kMultiply, kAdd };
+enum class Blend { kReplace, kMultiply, kAdd, kMax };
 
 /// Shader stages of a ray-tracing program.
 inline constexpr vk::ShaderStageFlags kRayTracingStages =
@@ -36,21 +36,15 @@ inline constexpr vk::ShaderStageFlags kRayTracingStages =
 /// A compute, graphics or ray-tracing pipeline with the bindings its shaders declare.
 class Program {
 public:
-    /// Workgroup size is the shader's own.
-    static Program compute(const Device& device, ShaderCode shader);
+    /// Workgroup size is the shader's own. `constants` are its specialization constants 0, 1, ...
+    static Program compute(const Device& device, ShaderCode shader, std::span<const std::uint32_t> constants = {});
 
-    struct VertexAttribute {
-        vk::Format format;
-        std::uint32_t stream;  ///< index of the vertex buffer
-        std::uint32_t offset;  ///< bytes
-    };
+    /// Vertex shaders fetch their vertices themselves (gpu/vertices.glsl).
     struct Graphics {
         ShaderCode vertex;
         ShaderCode fragment;
-        std::vector<std::uint32_t> stream_strides;  ///< bytes per vertex of each vertex buffer
-        std::vector<VertexAttribute> attributes;    ///< location = index
-        std::vector<vk::Format> colors;             ///< attachments; empty draws without any
-        bool depth = false;                         ///< D32 attachment, nearest fragment wins
+        std::vector<vk::Format> colors;  ///< attachments; empty draws without any
+        bool depth = false;              ///< D32 attachment, nearest fragment wins
         Blend blend = Blend::kReplace;
     };
     static Program graphics(const Device& device, const Graphics& state);

@@ -208,9 +208,17 @@ void Recorder::compute_bytes(const Program& program, std::span<const Binding> bi
                        (threads.height + group.height - 1) / group.height, 1);
 }
 
+void Recorder::compute_indirect_bytes(const Program& program, std::span<const Binding> bindings,
+                                      std::span<const std::byte> push, const Buffer& arguments) {
+    std::vector<Use> uses;
+    bind(program, bindings, push, uses);
+    uses.push_back({arguments.id(), Stage::eDrawIndirect, AccessBit::eIndirectCommandRead, false});
+    synchronise(uses);
+    commands_.dispatchIndirect(arguments.handle(), 0);
+}
+
 void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
-                          const RenderTarget& target, std::span<const Buffer* const> streams,
-                          std::span<const DrawCall> calls) {
+                          const RenderTarget& target, std::span<const DrawCall> calls) {
     std::vector<Use> uses;
     bind(program, bindings, push, uses);
     const auto attachment = [](const RenderTarget::Attachment& a) {
@@ -244,10 +252,7 @@ void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindi
     const vk::Viewport viewport{0.0f, 0.0f, float(target.extent.width), float(target.extent.height), 0.0f, 1.0f};
     commands_.setViewport(0, viewport);
     commands_.setScissor(0, target.scissor.extent.width > 0 ? target.scissor : everything);
-    for (std::uint32_t i = 0; i < streams.size(); ++i) {
-        commands_.bindVertexBuffers(i, streams[i]->handle(), vk::DeviceSize(0));
-    }
-    for (const DrawCall& call : calls) commands_.draw(call.vertex_count, 1, call.first_vertex, call.instance);
+    for (const DrawCall& call : calls) commands_.draw(call.corner_count, 1, call.first_corner, call.instance);
     commands_.endRendering();
 }
 
@@ -285,6 +290,15 @@ void Recorder::clear(const GpuImage& image, vk::ClearColorValue value) {
     synchronise(std::array{Use{image.id(), Stage::eAllTransfer, AccessBit::eTransferWrite, true}});
     const vk::ImageSubresourceRange range{
         .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = image.layers()};
+    commands_.clearColorImage(image.handle(), vk::ImageLayout::eGeneral, value, range);
+}
+
+void Recorder::clear_layer(const GpuImage& image, std::uint32_t layer, vk::ClearColorValue value) {
+    synchronise(std::array{Use{image.id(), Stage::eAllTransfer, AccessBit::eTransferWrite, true}});
+    const vk::ImageSubresourceRange range{.aspectMask = vk::ImageAspectFlagBits::eColor,
+                                          .levelCount = 1,
+                                          .baseArrayLayer = layer,
+                                          .layerCount = 1};
     commands_.clearColorImage(image.handle(), vk::ImageLayout::eGeneral, value, range);
 }
 

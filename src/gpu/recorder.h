@@ -58,10 +58,11 @@ struct RenderTarget {
     vk::Rect2D scissor;  ///< zero extent: everything
 };
 
-/// Vertices of one object; the shader sees `instance` as gl_InstanceIndex.
+/// Triangle corners of one object: the shader sees them as gl_VertexIndex, which counts in GpuScene::indices,
+/// and `instance` as gl_InstanceIndex.
 struct DrawCall {
-    std::uint32_t first_vertex;
-    std::uint32_t vertex_count;
+    std::uint32_t first_corner;
+    std::uint32_t corner_count;
     std::uint32_t instance;
 };
 
@@ -96,15 +97,25 @@ public:
         compute_bytes(program, bindings, {}, threads);
     }
 
+    /// Runs as many workgroups as the first three words of `arguments` say when the device gets there.
+    template <class Push>
+    void compute_indirect(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
+                          const Buffer& arguments) {
+        compute_indirect_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), arguments);
+    }
+    void compute_indirect(const Program& program, std::initializer_list<Binding> bindings, const Buffer& arguments) {
+        compute_indirect_bytes(program, bindings, {}, arguments);
+    }
+
     template <class Push>
     void draw(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
-              const RenderTarget& target, std::span<const Buffer* const> streams, std::span<const DrawCall> calls) {
-        draw_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), target, streams, calls);
+              const RenderTarget& target, std::span<const DrawCall> calls) {
+        draw_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), target, calls);
     }
 
     void draw(const Program& program, std::initializer_list<Binding> bindings, const RenderTarget& target,
-              std::span<const Buffer* const> streams, std::span<const DrawCall> calls) {
-        draw_bytes(program, bindings, {}, target, streams, calls);
+              std::span<const DrawCall> calls) {
+        draw_bytes(program, bindings, {}, target, calls);
     }
 
     /// Launches one ray generation per pixel of `rays`. Throws Error if that is more than the device launches.
@@ -118,6 +129,7 @@ public:
                std::span<const ResourceId> inputs, const BuildScratch& scratch);
 
     void clear(const GpuImage& image, vk::ClearColorValue value);
+    void clear_layer(const GpuImage& image, std::uint32_t layer, vk::ClearColorValue value);
     void fill(const Buffer& buffer, std::uint32_t word);
     void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes);
 
@@ -150,9 +162,10 @@ private:
 
     void compute_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
                        vk::Extent2D threads);
+    void compute_indirect_bytes(const Program& program, std::span<const Binding> bindings,
+                                std::span<const std::byte> push, const Buffer& arguments);
     void draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
-                    const RenderTarget& target, std::span<const Buffer* const> streams,
-                    std::span<const DrawCall> calls);
+                    const RenderTarget& target, std::span<const DrawCall> calls);
     void trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
                      vk::Extent2D rays);
     void synchronise(std::span<const Use> uses);

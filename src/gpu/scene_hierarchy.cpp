@@ -27,18 +27,21 @@ vk::TransformMatrixKHR transform_rows(const glm::mat4& m) {
 }  // namespace
 
 SceneHierarchy::SceneHierarchy(const Device& device, const GpuScene& scene, StructureUse use)
-    : use_(use), vertices_(scene.geometry.id()) {
+    : use_(use), vertices_(scene.vertices.id()) {
     if (scene.object_count > kMaxCustomIndex) {
         throw Error(fmt::format("{} objects: ray tracing numbers at most {}", scene.object_count, kMaxCustomIndex));
     }
-    std::map<std::pair<std::uint32_t, std::uint32_t>, vk::DeviceAddress> known;  // mesh by its vertices -> structure
+    std::map<std::pair<std::uint32_t, std::uint32_t>, vk::DeviceAddress> known;  // mesh by its triangles -> structure
     std::vector<vk::AccelerationStructureInstanceKHR> instances;
     for (const DrawCall& object : scene.refractive) {
-        const auto [mesh, is_new] = known.try_emplace({object.first_vertex, object.vertex_count}, 0);
+        const auto [mesh, is_new] = known.try_emplace({object.first_corner, object.corner_count}, 0);
         if (is_new) {
             const AccelerationStructure::Triangles triangles{
-                scene.geometry.address() + vk::DeviceSize(object.first_vertex) * kGeometryStride, kGeometryStride,
-                object.vertex_count};
+                .vertices = scene.vertices.address(),
+                .stride = kVertexStride,
+                .vertex_count = scene.vertex_count,
+                .indices = scene.indices.address() + vk::DeviceSize(object.first_corner) * sizeof(std::uint32_t),
+                .corner_count = object.corner_count};
             meshes_.emplace_back(device, "a mesh's acceleration structure", triangles, use);
             mesh->second = meshes_.back().address();
         }
@@ -64,7 +67,7 @@ SceneHierarchy::SceneHierarchy(const Device& device, const GpuScene& scene, Stru
 }
 
 bool SceneHierarchy::is_of(const GpuScene& scene, StructureUse use) const {
-    return scene.geometry.id() == vertices_ && use == use_;
+    return scene.vertices.id() == vertices_ && use == use_;
 }
 
 void SceneHierarchy::update(Recorder& recorder) {

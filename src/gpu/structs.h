@@ -51,7 +51,7 @@ struct ObjectRecord {
     mat4 world_from_object_normal;  // inverse transpose
     uint material;
     uint first_triangle;  // of this object among all objects' triangles
-    uint first_vertex;    // of its mesh in the vertex buffers
+    uint first_corner;    // of its mesh in GpuScene::indices
     uint mirrored;        // 1: the transform turns the winding around
 };
 

@@ -1,13 +1,18 @@
 #include "gpu/workspace.h"
 
+#include <fmt/format.h>
+
+#include <span>
 #include <utility>
 
 namespace pellucid {
 
-const Program& Workspace::compute(ShaderCode shader) {
-    auto found = programs_.find(shader.name);
+const Program& Workspace::compute(ShaderCode shader, std::initializer_list<std::uint32_t> constants) {
+    std::string name(shader.name);
+    for (const std::uint32_t constant : constants) name += fmt::format(" {}", constant);
+    auto found = programs_.find(name);
     if (found == programs_.end()) {
-        found = programs_.emplace(shader.name, Program::compute(device_, shader)).first;
+        found = programs_.emplace(name, Program::compute(device_, shader, std::span(constants))).first;
     }
     return found->second;
 }
@@ -62,7 +67,7 @@ const Buffer& Workspace::buffer(std::string_view name, vk::DeviceSize size, bool
     return buffers_
         .emplace(std::string(name),
                  Entry<Buffer>{Buffer(device_, std::string(name), size,
-                                      Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst, host_visible)})
+                                      Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eTransferSrc | Usage::eTransferDst, host_visible)})
         .first->second.resource;
 }
 

@@ -5,6 +5,7 @@
 #include "gpu/scene_hierarchy.h"
 
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,8 +21,8 @@ public:
 
     const Device& device() const { return device_; }
 
-    /// Programs are made once and kept.
-    const Program& compute(ShaderCode shader);
+    /// Programs are made once and kept. `constants` are the shader's specialization constants.
+    const Program& compute(ShaderCode shader, std::initializer_list<std::uint32_t> constants = {});
     const Program& graphics(const Program::Graphics& state);
     const Program& ray_tracing(const Program::RayTracing& shaders);
 

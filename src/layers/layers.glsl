@@ -1,15 +1,16 @@
 #ifndef PELLUCID_LAYERS_LAYERS_GLSL
 #define PELLUCID_LAYERS_LAYERS_GLSL
 
-// Reading layer records; see layers.h.
+// Layer records; see layers.h.
 #include "gpu/structs.h"
 #include "gpu/octahedral.glsl"
 
 struct Fragment {
-    float depth;      // metres along -Z of the view
-    uint normal;      // octahedral, world
-    uint triangle;    // with PELLUCID_BACK_FACE
+    float depth;    // metres along -Z of the view
+    uint triangle;  // with PELLUCID_BACK_FACE
 };
+
+const Fragment kNoFragment = Fragment(PELLUCID_EMPTY_DEPTH, PELLUCID_NO_TRIANGLE);
 
 uint triangle_index(uint triangle) { return triangle & ~PELLUCID_BACK_FACE; }
 bool back_face(uint triangle) { return (triangle & PELLUCID_BACK_FACE) != 0u; }

@@ -2,42 +2,79 @@
 
 #include "gpu/frame.h"
 
+#include <pellucid/renderer.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+
 namespace pellucid {
+
+/// The nearest opaque surface of each pixel.
+struct Opaque {
+    const GpuImage& radiance;  ///< RGBA32F, scene-linear
+    const GpuImage& depth;     ///< R32F, metres; PELLUCID_EMPTY_DEPTH where there is none
+    const GpuImage& object;    ///< R32UI, its index; undefined where there is none
+};
+
+class LayerSource;
 
 /// Per pixel, the glass surfaces that the view ray crosses, nearest first.
 ///
 /// Layer k of `depth` (R32F) holds linear eye depth in metres, PELLUCID_EMPTY_DEPTH where there is
-/// no k-th surface; layer k of `surface` (RG32UI) holds the interpolated world normal (octahedral)
-/// and the triangle: its index over all objects, with PELLUCID_BACK_FACE set where the view ray
-/// leaves the solid. The object follows from the triangle (find_object in objects.glsl).
+/// no k-th surface; of `triangle` (R32UI) its index over all objects, with PELLUCID_BACK_FACE set where
+/// the view ray leaves the solid, PELLUCID_NO_TRIANGLE where there is none; of `normal` (R32UI) the interpolated
+/// world normal (octahedral), undefined where there is none. The object follows from the triangle (find_object in
+/// objects.glsl).
 ///
-/// Order is by depth and, where depths are equal, by triangle index, in every builder. A pixel whose
-/// first surface lies behind an opaque one has no layers; opaque surfaces further back cut nothing.
+/// Order is by depth and, where depths are equal, by triangle index, in every builder.
 struct Layers {
     const GpuImage& depth;
-    const GpuImage& surface;
+    const GpuImage& triangle;
+    const GpuImage& normal;
+    const Buffer& covered;  ///< the pixels that have layers, see pixel_list.glsl; arguments of compute_indirect()
     std::uint32_t count;
+    const Opaque& opaque;
+    LayerSource& source;  ///< builds more, for techniques that look at objects one by one
 };
 
-/// One geometry pass per layer: Everitt, "Interactive Order-Independent Transparency", NVIDIA 2001.
-/// `opaque_depth` is R32F, PELLUCID_EMPTY_DEPTH where nothing opaque is seen.
-Layers peel_layers(Recorder& recorder, const Frame& frame, std::uint32_t count, const GpuImage& opaque_depth);
+/// Which layers are wanted.
+struct LayerRequest {
+    std::span<const DrawCall> solids;
+    std::uint32_t count;
+    /// A pixel whose first surface lies behind an opaque one has no layers; opaque surfaces further back cut
+    /// nothing. False: nothing opaque hides anything.
+    bool hidden_by_opaque = true;
+    /// Layers of different names may be looked at side by side; those of one name replace each other.
+    std::string name = "layer";
+};
 
-/// Room for the fragments of single_pass_layers(). Kept from frame to frame; grows by measurement.
+/// Room for the fragments of the single pass: measured in one frame, used in the next.
 struct FragmentPool {
     std::uint32_t capacity = 0;  ///< fragments; 0: choose
     std::uint32_t bands = 1;     ///< the picture is done in this many horizontal bands
 };
 
-/// One geometry pass for all layers: per-pixel linked lists (Yang et al., "Real-Time Concurrent
-/// Linked List Construction on the GPU", EGSR 2010), of which a compute pass selects the `count`
-/// nearest. Needs Device::fragment_atomics(). After the frame ask fragment_pool_overflowed().
-Layers single_pass_layers(Recorder& recorder, const Frame& frame, std::uint32_t count, const GpuImage& opaque_depth,
-                          FragmentPool& pool);
+/// Builds the layers of a frame, as often as it is asked to. Lives from frame to frame and learns from each how
+/// much room the next one needs.
+class LayerSource {
+public:
+    explicit LayerSource(FragmentPool pool = {}) : pool_(pool) {}
 
-/// True if the last single_pass_layers() ran out of room: `pool` has been enlarged (by more memory
-/// or, where the device's binding limit is reached, by more bands) and the frame must be recorded
-/// again. Throws Error if one row of pixels alone is too much for the device.
-bool fragment_pool_overflowed(const Frame& frame, FragmentPool& pool);
+    /// Before the first build() of a frame.
+    void begin_frame(LayerBuilder builder) { builder_ = builder, builds_ = 0; }
+    Layers build(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
+    /// After the frame has run: true if something did not fit. What build() does next will, and the frame must be
+    /// recorded again. Throws Error if the device has no room for it.
+    bool must_repeat(const Frame& frame);
+
+private:
+    Layers peel(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
+    Layers gather(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
+
+    LayerBuilder builder_ = LayerBuilder::kSinglePass;
+    std::uint32_t builds_ = 0;  ///< in this frame
+    FragmentPool pool_;
+};
 
 }  // namespace pellucid

@@ -6,23 +6,25 @@
 
 layout(set = 0, binding = 2, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 3, r32f) readonly uniform image2D last_depth;
-layout(set = 0, binding = 4, rg32ui) readonly uniform uimage2D last_surface;
-layout(push_constant) uniform Push { uint layer; };
+layout(set = 0, binding = 4, r32ui) readonly uniform uimage2D last_triangle;
+layout(push_constant) uniform Push {
+    uint layer;
+    uint hidden_by_opaque;
+};
 
 layout(location = 0) out float out_depth;
-layout(location = 1) out uvec2 out_surface;
+layout(location = 1) out uint out_triangle;
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     Fragment fragment = rasterised_fragment();
     if (layer == 0u) {
-        if (fragment.depth >= imageLoad(opaque_depth, ivec3(texel, 0)).r) discard;
+        if (hidden_by_opaque != 0u && fragment.depth >= imageLoad(opaque_depth, ivec3(texel, 0)).r) discard;
     } else {
-        uvec2 surface = imageLoad(last_surface, texel).rg;
-        Fragment last = Fragment(imageLoad(last_depth, texel).r, surface.x, surface.y);
+        Fragment last = Fragment(imageLoad(last_depth, texel).r, imageLoad(last_triangle, texel).r);
         if (!is_behind(fragment, last)) discard;
     }
     out_depth = fragment.depth;
-    out_surface = uvec2(fragment.normal, fragment.triangle);
+    out_triangle = fragment.triangle;
     gl_FragDepth = fragment.depth * frame.depth_scale;
 }

@@ -1,4 +1,8 @@
-#include "layers/layers.h"
+// One geometry pass for all layers: per-pixel linked lists (Yang et al., "Real-Time Concurrent Linked List
+// Construction on the GPU", EGSR 2010), of which a compute pass selects the nearest. Needs
+// Device::fragment_atomics().
+#include "layers/layer_images.h"
+#include "layers/pixel_list.h"
 
 #include <pellucid/error.h>
 
@@ -21,7 +25,7 @@ constexpr std::uint32_t kSelectLayersCompute[] = {
 #include "select_layers.comp.inc"
 };
 
-constexpr vk::DeviceSize kNodeSize = 16;
+constexpr vk::DeviceSize kNodeSize = 12;
 
 std::uint32_t largest_pool(const Device& device) {
     const vk::DeviceSize bytes = std::min<vk::DeviceSize>(device.max_storage_binding(), device.max_allocation());
@@ -34,36 +38,38 @@ std::uint32_t first_guess(const Frame& frame) {
     return std::uint32_t(std::clamp<std::uint64_t>(fragments, 1024, largest_pool(frame.workspace.device())));
 }
 
+/// Fragments per band of each build of a frame. A frame builds all solids together, and each of them alone at most.
+vk::DeviceSize counter_bytes(const Frame& frame, const FragmentPool& pool) {
+    return vk::DeviceSize(frame.scene.refractive.size() + 1) * pool.bands * sizeof(std::uint32_t);
+}
+
 const Buffer& counters_on_host(const Frame& frame, const FragmentPool& pool) {
-    return frame.workspace.buffer("fragment counts", pool.bands * sizeof(std::uint32_t), true);
+    return frame.workspace.buffer("fragment counts", counter_bytes(frame, pool), true);
 }
 
 }  // namespace
 
-Layers single_pass_layers(Recorder& recorder, const Frame& frame, std::uint32_t count, const GpuImage& opaque_depth,
-                          FragmentPool& pool) {
-    if (pool.capacity == 0) pool.capacity = first_guess(frame);
-    pool.bands = std::min(pool.bands, frame.extent.height);
+Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request) {
+    if (pool_.capacity == 0) pool_.capacity = first_guess(frame);
+    pool_.bands = std::min(pool_.bands, frame.extent.height);
     Workspace& workspace = frame.workspace;
     const Program& gather = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
                                                 .fragment = {"gather_fragments.frag", kGatherFragmentsFragment},
-                                                .stream_strides = stream_strides(false),
-                                                .attributes = vertex_attributes(false),
                                                 .colors = {}});
     const Program& select = workspace.compute({"select_layers.comp", kSelectLayersCompute});
-    const GpuImage& depth = workspace.image("layer depth", vk::Format::eR32Sfloat, frame.extent, count);
-    const GpuImage& surface = workspace.image("layer surface", vk::Format::eR32G32Uint, frame.extent, count);
+    const LayerImages images = allocate_layers(frame, request);
     const GpuImage& heads = workspace.image("fragment list heads", vk::Format::eR32Uint, frame.extent);
-    const Buffer& nodes = workspace.buffer("fragments", pool.capacity * kNodeSize);
-    const Buffer& counters = workspace.buffer("fragment counters", pool.bands * sizeof(std::uint32_t));
-    const Buffer& host_counters = counters_on_host(frame, pool);
-    const std::array<const Buffer*, 1> streams = {&frame.scene.geometry};
+    const Buffer& nodes = workspace.buffer("fragments", pool_.capacity * kNodeSize);
+    const Buffer& counters = workspace.buffer("fragment counters", counter_bytes(frame, pool_));
+    const std::string list_name = request.name + " pixels";
 
-    const Recorder::Scope scope(recorder, "layers");
     recorder.clear(heads, vk::ClearColorValue(std::array{0u, 0u, 0u, 0u}));
-    recorder.fill(counters, 0);
-    const std::uint32_t band_rows = (frame.extent.height + pool.bands - 1) / pool.bands;
-    for (std::uint32_t band = 0; band < pool.bands; ++band) {
+    recorder.clear(images.depth, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
+    recorder.clear(images.triangle, vk::ClearColorValue(std::array{PELLUCID_NO_TRIANGLE, 0u, 0u, 0u}));
+    if (builds_ == 0) recorder.fill(counters, 0);
+    const std::uint32_t band_rows = (frame.extent.height + pool_.bands - 1) / pool_.bands;
+    const Buffer* listed = nullptr;
+    for (std::uint32_t band = 0; band < pool_.bands; ++band) {
         const std::uint32_t first_row = std::min(band * band_rows, frame.extent.height);
         const std::uint32_t rows = std::min(band_rows, frame.extent.height - first_row);
         if (rows == 0) break;
@@ -73,34 +79,46 @@ Layers single_pass_layers(Recorder& recorder, const Frame& frame, std::uint32_t 
                                   .scissor = {{0, std::int32_t(first_row)}, {frame.extent.width, rows}}};
         recorder.draw(gather,
                       {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+                       reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
                        updates("Counters", counters), writes("Nodes", nodes), updates("heads", heads)},
-                      std::array{band, pool.capacity}, target, streams, frame.scene.refractive);
-        recorder.compute(select,
-                         {reads("Nodes", nodes), reads("heads", heads), reads("opaque_depth", opaque_depth),
-                          writes("layer_depth", depth), writes("layer_surface", surface)},
-                         std::array{first_row, first_row + rows, count}, {frame.extent.width, rows});
+                      std::array{builds_ * pool_.bands + band, pool_.capacity}, target, request.solids);
+        listed = &list_pixels(recorder, frame, heads, 0, list_name, first_row, first_row + rows);
+        recorder.compute_indirect(
+            select,
+            {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+             reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices), reads("PixelList", *listed),
+             reads("Nodes", nodes), reads("heads", heads), reads("opaque_depth", opaque.depth),
+             writes("layer_depth", images.depth), writes("layer_triangle", images.triangle),
+             writes("layer_normal", images.normal)},
+            std::array{request.count, request.hidden_by_opaque ? 1u : 0u}, *listed);
     }
-    recorder.copy(counters, host_counters, counters.size());
-    return {depth, surface, count};
+    ++builds_;
+    recorder.copy(counters, counters_on_host(frame, pool_), counters.size());
+    // The list of the last band is that of the picture only if there is one band and nothing opaque.
+    if (pool_.bands > 1 || (request.hidden_by_opaque && !frame.scene.opaque.empty())) {
+        listed = &list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height);
+    }
+    return {images.depth, images.triangle, images.normal, *listed, request.count, opaque, *this};
 }
 
-bool fragment_pool_overflowed(const Frame& frame, FragmentPool& pool) {
-    const Buffer& counters = counters_on_host(frame, pool);
+bool LayerSource::must_repeat(const Frame& frame) {
+    if (builder_ != LayerBuilder::kSinglePass || builds_ == 0) return false;
+    const Buffer& counters = counters_on_host(frame, pool_);
     std::uint32_t needed = 0;
-    for (std::uint32_t band = 0; band < pool.bands; ++band) {
+    for (std::uint32_t i = 0; i < builds_ * pool_.bands; ++i) {
         std::uint32_t fragments = 0;
-        std::memcpy(&fragments, counters.mapped() + band * sizeof(fragments), sizeof(fragments));
+        std::memcpy(&fragments, counters.mapped() + i * sizeof(fragments), sizeof(fragments));
         needed = std::max(needed, fragments);
     }
-    if (needed <= pool.capacity) return false;
+    if (needed <= pool_.capacity) return false;
 
     const std::uint32_t largest = largest_pool(frame.workspace.device());
     if (needed <= largest) {
-        pool.capacity = std::uint32_t(std::min<std::uint64_t>(largest, std::uint64_t(needed) + needed / 4));
-    } else if (pool.bands < frame.extent.height) {
-        pool.capacity = largest;
-        const std::uint64_t wanted = std::uint64_t(pool.bands) * (std::uint64_t(needed) / largest + 1);
-        pool.bands = std::uint32_t(std::min<std::uint64_t>(wanted, frame.extent.height));
+        pool_.capacity = std::uint32_t(std::min<std::uint64_t>(largest, std::uint64_t(needed) + needed / 4));
+    } else if (pool_.bands < frame.extent.height) {
+        pool_.capacity = largest;
+        const std::uint64_t wanted = std::uint64_t(pool_.bands) * (std::uint64_t(needed) / largest + 1);
+        pool_.bands = std::uint32_t(std::min<std::uint64_t>(wanted, frame.extent.height));
     } else {
         throw Error(fmt::format("{} glass surfaces in one row of pixels; {} has room for {}", needed,
                                 frame.workspace.device().info().name, largest));

@@ -34,11 +34,6 @@ std::vector<T> read(const Device& device, const GpuImage& image, std::uint32_t l
     return values;
 }
 
-struct Surface {
-    std::uint32_t normal;
-    std::uint32_t triangle;
-};
-
 /// Twin of unpack_unit_vector() in octahedral.glsl.
 glm::vec3 unpack_unit_vector(std::uint32_t packed) {
     const auto snorm = [](std::uint32_t bits) {
@@ -93,31 +88,85 @@ Image surface_aov(const Device& device, std::string_view name, const Layers& lay
         return scalar_image(extent,
                             [&](std::size_t i) { return depth[i] < float(PELLUCID_EMPTY_DEPTH) ? depth[i] : 0.0f; });
     }
-    const auto surface = read<Surface>(device, layers.surface);
+    const auto triangles = read<std::uint32_t>(device, layers.triangle);
     if (name == "object") {
-        return scalar_image(extent,
-                            [&](std::size_t i) { return object_of_triangle(first_triangles, surface[i].triangle); });
+        return scalar_image(extent, [&](std::size_t i) { return object_of_triangle(first_triangles, triangles[i]); });
     }
-    std::vector<glm::vec4> normals(surface.size(), glm::vec4(0.0f));
-    for (std::size_t i = 0; i < surface.size(); ++i) {
-        if (surface[i].triangle != PELLUCID_NO_TRIANGLE)
-            normals[i] = glm::vec4(unpack_unit_vector(surface[i].normal), 0.0f);
+    const auto packed = read<std::uint32_t>(device, layers.normal);
+    std::vector<glm::vec4> normals(packed.size(), glm::vec4(0.0f));
+    for (std::size_t i = 0; i < packed.size(); ++i) {
+        if (triangles[i] != PELLUCID_NO_TRIANGLE) normals[i] = glm::vec4(unpack_unit_vector(packed[i]), 0.0f);
     }
     return vector_image(extent, normals);
 }
 
-Image make_aov(const Device& device, std::string_view name, const FrameImages& images,
-               const std::vector<PathEvents>& events, const std::vector<std::uint32_t>& first_triangles) {
-    const vk::Extent2D extent = images.layers.depth.extent();
-    if (name == "exit-direction")
-        return vector_image(extent, read<glm::vec4>(device, images.refraction.exit_direction));
-    if (name == "exit-position") return vector_image(extent, read<glm::vec4>(device, images.refraction.exit_position));
+/// Twin of camera_ray() in camera.glsl, in the world: the view ray through the centre of a pixel.
+struct ViewRay {
+    glm::vec3 origin, direction;
+};
+ViewRay view_ray(const gpu::FrameConstants& view, std::uint32_t x, std::uint32_t y) {
+    const glm::vec2 film(view.film.x + (float(x) + 0.5f) * view.film.z, view.film.y - (float(y) + 0.5f) * view.film.w);
+    const bool orthographic = view.orthographic != 0;
+    const glm::vec3 origin = orthographic ? glm::vec3(film, 0.0f) : glm::vec3(0.0f);
+    const glm::vec3 direction = orthographic ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::normalize(glm::vec3(film, -1.0f));
+    return {glm::vec3(view.world_from_view * glm::vec4(origin, 1.0f)),
+            glm::normalize(glm::mat3(view.world_from_view) * direction)};
+}
+
+/// A finished refraction on the host: where there is no glass, the view ray.
+class HostRefraction {
+public:
+    HostRefraction(const Device& device, const Refraction& refraction, const gpu::FrameConstants& view)
+        : device_(device), refraction_(refraction), view_(view) {
+        for (const std::uint32_t word : read<std::uint32_t>(device, refraction.events)) {
+            events_.push_back(unpack_events(word));
+        }
+    }
+    const std::vector<PathEvents>& events() const { return events_; }
+    std::vector<glm::vec4> exit_directions() const {
+        return filled(refraction_.exit_direction,
+                      [](const ViewRay& ray) { return glm::vec4(ray.direction, 0.0f); });
+    }
+    std::vector<glm::vec4> exit_positions() const {
+        return filled(refraction_.exit_position,
+                      [](const ViewRay& ray) { return glm::vec4(ray.origin, kEndsInEnvironment); });
+    }
+    std::vector<glm::vec4> transmittances() const {
+        return filled(refraction_.transmittance, [](const ViewRay&) { return glm::vec4(1.0f); });
+    }
+
+private:
+    template <class Fill>
+    std::vector<glm::vec4> filled(const GpuImage& image, Fill fill) const {
+        auto texels = read<glm::vec4>(device_, image);
+        if (refraction_.everywhere) return texels;
+        const std::uint32_t width = image.extent().width;
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            if (events_[i].interfaces == 0) {
+                texels[i] = fill(view_ray(view_, std::uint32_t(i % width), std::uint32_t(i / width)));
+            }
+        }
+        return texels;
+    }
+
+    const Device& device_;
+    const Refraction& refraction_;
+    const gpu::FrameConstants& view_;
+    std::vector<PathEvents> events_;
+};
+
+Image make_aov(const Device& device, std::string_view name, const Layers& layers, const HostRefraction& refraction,
+               const std::vector<std::uint32_t>& first_triangles) {
+    const vk::Extent2D extent = layers.depth.extent();
+    const std::vector<PathEvents>& events = refraction.events();
+    if (name == "exit-direction") return vector_image(extent, refraction.exit_directions());
+    if (name == "exit-position") return vector_image(extent, refraction.exit_positions());
     if (name == "exit-object") {
-        const auto positions = read<glm::vec4>(device, images.refraction.exit_position);
+        const auto positions = refraction.exit_positions();
         return scalar_image(extent, [&](std::size_t i) { return positions[i].w; });
     }
     if (name == "path-length") {
-        const auto directions = read<glm::vec4>(device, images.refraction.exit_direction);
+        const auto directions = refraction.exit_directions();
         return scalar_image(extent, [&](std::size_t i) { return directions[i].w; });
     }
     if (name == "events") {
@@ -129,12 +178,12 @@ Image make_aov(const Device& device, std::string_view name, const FrameImages& i
         return image;
     }
     if (name == "status") return scalar_image(extent, [&](std::size_t i) { return float(events[i].status); });
-    if (name == "layers") return layer_count_image(device, images.layers);
-    return surface_aov(device, name, images.layers, first_triangles);
+    if (name == "layers") return layer_count_image(device, layers);
+    return surface_aov(device, name, layers, first_triangles);
 }
 
-std::vector<RefractedPath> read_paths(const Device& device, const Refraction& refraction,
-                                      const std::vector<PathEvents>& events) {
+std::vector<RefractedPath> read_paths(const HostRefraction& refraction) {
+    const std::vector<PathEvents>& events = refraction.events();
     std::vector<RefractedPath> paths(events.size());
     for (std::size_t i = 0; i < paths.size(); ++i) {
         paths[i].events = std::uint16_t(events[i].interfaces);
@@ -143,19 +192,18 @@ std::vector<RefractedPath> read_paths(const Device& device, const Refraction& re
         paths[i].side_conflict = events[i].side_conflict;
     }
     // One image at a time: at 4K each is 133 MB.
-    const auto for_each_texel = [&](const GpuImage& image, auto&& take) {
-        const auto texels = read<glm::vec4>(device, image);
+    const auto for_each_texel = [&](const std::vector<glm::vec4>& texels, auto&& take) {
         for (std::size_t i = 0; i < paths.size(); ++i) take(paths[i], texels[i]);
     };
-    for_each_texel(refraction.exit_direction, [](RefractedPath& path, const glm::vec4& texel) {
+    for_each_texel(refraction.exit_directions(), [](RefractedPath& path, const glm::vec4& texel) {
         path.direction = texel;
         path.length_inside = texel.w;
     });
-    for_each_texel(refraction.exit_position, [](RefractedPath& path, const glm::vec4& texel) {
+    for_each_texel(refraction.exit_positions(), [](RefractedPath& path, const glm::vec4& texel) {
         path.position = texel;
         path.object = std::int32_t(texel.w);
     });
-    for_each_texel(refraction.transmittance,
+    for_each_texel(refraction.transmittances(),
                    [](RefractedPath& path, const glm::vec4& texel) { path.transmittance = texel; });
     return paths;
 }
@@ -174,22 +222,20 @@ void check_aov_names(const std::vector<std::string>& names) {
     }
 }
 
-void read_back(const Device& device, const FrameImages& images, const std::vector<std::uint32_t>& first_triangles,
-               const RenderSettings& settings, RenderResult& result) {
-    const auto words = read<std::uint32_t>(device, images.refraction.events);
-    std::vector<PathEvents> events;
-    events.reserve(words.size());
-    for (const std::uint32_t word : words) {
-        events.push_back(unpack_events(word));
-        if (events.back().interfaces == 0) continue;
+void read_back(const Device& device, const FrameImages& images, const gpu::FrameConstants& view,
+               const std::vector<std::uint32_t>& first_triangles, const RenderSettings& settings,
+               RenderResult& result) {
+    const HostRefraction refraction(device, images.refraction, view);
+    for (const PathEvents& events : refraction.events()) {
+        if (events.interfaces == 0) continue;
         ++result.covered;
-        ++result.status.at(std::size_t(events.back().status));
-        result.side_conflicts += events.back().side_conflict ? 1 : 0;
+        ++result.status.at(std::size_t(events.status));
+        result.side_conflicts += events.side_conflict ? 1 : 0;
     }
     for (const std::string& name : settings.aovs) {
-        result.aovs[name] = make_aov(device, name, images, events, first_triangles);
+        result.aovs[name] = make_aov(device, name, images.layers, refraction, first_triangles);
     }
-    if (settings.paths) result.paths = read_paths(device, images.refraction, events);
+    if (settings.paths) result.paths = read_paths(refraction);
 }
 
 }  // namespace pellucid

@@ -11,8 +11,8 @@ namespace pellucid {
 void check_aov_names(const std::vector<std::string>& names);
 
 /// Reads back from a finished frame what `settings` ask for: the AOVs and paths, and the counts of `result`.
-/// `first_triangles`: GpuScene::first_triangles.
-void read_back(const Device& device, const FrameImages& images, const std::vector<std::uint32_t>& first_triangles,
-               const RenderSettings& settings, RenderResult& result);
+/// `view` is what the frame was drawn with, `first_triangles` GpuScene::first_triangles.
+void read_back(const Device& device, const FrameImages& images, const gpu::FrameConstants& view,
+               const std::vector<std::uint32_t>& first_triangles, const RenderSettings& settings, RenderResult& result);
 
 }  // namespace pellucid

@@ -1,21 +1,11 @@
 #include "render/frame.h"
 
 namespace pellucid {
-namespace {
-
-Layers build_layers(Recorder& recorder, const Frame& frame, const FrameSettings& settings, const Opaque& opaque,
-                    FragmentPool& pool) {
-    const std::uint32_t count = settings.technique.layer_count(settings.parameters);
-    return settings.layer_builder == LayerBuilder::kSinglePass
-               ? single_pass_layers(recorder, frame, count, opaque.depth, pool)
-               : peel_layers(recorder, frame, count, opaque.depth);
-}
-
-}  // namespace
-
-FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, FragmentPool& pool) {
+FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source) {
+    const std::uint32_t layer_count = settings.technique.layer_count(settings.parameters);
+    source.begin_frame(settings.layer_builder);
     const Opaque opaque = draw_opaque(recorder, frame);
-    const Layers layers = build_layers(recorder, frame, settings, opaque, pool);
+    const Layers layers = source.build(recorder, frame, opaque, {frame.scene.refractive, layer_count});
     const Refraction refraction = settings.technique.record(recorder, frame, layers, settings.parameters);
     const SurfaceLook look = draw_surface_look(recorder, frame, opaque, layers);
     const GpuImage& radiance = shade(recorder, frame, opaque, layers, look, refraction, settings.view);

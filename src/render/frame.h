@@ -20,7 +20,7 @@ struct FrameImages {
     const GpuImage& radiance;  ///< RGBA32F, scene-linear
 };
 
-/// Records one frame: the whole renderer in five lines.
-FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, FragmentPool& pool);
+/// Records one frame: the whole renderer in five lines. To be recorded again if `source` must_repeat().
+FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source);
 
 }  // namespace pellucid

@@ -112,8 +112,8 @@ struct Renderer::Impl {
     Workspace workspace;
     Recorder recorder;
     CpuTracing cpu;
-    FragmentPool pool;
-    vk::Extent2D pool_extent;  // the size that `pool` was measured at
+    LayerSource layer_source;
+    vk::Extent2D layer_extent;  // the size that `layer_source` has learnt from
     std::optional<GpuScene> scene;
     Environment environment;
     std::optional<GpuImage> environment_map;
@@ -183,9 +183,9 @@ std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings
     }
     std::vector<PassTime> times;
     for (;;) {
-        images.emplace(record_frame(recorder, frame, chosen, pool));
+        images.emplace(record_frame(recorder, frame, chosen, layer_source));
         times = with_missing_passes(recorder.submit_and_wait(), times);
-        if (chosen.layer_builder != LayerBuilder::kSinglePass || !fragment_pool_overflowed(frame, pool)) return times;
+        if (!layer_source.must_repeat(frame)) return times;
     }
 }
 
@@ -197,7 +197,9 @@ Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const
     const bool alone = draws && settings.samples == 1;
     std::vector<PassTime> times =
         run_frame(frame, chosen, settings, {0.0f, 0.0f}, alone ? settings.progress : Progress(), images);
-    read_back(device, *images, scene->first_triangles, settings, result);
+    gpu::FrameConstants view{};
+    std::memcpy(&view, constants->mapped(), sizeof(view));
+    read_back(device, *images, view, scene->first_triangles, settings, result);
     if (!draws) return trace_picture(frame, chosen, settings, result);
     if (alone) {
         result.frames.push_back(std::move(times));
@@ -246,7 +248,7 @@ void Renderer::set_scene(const Scene& scene) {
     if (!scene.cameras.empty()) check_camera(scene.cameras.front());
     Scene copy = scene;
     impl_->scene.reset();  // freed first: a large scene may fit once only
-    impl_->pool = {};
+    impl_->layer_source = LayerSource();
     impl_->cpu.set_scene(Scene{});
     impl_->scene_camera.reset();
     try {
@@ -281,9 +283,10 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
     const Frame frame{
-        impl.workspace, *impl.scene, *impl.constants, *impl.environment_map, {settings.width, settings.height}};
+        impl.workspace, *impl.scene, *impl.constants, *impl.environment_map, std::uint32_t(impl.environment.kind),
+        {settings.width, settings.height}};
     impl.workspace.trim();
-    if (std::exchange(impl.pool_extent, frame.extent) != frame.extent) impl.pool = {};
+    if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source = LayerSource();
     try {
         const auto [radiance, scale] = impl.render_samples(frame, chosen, settings, result);
         const GpuImage& display =
@@ -293,7 +296,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
         result.display = display_image(frame.extent, download(impl.device, display, 0));
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
-        impl.pool = {};
+        impl.layer_source = LayerSource();
         throw;
     }
     return result;

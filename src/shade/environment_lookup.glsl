@@ -4,9 +4,15 @@
 // Radiance of the environment that is set. Needs: frame, environment_map (texture2D).
 #include "shade/environment.glsl"
 
+// Programs that are made for one kind of environment define PELLUCID_ENVIRONMENT_KIND: some drivers run all kinds
+// for every pixel otherwise.
+#ifndef PELLUCID_ENVIRONMENT_KIND
+#define PELLUCID_ENVIRONMENT_KIND frame.environment_kind
+#endif
+
 vec3 environment_radiance(vec3 direction) {
-    if (frame.environment_kind == 0u) return map_radiance(environment_map, direction);
-    return procedural_radiance(frame.environment_kind, frame.environment_uniform.rgb, direction);
+    if (PELLUCID_ENVIRONMENT_KIND == kEnvironmentMap) return map_radiance(environment_map, direction);
+    return procedural_radiance(PELLUCID_ENVIRONMENT_KIND, frame.environment_uniform.rgb, direction);
 }
 
 #endif

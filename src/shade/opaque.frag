@@ -2,9 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shade/surface_fragment.glsl"
 #include "shade/diffuse.glsl"
+layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
+#include "layers/objects.glsl"
 
 layout(location = 0) out vec4 out_radiance;
 layout(location = 1) out float out_depth;
+layout(location = 2) out uint out_object;
 
 void main() {
     MaterialRecord material = materials[material_index];
@@ -18,5 +21,6 @@ void main() {
     }
     out_radiance = vec4(radiance, 1.0);
     out_depth = eye_depth;
+    out_object = find_object(triangle);
     gl_FragDepth = eye_depth * frame.depth_scale;
 }

@@ -20,6 +20,9 @@ constexpr std::uint32_t kThinTint[] = {
 constexpr std::uint32_t kThinReflection[] = {
 #include "thin_reflection.frag.inc"
 };
+constexpr std::uint32_t kBackground[] = {
+#include "background.comp.inc"
+};
 constexpr std::uint32_t kShade[] = {
 #include "shade.comp.inc"
 };
@@ -36,15 +39,9 @@ constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;  // 32-bit float t
 Program::Graphics surface_program(ShaderCode fragment, std::vector<vk::Format> colors, Blend blend, bool depth) {
     return {.vertex = {"surface.vert", kSurfaceVertex},
             .fragment = fragment,
-            .stream_strides = stream_strides(true),
-            .attributes = vertex_attributes(true),
             .colors = std::move(colors),
             .depth = depth,
             .blend = blend};
-}
-
-std::array<const Buffer*, 2> surface_streams(const Frame& frame) {
-    return {&frame.scene.geometry, &frame.scene.appearance};
 }
 
 }  // namespace
@@ -52,23 +49,28 @@ std::array<const Buffer*, 2> surface_streams(const Frame& frame) {
 Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     Workspace& workspace = frame.workspace;
     const Program& program = workspace.graphics(
-        surface_program({"opaque.frag", kOpaque}, {kRadianceFormat, vk::Format::eR32Sfloat}, Blend::kReplace, true));
+        surface_program({"opaque.frag", kOpaque}, {kRadianceFormat, vk::Format::eR32Sfloat, vk::Format::eR32Uint},
+                        Blend::kReplace, true));
     const GpuImage& radiance = workspace.image("opaque radiance", kRadianceFormat, frame.extent);
     const GpuImage& depth = workspace.image("opaque depth", vk::Format::eR32Sfloat, frame.extent);
+    const GpuImage& object = workspace.image("opaque object", vk::Format::eR32Uint, frame.extent);
     const GpuImage& nearest = workspace.image("opaque depth test", vk::Format::eD32Sfloat, frame.extent);
 
     const Recorder::Scope scope(recorder, "opaque");
     const RenderTarget target{
         .extent = frame.extent,
-        .colors = {{&radiance, 0, clear_to(0.0f)}, {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))}},
+        .colors = {{&radiance, 0, clear_to(0.0f)},
+                   {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
+                   {&object, 0, clear_to({0u, 0u, 0u, 0u})}},
         .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
         .scissor = {}};
     recorder.draw(program,
                   {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                   reads("Materials", frame.scene.materials), reads("Textures", frame.scene.textures),
-                   reads("texture_pages", frame.scene.texture_pages)},
-                  target, surface_streams(frame), frame.scene.opaque);
-    return {radiance, depth};
+                   reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
+                   reads("Appearance", frame.scene.appearance), reads("Materials", frame.scene.materials),
+                   reads("Textures", frame.scene.textures), reads("texture_pages", frame.scene.texture_pages)},
+                  target, frame.scene.opaque);
+    return {radiance, depth, object};
 }
 
 SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers) {
@@ -86,44 +88,63 @@ SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaq
         return RenderTarget{
             .extent = frame.extent, .colors = {{&image, 0, clear_to(clear)}}, .depth = {}, .scissor = {}};
     };
-    const auto streams = surface_streams(frame);
     const GpuScene& scene = frame.scene;
 
     const Recorder::Scope scope(recorder, "surface look");
     recorder.draw(glass,
                   {reads("Frame", frame.constants), reads("Objects", scene.objects),
-                   reads("Materials", scene.materials), reads("Textures", scene.textures),
-                   reads("texture_pages", scene.texture_pages), reads("layer_surface", layers.surface)},
-                  target(glass_tint, 1.0f), streams, scene.textured_refractive);
+                   reads("Indices", scene.indices), reads("Vertices", scene.vertices),
+                   reads("Appearance", scene.appearance), reads("Materials", scene.materials), reads("Textures", scene.textures),
+                   reads("texture_pages", scene.texture_pages), reads("layer_triangle", layers.triangle)},
+                  target(glass_tint, 1.0f), scene.textured_refractive);
     recorder.draw(
         tint,
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+         reads("Vertices", scene.vertices), reads("Appearance", scene.appearance), reads("Materials", scene.materials),
          reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages),
          reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
-        target(thin_tint, 1.0f), streams, scene.thin_walled);
+        target(thin_tint, 1.0f), scene.thin_walled);
     recorder.draw(reflection,
                   {reads("Frame", frame.constants), reads("Objects", scene.objects),
-                   reads("Materials", scene.materials), reads("Textures", scene.textures),
+                   reads("Indices", scene.indices), reads("Vertices", scene.vertices),
+                   reads("Appearance", scene.appearance), reads("Materials", scene.materials), reads("Textures", scene.textures),
                    reads("texture_pages", scene.texture_pages), reads("opaque_depth", opaque.depth),
                    reads("layer_depth", layers.depth), reads_layer("environment_map", frame.environment, 0)},
-                  target(thin_reflection, 0.0f), streams, scene.thin_walled);
+                  target(thin_reflection, 0.0f), scene.thin_walled);
     return {glass_tint, thin_tint, thin_reflection};
 }
 
 const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers,
                       const SurfaceLook& look, const Refraction& refraction, View view) {
-    const GpuImage& radiance = frame.workspace.image("radiance", kRadianceFormat, frame.extent);
+    Workspace& workspace = frame.workspace;
+    const GpuImage& radiance = workspace.image("radiance", kRadianceFormat, frame.extent);
+    const std::uint32_t analysis = view == View::kAnalysis ? 1 : 0;
+    const auto any = [](const std::vector<DrawCall>& objects) { return objects.empty() ? 0u : 1u; };
+    const std::uint32_t thin_walls = any(frame.scene.thin_walled);
+    // Something of the right kind has to be bound where paths pick up nothing.
+    const GpuImage& path_radiance =
+        refraction.radiance ? *refraction.radiance : workspace.image("no radiance", kRadianceFormat, {1, 1});
+
     const Recorder::Scope scope(recorder, "shade");
-    recorder.compute(
-        frame.workspace.compute({"shade.comp", kShade}),
+    recorder.compute(workspace.compute({"background.comp", kBackground},
+                                       {frame.environment_kind, analysis, thin_walls, any(frame.scene.opaque)}),
+                     {reads("Frame", frame.constants), reads_layer("environment_map", frame.environment, 0),
+                      reads("thin_tint", look.thin_tint), reads("thin_reflection", look.thin_reflection),
+                      reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth),
+                      writes("radiance", radiance)},
+                     frame.extent);
+    recorder.compute_indirect(
+        workspace.compute({"shade.comp", kShade},
+                          {frame.environment_kind, analysis, thin_walls, any(frame.scene.textured_refractive),
+                           refraction.radiance ? 1u : 0u}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads_layer("environment_map", frame.environment, 0),
-         reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth),
-         reads("layer_surface", layers.surface), reads("glass_tint", look.glass_tint),
-         reads("thin_tint", look.thin_tint), reads("thin_reflection", look.thin_reflection),
-         reads("exit_direction", refraction.exit_direction), reads("transmittance", refraction.transmittance),
-         reads("path_events", refraction.events), writes("radiance", radiance)},
-        view == View::kAnalysis ? 1u : 0u, frame.extent);
+         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
+         reads("PixelList", layers.covered), reads("glass_tint", look.glass_tint), reads("thin_tint", look.thin_tint),
+         reads("thin_reflection", look.thin_reflection), reads("exit_direction", refraction.exit_direction),
+         reads("transmittance", refraction.transmittance), reads("path_events", refraction.events),
+         reads("path_radiance", path_radiance), writes("radiance", radiance)},
+        layers.covered);
     return radiance;
 }
 

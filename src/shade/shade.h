@@ -7,12 +7,6 @@
 
 namespace pellucid {
 
-/// The nearest opaque surface of each pixel.
-struct Opaque {
-    const GpuImage& radiance;  ///< RGBA32F, scene-linear
-    const GpuImage& depth;     ///< R32F, metres; PELLUCID_EMPTY_DEPTH where there is none
-};
-
 /// Draws opaque objects: base colour as a diffuse reflector under the environment's irradiance
 /// (no shadows, no highlights), unlit materials as they are, emission added.
 Opaque draw_opaque(Recorder& recorder, const Frame& frame);

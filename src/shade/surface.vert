@@ -4,11 +4,8 @@
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 
-layout(location = 0) in vec3 object_position;
-layout(location = 1) in vec3 object_normal;
-layout(location = 2) in vec2 first_texcoord;
-layout(location = 3) in vec2 second_texcoord;
-layout(location = 4) in vec4 color;
+#include "gpu/vertices.glsl"
+layout(std430, set = 0, binding = 22) readonly buffer Appearance { uint appearance[]; };  // see gpu_scene.h
 
 layout(location = 0) out vec3 world_normal;
 layout(location = 1) out vec4 texcoords;  // first set, second set
@@ -21,12 +18,14 @@ invariant gl_Position;
 
 void main() {
     ObjectRecord object = objects[gl_InstanceIndex];
-    vec4 view = frame.view_from_world * (object.world_from_object * vec4(object_position, 1.0));
+    uint vertex = indices[gl_VertexIndex];
+    vec4 view = frame.view_from_world * (object.world_from_object * vec4(vertex_position(vertex), 1.0));
     gl_Position = frame.clip_from_view * view;
-    world_normal = mat3(object.world_from_object_normal) * object_normal;
-    texcoords = vec4(first_texcoord, second_texcoord);
-    vertex_color = color;
+    world_normal = mat3(object.world_from_object_normal) * vertex_normal(vertex);
+    uint look = 5u * vertex;
+    texcoords = uintBitsToFloat(uvec4(appearance[look], appearance[look + 1u], appearance[look + 2u], appearance[look + 3u]));
+    vertex_color = unpackUnorm4x8(appearance[look + 4u]);
     eye_depth = -view.z;
     material_index = object.material;
-    triangle = object.first_triangle + (uint(gl_VertexIndex) - object.first_vertex) / 3u;
+    triangle = object.first_triangle + (uint(gl_VertexIndex) - object.first_corner) / 3u;
 }

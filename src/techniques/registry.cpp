@@ -82,13 +82,20 @@ double ParameterValues::operator[](std::string_view name) const {
     return values_.at(std::size_t(found - all.begin()));
 }
 
-Refraction allocate_refraction(const Frame& frame) {
+Refraction allocate_refraction(const Frame& frame, bool with_radiance) {
     Workspace& workspace = frame.workspace;
     const auto vectors = vk::Format::eR32G32B32A32Sfloat;
     return {workspace.image("exit direction", vectors, frame.extent),
             workspace.image("exit position", vectors, frame.extent),
             workspace.image("transmittance", vectors, frame.extent),
-            workspace.image("path events", vk::Format::eR32Uint, frame.extent)};
+            workspace.image("path events", vk::Format::eR32Uint, frame.extent),
+            with_radiance ? &workspace.image("path radiance", vectors, frame.extent) : nullptr};
+}
+
+Refraction clear_refraction(Recorder& recorder, const Frame& frame, bool with_radiance) {
+    const Refraction refraction = allocate_refraction(frame, with_radiance);
+    recorder.clear(refraction.events, vk::ClearColorValue(std::array{0u, 0u, 0u, 0u}));
+    return refraction;
 }
 
 PathEvents unpack_events(std::uint32_t word) {

@@ -11,14 +11,23 @@
 namespace pellucid {
 
 /// Per pixel, where the view ray ends up after the glass. What follows never asks which technique
-/// filled it. A pixel without glass holds the view ray itself: no events, transmittance 1, ok.
+/// filled it. A pixel without glass has no events, and all else is undefined there.
 struct Refraction {
     const GpuImage& exit_direction;  ///< RGBA32F: unit world direction; w: path length inside media, m
-    const GpuImage& exit_position;   ///< RGBA32F: world position of the last interface, m; w: see kEndsInEnvironment
-    const GpuImage& transmittance;   ///< RGBA32F: rgb, Fresnel and absorption along the path, 0..1
-    const GpuImage& events;          ///< R32UI: see unpack_events()
+    /// RGBA32F: world position of the path's end, m: where it leaves the last interface, or meets an opaque object;
+    /// w: that object's index, or kEndsInEnvironment
+    const GpuImage& exit_position;
+    const GpuImage& transmittance;  ///< RGBA32F: rgb, Fresnel and absorption along the path, 0..1
+    const GpuImage& events;         ///< R32UI: see unpack_events()
+    /// RGBA32F: radiance picked up on the way, that of an opaque object at the end included, as it reaches the eye;
+    /// a: 1 where such an object hides the environment. Null: none anywhere.
+    const GpuImage* radiance = nullptr;
+    bool everywhere = false;  ///< pixels without glass hold the view ray, and what it meets
 };
-Refraction allocate_refraction(const Frame& frame);
+/// `with_radiance`: for techniques that pick up radiance.
+Refraction allocate_refraction(const Frame& frame, bool with_radiance = false);
+/// The same without events: a technique has to write the pixels with glass only.
+Refraction clear_refraction(Recorder& recorder, const Frame& frame, bool with_radiance = false);
 
 /// Refraction::exit_position.w of a path that no opaque object ends; otherwise it is the object's index.
 inline constexpr float kEndsInEnvironment = -1.0f;
@@ -52,6 +61,7 @@ struct Technique {
     /// What the device lacks for it, in words that follow "needs"; empty: nothing. Null: any device will do.
     std::string (*lacking)(const Device& device) = nullptr;
     std::uint32_t (*layer_count)(const ParameterValues& parameters);
+    /// `layers` are of all solids together.
     Refraction (*record)(Recorder& recorder, const Frame& frame, const Layers& layers,
                          const ParameterValues& parameters);
     /// The picture of a technique that shades its own paths, which shade() then does not do. Null: none.

@@ -1,7 +1,7 @@
 #ifndef PELLUCID_TECHNIQUES_TECHNIQUE_BINDINGS_GLSL
 #define PELLUCID_TECHNIQUES_TECHNIQUE_BINDINGS_GLSL
 
-// Bindings 0 to 8, which every technique shares: the frame, the scene, the layers, and the result.
+// Bindings 0 to 9, which techniques share: the frame, the scene, the layers, and the result.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "layers/layers.glsl"
@@ -10,7 +10,7 @@
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };
 layout(set = 0, binding = 3, r32f) readonly uniform image2DArray layer_depth;
-layout(set = 0, binding = 4, rg32ui) readonly uniform uimage2DArray layer_surface;
+layout(set = 0, binding = 4, r32ui) readonly uniform uimage2DArray layer_triangle;
 layout(set = 0, binding = 5, rgba32f) writeonly uniform image2DArray exit_direction;
 layout(set = 0, binding = 6, rgba32f) writeonly uniform image2DArray exit_position;
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray transmittance;
@@ -18,17 +18,18 @@ layout(set = 0, binding = 8, r32ui) writeonly uniform uimage2DArray path_events;
 
 #include "layers/objects.glsl"
 
+layout(set = 0, binding = 9, r32ui) readonly uniform uimage2DArray layer_normal;
+
 Fragment load_fragment(ivec2 texel, uint layer) {
-    uvec2 surface = imageLoad(layer_surface, ivec3(texel, layer)).rg;
-    return Fragment(imageLoad(layer_depth, ivec3(texel, layer)).r, surface.x, surface.y);
+    return Fragment(imageLoad(layer_depth, ivec3(texel, layer)).r, imageLoad(layer_triangle, ivec3(texel, layer)).r);
 }
 
 MaterialRecord material_of(Fragment fragment) {
     return materials[objects[find_object(triangle_index(fragment.triangle))].material];
 }
 
-vec3 view_normal(Fragment fragment) {
-    return mat3(frame.view_from_world) * unpack_unit_vector(fragment.normal);
+vec3 view_normal(ivec2 texel, uint layer) {
+    return mat3(frame.view_from_world) * unpack_unit_vector(imageLoad(layer_normal, ivec3(texel, layer)).r);
 }
 
 void store_world_refraction(ivec2 texel, Path path) {

@@ -12,14 +12,10 @@
 namespace pellucid::test {
 namespace {
 
-struct Surface {
-    std::uint32_t normal;
-    std::uint32_t triangle;
-    bool operator==(const Surface&) const = default;
-};
 struct HostLayers {
     std::vector<std::vector<float>> depth;
-    std::vector<std::vector<Surface>> surface;
+    std::vector<std::vector<std::uint32_t>> triangle;
+    std::vector<std::vector<std::uint32_t>> normal;  // 0 where there is no surface
     bool operator==(const HostLayers&) const = default;
 };
 
@@ -38,34 +34,45 @@ protected:
     }
     const Camera& camera() const { return camera_; }
 
+    HostLayers build(LayerBuilder builder, std::uint32_t count, FragmentPool pool = {},
+                     float opaque = float(PELLUCID_EMPTY_DEPTH), bool hidden_by_opaque = true) {
+        LayerSource source(pool);
+        for (;;) {
+            source.begin_frame(builder);
+            const Opaque surfaces = opaque_surfaces(opaque);
+            const Layers layers =
+                source.build(recorder(), frame(), surfaces, {scene_->refractive, count, hidden_by_opaque});
+            recorder().submit_and_wait();
+            if (!source.must_repeat(frame())) return read(layers);
+        }
+    }
     HostLayers peel(std::uint32_t count, float opaque = float(PELLUCID_EMPTY_DEPTH)) {
-        const Layers layers = peel_layers(recorder(), frame(), count, opaque_depth(opaque));
-        recorder().submit_and_wait();
-        return read(layers);
+        return build(LayerBuilder::kDepthPeeling, count, {}, opaque);
     }
     HostLayers single_pass(std::uint32_t count, FragmentPool pool = {}, float opaque = float(PELLUCID_EMPTY_DEPTH)) {
-        for (;;) {
-            const Layers layers = single_pass_layers(recorder(), frame(), count, opaque_depth(opaque), pool);
-            recorder().submit_and_wait();
-            if (!fragment_pool_overflowed(frame(), pool)) return read(layers);
-        }
+        return build(LayerBuilder::kSinglePass, count, pool, opaque);
     }
 
 private:
     Frame frame() {
         return {workspace(), *scene_, *constants_,
-                workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1}), extent_};
+                workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1}), 0, extent_};
     }
-    const GpuImage& opaque_depth(float value) {
+    Opaque opaque_surfaces(float depth) {
         const GpuImage& image = workspace().image("opaque depth", vk::Format::eR32Sfloat, extent_);
-        recorder().clear(image, vk::ClearColorValue(std::array{value, 0.0f, 0.0f, 0.0f}));
-        return image;
+        recorder().clear(image, vk::ClearColorValue(std::array{depth, 0.0f, 0.0f, 0.0f}));
+        return {workspace().image("opaque radiance", vk::Format::eR32G32B32A32Sfloat, extent_), image,
+                workspace().image("opaque object", vk::Format::eR32Uint, extent_)};
     }
     HostLayers read(const Layers& layers) {
         HostLayers host;
         for (std::uint32_t layer = 0; layer < layers.count; ++layer) {
             host.depth.push_back(read_back<float>(device(), layers.depth, layer));
-            host.surface.push_back(read_back<Surface>(device(), layers.surface, layer));
+            host.triangle.push_back(read_back<std::uint32_t>(device(), layers.triangle, layer));
+            host.normal.push_back(read_back<std::uint32_t>(device(), layers.normal, layer));
+            for (std::size_t i = 0; i < host.normal.back().size(); ++i) {
+                if (host.triangle.back()[i] == PELLUCID_NO_TRIANGLE) host.normal.back()[i] = 0;
+            }
         }
         return host;
     }
@@ -151,15 +158,15 @@ TEST_F(LayersTest, AgreeWithRayCasting) {
             ++compared;
             const auto i = std::size_t(y * size + x);
             for (std::size_t k = 0; k < 12; ++k) {
-                const Surface record = layers.surface[k][i];
+                const std::uint32_t triangle = layers.triangle[k][i];
                 if (k >= expected.size()) {
-                    EXPECT_EQ(record.triangle, PELLUCID_NO_TRIANGLE) << x << "," << y << " layer " << k;
+                    EXPECT_EQ(triangle, PELLUCID_NO_TRIANGLE) << x << "," << y << " layer " << k;
                     continue;
                 }
                 ++crossed;
-                EXPECT_EQ(record.triangle & ~PELLUCID_BACK_FACE, expected[k].triangle)
+                EXPECT_EQ(triangle & ~PELLUCID_BACK_FACE, expected[k].triangle)
                     << x << "," << y << " layer " << k;
-                EXPECT_EQ((record.triangle & PELLUCID_BACK_FACE) != 0, expected[k].back)
+                EXPECT_EQ((triangle & PELLUCID_BACK_FACE) != 0, expected[k].back)
                     << x << "," << y << " layer " << k;
                 // Rasterised depth is interpolated in single precision.
                 EXPECT_NEAR(layers.depth[k][i], expected[k].depth, 2e-5 * expected[k].depth)
@@ -221,8 +228,8 @@ TEST_F(LayersTest, EqualDepthsAreAllKept) {
     EXPECT_EQ(peeled.depth[0][center], peeled.depth[2][center]);
     EXPECT_LT(peeled.depth[2][center], peeled.depth[3][center]);
     EXPECT_EQ(peeled.depth[3][center], peeled.depth[5][center]);
-    EXPECT_EQ(peeled.surface[6][center].triangle, PELLUCID_NO_TRIANGLE);
-    EXPECT_EQ(peeled.surface[1][center].triangle, peeled.surface[0][center].triangle + cube.triangles.size());
+    EXPECT_EQ(peeled.triangle[6][center], PELLUCID_NO_TRIANGLE);
+    EXPECT_EQ(peeled.triangle[1][center], peeled.triangle[0][center] + cube.triangles.size());
 }
 
 TEST_F(LayersTest, OpaqueSurfacesHideWhatLiesBehindThem) {
@@ -244,8 +251,8 @@ TEST_F(LayersTest, MirroredObjectsKeepTheirSides) {
     scene.objects[0].world_from_object[0][0] = -1.0f;
     set_scene(scene, {32, 32});
     const HostLayers layers = single_pass(2);
-    EXPECT_EQ(layers.surface[0][16 * 32 + 16].triangle & PELLUCID_BACK_FACE, 0u);
-    EXPECT_NE(layers.surface[1][16 * 32 + 16].triangle & PELLUCID_BACK_FACE, 0u);
+    EXPECT_EQ(layers.triangle[0][16 * 32 + 16] & PELLUCID_BACK_FACE, 0u);
+    EXPECT_NE(layers.triangle[1][16 * 32 + 16] & PELLUCID_BACK_FACE, 0u);
 }
 
 }  // namespace

@@ -8,15 +8,17 @@ constexpr std::uint32_t kShader[] = {
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues&) {
-    const Refraction refraction = allocate_refraction(frame);
     const Recorder::Scope scope(recorder, "trace");
-    recorder.compute(frame.workspace.compute({"one_interface.comp", kShader}),
-                     {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                      reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-                      reads("layer_surface", layers.surface), writes("exit_direction", refraction.exit_direction),
-                      writes("exit_position", refraction.exit_position),
-                      writes("transmittance", refraction.transmittance), writes("path_events", refraction.events)},
-                     frame.extent);
+    const Refraction refraction = clear_refraction(recorder, frame);
+    recorder.compute_indirect(
+        frame.workspace.compute({"one_interface.comp", kShader}),
+        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+         reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
+         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
+         reads("PixelList", layers.covered), writes("exit_direction", refraction.exit_direction),
+         writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
+         writes("path_events", refraction.events)},
+        layers.covered);
     return refraction;
 }
 

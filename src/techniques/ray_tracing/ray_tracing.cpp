@@ -22,30 +22,35 @@ constexpr std::array kParameters = {
 
 /// Twin of Push in surface_hit.glsl.
 struct Push {
-    std::uint32_t vertices_low;
-    std::uint32_t vertices_high;
+    std::array<std::uint32_t, 2> vertices;  // low word, high word
+    std::array<std::uint32_t, 2> indices;
     std::uint32_t max_events;
 };
+
+std::array<std::uint32_t, 2> words_of(vk::DeviceAddress address) {
+    return {std::uint32_t(address), std::uint32_t(address >> 32)};
+}
 
 StructureUse structure_use(std::uint32_t rebuild) {
     return std::array{StructureUse::kStatic, StructureUse::kRefit, StructureUse::kRebuild}.at(rebuild);
 }
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
-    const Refraction refraction = allocate_refraction(frame);
     SceneHierarchy& hierarchy = frame.workspace.hierarchy(frame.scene, structure_use(parameters.whole("rebuild")));
     hierarchy.update(recorder);
 
     const Recorder::Scope scope(recorder, "trace");
-    const vk::DeviceAddress vertices = frame.scene.geometry.address();
-    const Push push{std::uint32_t(vertices), std::uint32_t(vertices >> 32), parameters.whole("events")};
+    Refraction refraction = allocate_refraction(frame);
+    refraction.everywhere = true;
+    const Push push{words_of(frame.scene.vertices.address()), words_of(frame.scene.indices.address()),
+                    parameters.whole("events")};
     recorder.trace(
         frame.workspace.ray_tracing({.raygen = {"ray_tracing.rgen", kRaygen},
                                      .miss = {"ray_tracing.rmiss", kMiss},
                                      .closest_hit = {"ray_tracing.rchit", kClosestHit}}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-         reads("layer_surface", layers.surface), writes("exit_direction", refraction.exit_direction),
+         reads("layer_triangle", layers.triangle), writes("exit_direction", refraction.exit_direction),
          writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
          writes("path_events", refraction.events), reads("solids", hierarchy.top())},
         push, frame.extent);

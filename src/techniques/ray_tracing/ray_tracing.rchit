@@ -12,6 +12,7 @@ struct Vertex {
     float normal_x, normal_y, normal_z;
 };
 layout(std430, buffer_reference, buffer_reference_align = 4) readonly buffer Vertices { Vertex at[]; };
+layout(std430, buffer_reference, buffer_reference_align = 4) readonly buffer Indices { uint at[]; };
 
 layout(location = 0) rayPayloadInEXT SurfaceHit hit;
 hitAttributeEXT vec2 barycentrics;
@@ -19,10 +20,10 @@ hitAttributeEXT vec2 barycentrics;
 void main() {
     ObjectRecord object = objects[gl_InstanceCustomIndexEXT];
     vec3 weights = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
-    uint first = object.first_vertex + 3u * uint(gl_PrimitiveID);
+    uint first = object.first_corner + 3u * uint(gl_PrimitiveID);
     mat3 positions, normals;
     for (uint corner = 0u; corner < 3u; ++corner) {
-        Vertex v = Vertices(vertices).at[first + corner];
+        Vertex v = Vertices(vertices).at[Indices(indices).at[first + corner]];
         positions[corner] = vec3(v.x, v.y, v.z);
         normals[corner] = vec3(v.normal_x, v.normal_y, v.normal_z);
     }

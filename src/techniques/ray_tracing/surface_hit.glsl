@@ -15,7 +15,8 @@ struct SurfaceHit {
 };
 
 layout(push_constant) uniform Push {
-    uvec2 vertices;   // device address of GpuScene::geometry, which no storage-buffer binding need have room for
+    uvec2 vertices;   // device addresses of GpuScene::vertices
+    uvec2 indices;    // and GpuScene::indices, which no storage-buffer binding need have room for
     uint max_events;  // K
 };
 

@@ -30,7 +30,8 @@ Refraction upload_exact_paths(const Frame& frame, std::uint32_t max_events) {
                                                                 .max_events = max_events,
                                                                 .shift_px = glm::dvec2(view.jitter_px)},
                                                                view.progress);
-    const Refraction refraction = allocate_refraction(frame);
+    Refraction refraction = allocate_refraction(frame);
+    refraction.everywhere = true;
     upload_texels(frame, refraction.exit_direction, paths,
                   [](const RefractedPath& path) { return glm::vec4(path.direction, path.length_inside); });
     upload_texels(frame, refraction.exit_position, paths,

@@ -4,18 +4,19 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/structs.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "layers/pixel_list.glsl"
+
+layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
 layout(set = 0, binding = 0, r32f) readonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 1, r32f) writeonly uniform image2DArray merged_depth;
 layout(push_constant) uniform Push { uint layer_count; };
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, imageSize(layer_depth).xy))) return;
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
 
-    // Entries, exits. Beside the object there is neither; a ray there counts as outside: in front of
-    // entries and behind exits.
+    // Entries, exits.
     float last_of_kind[2] = float[2](PELLUCID_EMPTY_DEPTH, -PELLUCID_EMPTY_DEPTH);
     for (uint layer = 0u; layer < layer_count; ++layer) {
         float depth = imageLoad(layer_depth, ivec3(texel, layer)).r;

@@ -4,7 +4,7 @@
 // Reading the layers that merge_layers.comp has merged: depths and normals under a point of a ray.
 // Needs: technique_bindings.glsl, linear_steps.
 
-layout(set = 0, binding = 9, r32f) readonly uniform image2DArray merged_depth;
+layout(set = 0, binding = 10, r32f) readonly uniform image2DArray merged_depth;
 
 // SIZE of the thesis in metres of depth: depths on one surface change by no more than this from
 // texel to texel, or between the two ends of a binary search.
@@ -47,12 +47,8 @@ Footprint footprint(vec3 position, uint layer) {
 
 // The normal behind a merged depth: of the layer itself, or of the one of its kind that stands in for it.
 vec3 merged_normal(ivec2 texel, uint layer) {
-    Fragment fragment = load_fragment(texel, layer);
-    while (fragment.triangle == PELLUCID_NO_TRIANGLE && layer >= 2u) {
-        layer -= 2u;
-        fragment = load_fragment(texel, layer);
-    }
-    return view_normal(fragment);
+    while (layer >= 2u && imageLoad(layer_triangle, ivec3(texel, layer)).r == PELLUCID_NO_TRIANGLE) layer -= 2u;
+    return view_normal(texel, layer);
 }
 
 vec3 normal_at(vec3 position, uint layer) {

@@ -5,7 +5,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/technique_bindings.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "layers/pixel_list.glsl"
+
+layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
 layout(push_constant) uniform Push {
     uint layer_count;
@@ -132,17 +134,17 @@ bool enter_solid(inout Path path, uint layer, MaterialRecord material) {
     return cross_interface(path, normal_at(path.position, layer), false, material.ior);
 }
 
-void trace(inout Path path, vec2 pixel, Fragment first) {
+void trace(inout Path path, ivec2 texel, vec2 pixel, Fragment first) {
     MaterialRecord material = material_of(first);
     vec3 first_position = view_position(pixel, first.depth);
     if (back_face(first.triangle)) {  // the entry before this exit is not there: an open mesh, or the eye inside
         travel(path, distance(path.position, first_position), material.sigma_a.rgb);
-        cross_interface(path, view_normal(first), true, material.ior);
+        cross_interface(path, view_normal(texel, 0u), true, material.ior);
         path.status = kStatusMissingLayer;
         return;
     }
     path.position = first_position;
-    cross_interface(path, view_normal(first), false, material.ior);
+    cross_interface(path, view_normal(texel, 0u), false, material.ior);
     for (uint exit_layer = 1u; leave_solid(path, exit_layer, material); exit_layer += 2u) {
         if (exit_layer + 2u >= layer_count) return;
         if (!enter_solid(path, exit_layer + 1u, material)) return;
@@ -150,12 +152,11 @@ void trace(inout Path path, vec2 pixel, Fragment first) {
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel.x >= int(frame.width) || texel.y >= int(frame.height)) return;
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
 
     vec2 pixel = vec2(texel) + 0.5;
     Path path = camera_path(pixel);
-    Fragment first = load_fragment(texel, 0u);
-    if (first.triangle != PELLUCID_NO_TRIANGLE) trace(path, pixel, first);
+    trace(path, texel, pixel, load_fragment(texel, 0u));
     store_refraction(texel, path);
 }

@@ -25,25 +25,34 @@ std::uint32_t layer_count(const ParameterValues& parameters) { return parameters
 const GpuImage& merge_layers(Recorder& recorder, const Frame& frame, const Layers& layers) {
     const GpuImage& merged =
         frame.workspace.image("merged layer depth", vk::Format::eR32Sfloat, frame.extent, layers.count);
-    recorder.compute(frame.workspace.compute({"merge_layers.comp", kMergeLayers}),
-                     {reads("layer_depth", layers.depth), writes("merged_depth", merged)}, layers.count, frame.extent);
+    // Beside the object there is neither entry nor exit; a ray there counts as outside: in front of entries and
+    // behind exits.
+    for (std::uint32_t layer = 0; layer < layers.count; ++layer) {
+        const float beside = layer % 2 == 0 ? float(PELLUCID_EMPTY_DEPTH) : -float(PELLUCID_EMPTY_DEPTH);
+        recorder.clear_layer(merged, layer, vk::ClearColorValue(std::array{beside, 0.0f, 0.0f, 0.0f}));
+    }
+    recorder.compute_indirect(
+        frame.workspace.compute({"merge_layers.comp", kMergeLayers}),
+        {reads("layer_depth", layers.depth), reads("PixelList", layers.covered), writes("merged_depth", merged)},
+        layers.count, layers.covered);
     return merged;
 }
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
-    const Refraction refraction = allocate_refraction(frame);
     const Recorder::Scope scope(recorder, "trace");
+    const Refraction refraction = clear_refraction(recorder, frame);
     const GpuImage& merged = merge_layers(recorder, frame, layers);
     const std::array push = {layers.count, parameters.whole("steps"), parameters.whole("binary-steps"),
                              parameters.whole("reflections")};
-    recorder.compute(
+    recorder.compute_indirect(
         frame.workspace.compute({"wang_2014.comp", kShader}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-         reads("layer_surface", layers.surface), writes("exit_direction", refraction.exit_direction),
+         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
+         reads("PixelList", layers.covered), writes("exit_direction", refraction.exit_direction),
          writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
          writes("path_events", refraction.events), reads("merged_depth", merged)},
-        push, frame.extent);
+        push, layers.covered);
     return refraction;
 }
 

@@ -1,0 +1,39 @@
+#include "layers/back_faces.h"
+
+#include "layers/layer_images.h"
+
+namespace pellucid {
+namespace {
+
+constexpr std::uint32_t kLayerVertex[] = {
+#include "layer.vert.inc"
+};
+constexpr std::uint32_t kBackFaces[] = {
+#include "back_faces.frag.inc"
+};
+
+}  // namespace
+
+BackFaces draw_back_faces(Recorder& recorder, const Frame& frame, std::span<const DrawCall> solids, BackFace which) {
+    Workspace& workspace = frame.workspace;
+    const Program& program = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
+                                                 .fragment = {"back_faces.frag", kBackFaces},
+                                                 .colors = {vk::Format::eR32Sfloat, vk::Format::eR32Uint},
+                                                 .depth = true});
+    const LayerImages images = allocate_layers(frame, {solids, 1, false, "back face"});
+    const GpuImage& nearest = workspace.image("back face depth test", vk::Format::eD32Sfloat, frame.extent);
+    const RenderTarget target{.extent = frame.extent,
+                              .colors = {{&images.depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
+                                         {&images.triangle, 0, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})}},
+                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
+                              .scissor = {}};
+    const Recorder::Scope scope(recorder, "back faces");
+    recorder.draw(program,
+                  {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+                   reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices)},
+                  which == BackFace::kFarthest ? 1u : 0u, target, solids);
+    resolve_normals(recorder, frame, images, 1, "back face pixels");
+    return {images.depth, images.triangle, images.normal};
+}
+
+}  // namespace pellucid

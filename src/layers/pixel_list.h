@@ -1,0 +1,14 @@
+#pragma once
+
+#include "gpu/frame.h"
+
+#include <string_view>
+
+namespace pellucid {
+
+/// Lists the pixels of rows `first_row` to `row_end` at which layer 0 of `marks` (R32UI) is not `empty`, for
+/// Recorder::compute_indirect(); shaders read it through pixel_list.glsl, as "PixelList". In no particular order.
+const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage& marks, std::uint32_t empty,
+                          std::string_view name, std::uint32_t first_row, std::uint32_t row_end);
+
+}  // namespace pellucid
