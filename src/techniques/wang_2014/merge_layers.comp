@@ -10,6 +10,8 @@ layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
 layout(set = 0, binding = 0, r32f) readonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 1, r32f) writeonly uniform image2DArray merged_depth;
+layout(set = 0, binding = 2, r32ui) readonly uniform uimage2DArray layer_normal;
+layout(set = 0, binding = 3, r32ui) writeonly uniform uimage2DArray merged_normal;
 layout(push_constant) uniform Push { uint layer_count; };
 
 void main() {
@@ -18,9 +20,14 @@ void main() {
 
     // Entries, exits.
     float last_of_kind[2] = float[2](PELLUCID_EMPTY_DEPTH, -PELLUCID_EMPTY_DEPTH);
+    uint normal_of_kind[2] = uint[2](0u, 0u);
     for (uint layer = 0u; layer < layer_count; ++layer) {
         float depth = imageLoad(layer_depth, ivec3(texel, layer)).r;
-        if (depth != PELLUCID_EMPTY_DEPTH) last_of_kind[layer & 1u] = depth;
+        if (depth != PELLUCID_EMPTY_DEPTH) {
+            last_of_kind[layer & 1u] = depth;
+            normal_of_kind[layer & 1u] = imageLoad(layer_normal, ivec3(texel, layer)).r;
+        }
         imageStore(merged_depth, ivec3(texel, layer), vec4(last_of_kind[layer & 1u]));
+        imageStore(merged_normal, ivec3(texel, layer), uvec4(normal_of_kind[layer & 1u]));
     }
 }

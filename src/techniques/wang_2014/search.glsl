@@ -1,0 +1,123 @@
+#ifndef PELLUCID_TECHNIQUES_WANG_2014_SEARCH_GLSL
+#define PELLUCID_TECHNIQUES_WANG_2014_SEARCH_GLSL
+
+// Search of a layer along a ray: Wang 2014, sections 3.3 and 3.5.
+// Needs: technique_bindings.glsl; linear_steps, binary_steps, box_low, box_high.
+
+// SIZE of the thesis in metres of depth: depths on one surface change by no more than this from
+// texel to texel, or between the two ends of a binary search.
+float fault_size() { return (box_high.z - box_low.z) / float(linear_steps); }
+
+#include "techniques/wang_2014/merged_layers.glsl"
+
+// How much of a linear step a ray takes first, to get clear of the surface it starts from (3.6).
+// Anything from 0.02 to 0.5 is as accurate.
+const float kFirstStep = 0.1;
+
+// A ray of view space as the search sees it, linear in the distance along it: the homogeneous pixel coordinate
+// (x, y, w) and the depth.
+struct ScreenRay {
+    vec3 pixel, pixel_rate;
+    float depth, depth_rate;
+};
+
+ScreenRay screen_ray(vec3 origin, vec3 direction) {
+    bool orthographic = frame.orthographic != 0u;
+    float w = orthographic ? 1.0 : -origin.z, w_rate = orthographic ? 0.0 : -direction.z;
+    vec2 scale = vec2(1.0, -1.0) / frame.film.zw;
+    return ScreenRay(vec3((origin.xy - frame.film.xy * w) * scale, w),
+                     vec3((direction.xy - frame.film.xy * w_rate) * scale, w_rate), -origin.z, -direction.z);
+}
+
+vec2 pixel_at(ScreenRay ray, float distance) {
+    vec3 p = ray.pixel + distance * ray.pixel_rate;
+    return p.xy * (1.0 / p.z);
+}
+
+float depth_at(ScreenRay ray, float distance) { return ray.depth + distance * ray.depth_rate; }
+
+// Distance to where a quantity that starts at `value` and changes at `rate` per metre reaches zero.
+float reach_zero(float value, float rate) {
+    return rate < 0.0 ? max(value, 0.0) / -rate : PELLUCID_EMPTY_DEPTH;
+}
+
+// How far the ray stays within the picture.
+float distance_to_screen_edge(ScreenRay ray) {
+    vec2 size = vec2(frame.width, frame.height);
+    vec2 rest = size * ray.pixel.z - ray.pixel.xy, rest_rate = size * ray.pixel_rate.z - ray.pixel_rate.xy;
+    return min(min(reach_zero(ray.pixel.x, ray.pixel_rate.x), reach_zero(ray.pixel.y, ray.pixel_rate.y)),
+               min(reach_zero(rest.x, rest_rate.x), reach_zero(rest.y, rest_rate.y)));
+}
+
+// Where the ray is within the object's box, with a step to spare all around; x >= 0, and x > y where it never is.
+vec2 distances_in_box(vec3 origin, vec3 direction) {
+    origin.z = -origin.z;
+    direction.z = -direction.z;
+    vec3 margin = vec3(fault_size());
+    vec3 inverse = 1.0 / mix(direction, vec3(1e-12), lessThan(abs(direction), vec3(1e-12)));
+    vec3 a = (box_low.xyz - margin - origin) * inverse, b = (box_high.xyz + margin - origin) * inverse;
+    vec3 near = min(a, b), far = max(a, b);
+    return vec2(max(max(near.x, near.y), max(near.z, 0.0)), min(min(far.x, far.y), far.z));
+}
+
+struct Hit {
+    float distance;  // negative: none
+    uint status;     // why there is none
+};
+
+// Narrows a change of side between two distances; returns the last distance on the near side of it.
+// `behind_before` is the side of the ray before the change. `jump` is how far apart the depths on
+// the two sides of the change lie.
+float binary_search(ScreenRay ray, uint layer, bool behind_before, float before, float after, out float jump) {
+    float depth_before = footprint(pixel_at(ray, before), layer).depth;
+    float depth_after = footprint(pixel_at(ray, after), layer).depth;
+    for (uint i = 0u; i < binary_steps; ++i) {
+        float middle = 0.5 * (before + after);
+        float depth = footprint(pixel_at(ray, middle), layer).depth;
+        if ((depth_at(ray, middle) > depth) == behind_before) {
+            before = middle;
+            depth_before = depth;
+        } else {
+            after = middle;
+            depth_after = depth;
+        }
+    }
+    jump = abs(depth_after - depth_before);
+    return before;
+}
+
+// Searches `layer` along the ray, first in linear, then in binary steps (3.3, 3.5). Entries and exits
+// alike are met from in front: a ray that comes up from behind comes out from below a fault zone.
+Hit search(vec3 origin, vec3 direction, uint layer, bool leaves_surface) {
+    ScreenRay ray = screen_ray(origin, direction);
+    float to_screen_edge = distance_to_screen_edge(ray);
+    float end = min(to_screen_edge, distances_in_box(origin, direction).y);
+    float step_length = max(end / float(linear_steps), fault_size());
+
+    // Which side of the layer the ray is on; "-" of the thesis is true. A ray that starts on layer 1
+    // is in front of layer 2. A ray that starts on the searched layer takes a small step first.
+    float before = leaves_surface ? kFirstStep * step_length : 0.0;
+    bool behind = leaves_surface && depth_at(ray, before) > stored_depth(pixel_at(ray, before), layer);
+
+    // The loops stand one in the other, not the binary search in the linear loop: on some drivers what stands in
+    // a loop costs its time at every turn, taken or not.
+    float after = before;
+    for (uint i = 1u; after < end;) {
+        bool changed = false;
+        for (; !changed && after < end; ++i) {
+            before = after;
+            after = min(float(i) * step_length, end);
+            changed = (depth_at(ray, after) > stored_depth(pixel_at(ray, after), layer)) != behind;
+        }
+        if (!changed) break;
+        float jump;
+        float hit = binary_search(ray, layer, behind, before, after, jump);
+        if (!behind && jump <= fault_size()) return Hit(hit, kStatusOk);  // case 3
+        behind = !behind;  // case 2: below the fault, or out from under it again
+    }
+    // Beside the object nothing is missing from the picture: the ray has left unseen.
+    bool over_glass = abs(stored_depth(pixel_at(ray, end), layer)) < PELLUCID_EMPTY_DEPTH;
+    return Hit(-1.0, to_screen_edge <= end && over_glass ? kStatusLeftScreen : kStatusMissingLayer);
+}
+
+#endif
