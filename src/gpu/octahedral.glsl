@@ -8,7 +8,8 @@ vec2 sign_not_zero(vec2 v) {
     return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }
 
-uint pack_unit_vector(vec3 n) {
+// The length of n does not matter, as long as it is not 0.
+uint pack_direction(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     if (n.z < 0.0) p = (1.0 - abs(p.yx)) * sign_not_zero(p);
     return packSnorm2x16(p);

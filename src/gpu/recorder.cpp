@@ -153,10 +153,12 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
 
 void Recorder::bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
                     std::vector<Use>& uses) {
-    if (bindings.size() != program.slots().size() || push.size() != program.push_size()) {
+    const bool graphics = program.bind_point() == vk::PipelineBindPoint::eGraphics;
+    const std::size_t push_offset = graphics ? sizeof(DrawCall::object) : 0;  // which each draw sets by itself
+    if (bindings.size() != program.slots().size() || push_offset + push.size() != program.push_size()) {
         throw std::logic_error(
             fmt::format("{}: the shader has {} bindings and {} bytes of push constants, the pass {} and {}",
-                        program.name(), program.slots().size(), program.push_size(), bindings.size(), push.size()));
+                        program.name(), program.slots().size(), program.push_size(), bindings.size(), push_offset + push.size()));
     }
     std::vector<vk::WriteDescriptorSet> set_writes;
     std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
@@ -193,7 +195,7 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
     commands_.bindPipeline(program.bind_point(), program.pipeline());
     commands_.bindDescriptorSets(program.bind_point(), program.layout(), 0, set, nullptr);
     if (!push.empty()) {
-        commands_.pushConstants<std::byte>(program.layout(), program.stages(), 0,
+        commands_.pushConstants<std::byte>(program.layout(), program.stages(), std::uint32_t(push_offset),
                                            vk::ArrayProxy<const std::byte>(std::uint32_t(push.size()), push.data()));
     }
 }
@@ -252,7 +254,10 @@ void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindi
     const vk::Viewport viewport{0.0f, 0.0f, float(target.extent.width), float(target.extent.height), 0.0f, 1.0f};
     commands_.setViewport(0, viewport);
     commands_.setScissor(0, target.scissor.extent.width > 0 ? target.scissor : everything);
-    for (const DrawCall& call : calls) commands_.draw(call.corner_count, 1, call.first_corner, call.instance);
+    for (const DrawCall& call : calls) {
+        commands_.pushConstants<std::uint32_t>(program.layout(), program.stages(), 0, call.object);
+        commands_.draw(call.corner_count, 1, call.first_corner, 0);
+    }
     commands_.endRendering();
 }
 

@@ -59,11 +59,11 @@ struct RenderTarget {
 };
 
 /// Triangle corners of one object: the shader sees them as gl_VertexIndex, which counts in GpuScene::indices,
-/// and `instance` as gl_InstanceIndex.
+/// and the object as the first word of the push constants.
 struct DrawCall {
     std::uint32_t first_corner;
     std::uint32_t corner_count;
-    std::uint32_t instance;
+    std::uint32_t object;
 };
 
 /// Records one frame's passes in the order of the calls. Each call names what it reads and writes and

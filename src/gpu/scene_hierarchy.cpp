@@ -47,8 +47,8 @@ SceneHierarchy::SceneHierarchy(const Device& device, const GpuScene& scene, Stru
         }
         // Without flags the front is where triangles run counter-clockwise in a right-handed frame. That is
         // decided in the mesh's own frame, so a mirroring transform changes nothing.
-        instances.push_back({.transform = transform_rows(scene.world_from_object[object.instance]),
-                             .instanceCustomIndex = object.instance,
+        instances.push_back({.transform = transform_rows(scene.world_from_object[object.object]),
+                             .instanceCustomIndex = object.object,
                              .mask = 0xff,
                              .instanceShaderBindingTableRecordOffset = 0,
                              .flags = 0,

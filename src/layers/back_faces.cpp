@@ -20,7 +20,8 @@ BackFaces draw_back_faces(Recorder& recorder, const Frame& frame, std::span<cons
                                                  .fragment = {"back_faces.frag", kBackFaces},
                                                  .colors = {vk::Format::eR32Sfloat, vk::Format::eR32Uint},
                                                  .depth = true});
-    const LayerImages images = allocate_layers(frame, {solids, 1, false, "back face"});
+    const LayerRequest request{solids, 1, false, "back face"};
+    const LayerImages images = allocate_layers(frame, request);
     const GpuImage& nearest = workspace.image("back face depth test", vk::Format::eD32Sfloat, frame.extent);
     const RenderTarget target{.extent = frame.extent,
                               .colors = {{&images.depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
@@ -32,7 +33,7 @@ BackFaces draw_back_faces(Recorder& recorder, const Frame& frame, std::span<cons
                   {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
                    reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices)},
                   which == BackFace::kFarthest ? 1u : 0u, target, solids);
-    resolve_normals(recorder, frame, images, 1, "back face pixels");
+    resolve_normals(recorder, frame, images, request);
     return {images.depth, images.triangle, images.normal};
 }
 

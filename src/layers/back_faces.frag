@@ -4,7 +4,10 @@
 #include "gpu/frame.glsl"
 #include "layers/layer_fragment.glsl"
 
-layout(push_constant) uniform Push { uint farthest; };
+layout(push_constant) uniform Push {
+    uint drawn_object;
+    uint farthest;
+};
 
 layout(location = 0) out float out_depth;
 layout(location = 1) out uint out_triangle;

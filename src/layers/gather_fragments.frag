@@ -8,6 +8,7 @@ layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };  // f
 layout(std430, set = 0, binding = 3) writeonly buffer Nodes { Node nodes[]; };
 layout(set = 0, binding = 4, r32ui) uniform uimage2DArray heads;
 layout(push_constant) uniform Push {
+    uint drawn_object;
     uint counter;
     uint capacity;
 };

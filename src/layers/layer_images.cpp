@@ -2,6 +2,8 @@
 
 #include "layers/pixel_list.h"
 
+#include <array>
+
 namespace pellucid {
 namespace {
 
@@ -18,22 +20,23 @@ LayerImages allocate_layers(const Frame& frame, const LayerRequest& request) {
             workspace.image(request.name + " normal", vk::Format::eR32Uint, frame.extent, request.count)};
 }
 
-const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const LayerImages& images, std::uint32_t count,
-                              std::string_view list_name) {
+const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const LayerImages& images,
+                              const LayerRequest& request) {
     const Buffer& covered =
-        list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height);
-    recorder.compute_indirect(frame.workspace.compute({"resolve_normals.comp", kResolveNormals}),
+        list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, request.name + " pixels", 0, frame.extent.height);
+    const bool one_object = request.solids.size() == 1;
+    recorder.compute_indirect(frame.workspace.compute({"resolve_normals.comp", kResolveNormals}, {one_object ? 1u : 0u}),
                               {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
                                reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
                                reads("layer_triangle", images.triangle), writes("layer_normal", images.normal),
                                reads("PixelList", covered)},
-                              count, covered);
+                              std::array{request.count, one_object ? request.solids[0].object : 0u}, covered);
     return covered;
 }
 
 Layers finish_layers(Recorder& recorder, const Frame& frame, const LayerImages& images, const Opaque& opaque,
                      const LayerRequest& request, LayerSource& source) {
-    const Buffer& covered = resolve_normals(recorder, frame, images, request.count, request.name + " pixels");
+    const Buffer& covered = resolve_normals(recorder, frame, images, request);
     return {images.depth, images.triangle, images.normal, covered, request.count, opaque, source};
 }
 

@@ -13,8 +13,8 @@ struct LayerImages {
 LayerImages allocate_layers(const Frame& frame, const LayerRequest& request);
 
 /// Fills in the normals of the triangles that stand in `images`; returns the list of the pixels that have any.
-const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const LayerImages& images, std::uint32_t count,
-                              std::string_view list_name);
+const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const LayerImages& images,
+                              const LayerRequest& request);
 
 /// Layers whose depths and triangles stand in `images`.
 Layers finish_layers(Recorder& recorder, const Frame& frame, const LayerImages& images, const Opaque& opaque,

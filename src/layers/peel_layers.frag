@@ -8,6 +8,7 @@ layout(set = 0, binding = 2, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 3, r32f) readonly uniform image2D last_depth;
 layout(set = 0, binding = 4, r32ui) readonly uniform uimage2D last_triangle;
 layout(push_constant) uniform Push {
+    uint drawn_object;
     uint layer;
     uint hidden_by_opaque;
 };

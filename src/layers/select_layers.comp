@@ -6,7 +6,6 @@
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 #include "gpu/vertices.glsl"
 #include "layers/fragment_list.glsl"
-#include "layers/objects.glsl"
 #include "layers/pixel_list.glsl"
 #include "layers/surface_normal.glsl"
 
@@ -18,10 +17,15 @@ layout(set = 0, binding = 4, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 5, r32f) writeonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 6, r32ui) writeonly uniform uimage2DArray layer_triangle;
 layout(set = 0, binding = 7, r32ui) writeonly uniform uimage2DArray layer_normal;
+// With one object its record is the same for all pixels, which some drivers then read only once.
+layout(constant_id = 0) const bool kOneObject = false;
 layout(push_constant) uniform Push {
     uint layer_count;
     uint hidden_by_opaque;
+    uint only_object;
 };
+
+#include "layers/objects.glsl"
 
 Fragment nearest_behind(uint head, Fragment last, bool any) {
     Fragment nearest = kNoFragment;
@@ -39,12 +43,18 @@ void main() {
 
     uint head = imageLoad(heads, ivec3(texel, 0)).r;
     Fragment fragment = kNoFragment;
+    uint object = only_object;
+    Ray ray = object_ray(vec2(texel) + 0.5, object);
     for (uint layer = 0u; layer < layer_count; ++layer) {
         fragment = nearest_behind(head, fragment, layer == 0u);
         if (fragment.triangle == PELLUCID_NO_TRIANGLE) return;
         if (layer == 0u && hidden_by_opaque != 0u && fragment.depth >= imageLoad(opaque_depth, ivec3(texel, 0)).r) return;
         imageStore(layer_depth, ivec3(texel, layer), vec4(fragment.depth));
         imageStore(layer_triangle, ivec3(texel, layer), uvec4(fragment.triangle));
-        imageStore(layer_normal, ivec3(texel, layer), uvec4(surface_normal(vec2(texel) + 0.5, fragment.triangle)));
+        if (!kOneObject) {
+            object = find_object(triangle_index(fragment.triangle));
+            ray = object_ray(vec2(texel) + 0.5, object);
+        }
+        imageStore(layer_normal, ivec3(texel, layer), uvec4(surface_normal(ray, fragment.triangle, object)));
     }
 }

@@ -56,7 +56,8 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
     const Program& gather = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
                                                 .fragment = {"gather_fragments.frag", kGatherFragmentsFragment},
                                                 .colors = {}});
-    const Program& select = workspace.compute({"select_layers.comp", kSelectLayersCompute});
+    const bool one_object = request.solids.size() == 1;
+    const Program& select = workspace.compute({"select_layers.comp", kSelectLayersCompute}, {one_object ? 1u : 0u});
     const LayerImages images = allocate_layers(frame, request);
     const GpuImage& heads = workspace.image("fragment list heads", vk::Format::eR32Uint, frame.extent);
     const Buffer& nodes = workspace.buffer("fragments", pool_.capacity * kNodeSize);
@@ -90,7 +91,8 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
              reads("Nodes", nodes), reads("heads", heads), reads("opaque_depth", opaque.depth),
              writes("layer_depth", images.depth), writes("layer_triangle", images.triangle),
              writes("layer_normal", images.normal)},
-            std::array{request.count, request.hidden_by_opaque ? 1u : 0u}, *listed);
+            std::array{request.count, request.hidden_by_opaque ? 1u : 0u, one_object ? request.solids[0].object : 0u},
+            *listed);
     }
     ++builds_;
     recorder.copy(counters, counters_on_host(frame, pool_), counters.size());

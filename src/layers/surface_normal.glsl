@@ -2,7 +2,7 @@
 #define PELLUCID_LAYERS_SURFACE_NORMAL_GLSL
 
 // Normals of layer records, interpolated between the triangle's vertices.
-// Needs: frame (FrameConstants), objects (ObjectRecord[]), gpu/vertices.glsl, layers/objects.glsl.
+// Needs: frame (FrameConstants), objects (ObjectRecord[]), gpu/vertices.glsl.
 
 // Weights of a triangle's corners where a line meets its plane (Moeller & Trumbore 1997); kept to the triangle,
 // which a rasteriser's rounding can leave a little. `a` is the first corner seen from the line's origin.
@@ -16,25 +16,28 @@ vec3 corner_weights(vec3 direction, vec3 a, vec3 edge_b, vec3 edge_c) {
     return vec3(1.0 - w.x - w.y, w);
 }
 
-// Unit world normal of a fragment at a pixel coordinate, octahedral.
-uint surface_normal(vec2 pixel, uint triangle) {
-    ObjectRecord object = objects[find_object(triangle_index(triangle))];
-    uint corner = object.first_corner + 3u * (triangle_index(triangle) - object.first_triangle);
-    uint a = indices[corner], b = indices[corner + 1u], c = indices[corner + 2u];
-
-    // The view ray in the mesh's frame: the inverse of the object's linear part is the normal matrix, transposed.
+// The view ray through a pixel coordinate in the frame of an object's mesh. The inverse of the object's linear part
+// is its normal matrix, transposed.
+Ray object_ray(vec2 pixel, uint object_index) {
     Ray ray = camera_ray(pixel);
-    mat3 object_from_world = transpose(mat3(object.world_from_object_normal));
     vec3 world_origin = (frame.world_from_view * vec4(ray.origin, 1.0)).xyz;
-    vec3 origin = object_from_world * (world_origin - object.world_from_object[3].xyz);
-    vec3 direction = object_from_world * (mat3(frame.world_from_view) * ray.direction);
+    mat3 object_from_world = transpose(mat3(objects[object_index].world_from_object_normal));
+    return Ray(object_from_world * (world_origin - objects[object_index].world_from_object[3].xyz),
+               object_from_world * (mat3(frame.world_from_view) * ray.direction));
+}
 
+// Unit world normal where such a ray meets a triangle of the object, octahedral.
+uint surface_normal(Ray ray, uint triangle, uint object_index) {
+    uint corner =
+        objects[object_index].first_corner + 3u * (triangle_index(triangle) - objects[object_index].first_triangle);
+    uint a = indices[corner], b = indices[corner + 1u], c = indices[corner + 2u];
     vec3 at_a = vertex_position(a);
-    vec3 weights = corner_weights(direction, at_a - origin, vertex_position(b) - at_a, vertex_position(c) - at_a);
+    vec3 weights =
+        corner_weights(ray.direction, at_a - ray.origin, vertex_position(b) - at_a, vertex_position(c) - at_a);
     vec3 normal = weights.x * vertex_normal(a) + weights.y * vertex_normal(b) + weights.z * vertex_normal(c);
-    normal = mat3(object.world_from_object_normal) * normal;
+    normal = mat3(objects[object_index].world_from_object_normal) * normal;
     // Opposite normals cancel out somewhere; any will do there.
-    return pack_unit_vector(dot(normal, normal) > 1e-30 ? normalize(normal) : vec3(0.0, 1.0, 0.0));
+    return pack_direction(dot(normal, normal) > 1e-30 ? normal : vec3(0.0, 1.0, 0.0));
 }
 
 #endif

@@ -7,6 +7,8 @@ layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord obje
 #include "gpu/vertices.glsl"
 layout(std430, set = 0, binding = 22) readonly buffer Appearance { uint appearance[]; };  // see gpu_scene.h
 
+layout(push_constant) uniform Push { uint drawn_object; };  // set by Recorder::draw
+
 layout(location = 0) out vec3 world_normal;
 layout(location = 1) out vec4 texcoords;  // first set, second set
 layout(location = 2) out vec4 vertex_color;
@@ -17,7 +19,7 @@ layout(location = 5) flat out uint triangle;
 invariant gl_Position;
 
 void main() {
-    ObjectRecord object = objects[gl_InstanceIndex];
+    ObjectRecord object = objects[drawn_object];
     uint vertex = indices[gl_VertexIndex];
     vec4 view = frame.view_from_world * (object.world_from_object * vec4(vertex_position(vertex), 1.0));
     gl_Position = frame.clip_from_view * view;
