@@ -153,8 +153,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
     }
     indices = upload_buffer(device, "the scene's triangles", geometry.indices, geometry_usage);
     vertices = upload_buffer(device, "the scene's vertices", geometry.vertices, geometry_usage);
-    appearance =
-        upload_buffer(device, "the scene's texture coordinates", geometry.appearance, Usage::eStorageBuffer);
+    appearance = upload_buffer(device, "the scene's texture coordinates", geometry.appearance, Usage::eStorageBuffer);
     objects = upload_buffer(device, "the scene's objects", object_records, Usage::eStorageBuffer);
     materials = upload_buffer(device, "the scene's materials", material_records, Usage::eStorageBuffer);
     texture_pages = texture_table.upload_pages(device);

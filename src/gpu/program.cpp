@@ -104,8 +104,7 @@ Program Program::compute(const Device& device, ShaderCode shader, std::span<cons
                                                 .pData = constants.data()};
     vk::PipelineShaderStageCreateInfo stage = stage_info(vk::ShaderStageFlagBits::eCompute, module);
     if (!constants.empty()) stage.pSpecializationInfo = &specialization;
-    program.pipeline_ =
-        device.handle().createComputePipeline(nullptr, {.stage = stage, .layout = *program.layout_});
+    program.pipeline_ = device.handle().createComputePipeline(nullptr, {.stage = stage, .layout = *program.layout_});
     return program;
 }
 

@@ -156,9 +156,9 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
     const bool graphics = program.bind_point() == vk::PipelineBindPoint::eGraphics;
     const std::size_t push_offset = graphics ? sizeof(DrawCall::object) : 0;  // which each draw sets by itself
     if (bindings.size() != program.slots().size() || push_offset + push.size() != program.push_size()) {
-        throw std::logic_error(
-            fmt::format("{}: the shader has {} bindings and {} bytes of push constants, the pass {} and {}",
-                        program.name(), program.slots().size(), program.push_size(), bindings.size(), push_offset + push.size()));
+        throw std::logic_error(fmt::format(
+            "{}: the shader has {} bindings and {} bytes of push constants, the pass {} and {}", program.name(),
+            program.slots().size(), program.push_size(), bindings.size(), push_offset + push.size()));
     }
     std::vector<vk::WriteDescriptorSet> set_writes;
     std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
@@ -300,10 +300,8 @@ void Recorder::clear(const GpuImage& image, vk::ClearColorValue value) {
 
 void Recorder::clear_layer(const GpuImage& image, std::uint32_t layer, vk::ClearColorValue value) {
     synchronise(std::array{Use{image.id(), Stage::eAllTransfer, AccessBit::eTransferWrite, true}});
-    const vk::ImageSubresourceRange range{.aspectMask = vk::ImageAspectFlagBits::eColor,
-                                          .levelCount = 1,
-                                          .baseArrayLayer = layer,
-                                          .layerCount = 1};
+    const vk::ImageSubresourceRange range{
+        .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .baseArrayLayer = layer, .layerCount = 1};
     commands_.clearColorImage(image.handle(), vk::ImageLayout::eGeneral, value, range);
 }
 

@@ -65,9 +65,10 @@ const Buffer& Workspace::buffer(std::string_view name, vk::DeviceSize size, bool
     }
     using Usage = vk::BufferUsageFlagBits;
     return buffers_
-        .emplace(std::string(name),
-                 Entry<Buffer>{Buffer(device_, std::string(name), size,
-                                      Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eTransferSrc | Usage::eTransferDst, host_visible)})
+        .emplace(std::string(name), Entry<Buffer>{Buffer(device_, std::string(name), size,
+                                                         Usage::eStorageBuffer | Usage::eIndirectBuffer |
+                                                             Usage::eTransferSrc | Usage::eTransferDst,
+                                                         host_visible)})
         .first->second.resource;
 }
 

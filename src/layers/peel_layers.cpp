@@ -28,12 +28,11 @@ Layers LayerSource::peel(Recorder& recorder, const Frame& frame, const Opaque& o
 
     for (std::uint32_t layer = 0; layer < request.count; ++layer) {
         const std::uint32_t last = layer > 0 ? layer - 1 : 0;
-        const RenderTarget target{
-            .extent = frame.extent,
-            .colors = {{&images.depth, layer, clear_to(float(PELLUCID_EMPTY_DEPTH))},
-                       {&images.triangle, layer, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})}},
-            .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-            .scissor = {}};
+        const RenderTarget target{.extent = frame.extent,
+                                  .colors = {{&images.depth, layer, clear_to(float(PELLUCID_EMPTY_DEPTH))},
+                                             {&images.triangle, layer, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})}},
+                                  .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
+                                  .scissor = {}};
         recorder.draw(program,
                       {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
                        reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),

@@ -16,11 +16,16 @@ constexpr vk::DeviceSize kHeaderWords = 4;  // arguments of the dispatch, and th
 
 }  // namespace
 
-const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage& marks, std::uint32_t empty,
-                          std::string_view name, std::uint32_t first_row, std::uint32_t row_end) {
+const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::string_view name) {
     const vk::DeviceSize pixels = vk::DeviceSize(frame.extent.width) * frame.extent.height;
     const Buffer& list = frame.workspace.buffer(name, (kHeaderWords + pixels) * sizeof(std::uint32_t));
     recorder.compute(frame.workspace.compute({"start_list.comp", kStartList}), {writes("PixelList", list)}, {1, 1});
+    return list;
+}
+
+const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage& marks, std::uint32_t empty,
+                          std::string_view name, std::uint32_t first_row, std::uint32_t row_end) {
+    const Buffer& list = start_pixel_list(recorder, frame, name);
     recorder.compute(frame.workspace.compute({"list_pixels.comp", kListPixels}),
                      {reads("marks", marks), updates("PixelList", list)}, std::array{empty, first_row, row_end},
                      {frame.extent.width, row_end - first_row});

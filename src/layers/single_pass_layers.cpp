@@ -87,10 +87,10 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
         recorder.compute_indirect(
             select,
             {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-             reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices), reads("PixelList", *listed),
-             reads("Nodes", nodes), reads("heads", heads), reads("opaque_depth", opaque.depth),
-             writes("layer_depth", images.depth), writes("layer_triangle", images.triangle),
-             writes("layer_normal", images.normal)},
+             reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
+             reads("PixelList", *listed), reads("Nodes", nodes), reads("heads", heads),
+             reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
+             writes("layer_triangle", images.triangle), writes("layer_normal", images.normal)},
             std::array{request.count, request.hidden_by_opaque ? 1u : 0u, one_object ? request.solids[0].object : 0u},
             *listed);
     }
@@ -98,7 +98,8 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
     recorder.copy(counters, counters_on_host(frame, pool_), counters.size());
     // The list of the last band is that of the picture only if there is one band and nothing opaque.
     if (pool_.bands > 1 || (request.hidden_by_opaque && !frame.scene.opaque.empty())) {
-        listed = &list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height);
+        listed =
+            &list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height);
     }
     return {images.depth, images.triangle, images.normal, *listed, request.count, opaque, *this};
 }

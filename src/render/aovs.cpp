@@ -124,8 +124,7 @@ public:
     }
     const std::vector<PathEvents>& events() const { return events_; }
     std::vector<glm::vec4> exit_directions() const {
-        return filled(refraction_.exit_direction,
-                      [](const ViewRay& ray) { return glm::vec4(ray.direction, 0.0f); });
+        return filled(refraction_.exit_direction, [](const ViewRay& ray) { return glm::vec4(ray.direction, 0.0f); });
     }
     std::vector<glm::vec4> exit_positions() const {
         return filled(refraction_.exit_position,

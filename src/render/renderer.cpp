@@ -282,9 +282,12 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     check_settings(settings, impl.device);
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
-    const Frame frame{
-        impl.workspace, *impl.scene, *impl.constants, *impl.environment_map, std::uint32_t(impl.environment.kind),
-        {settings.width, settings.height}};
+    const Frame frame{impl.workspace,
+                      *impl.scene,
+                      *impl.constants,
+                      *impl.environment_map,
+                      std::uint32_t(impl.environment.kind),
+                      {settings.width, settings.height}};
     impl.workspace.trim();
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source = LayerSource();
     try {

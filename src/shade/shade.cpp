@@ -57,13 +57,12 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     const GpuImage& nearest = workspace.image("opaque depth test", vk::Format::eD32Sfloat, frame.extent);
 
     const Recorder::Scope scope(recorder, "opaque");
-    const RenderTarget target{
-        .extent = frame.extent,
-        .colors = {{&radiance, 0, clear_to(0.0f)},
-                   {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
-                   {&object, 0, clear_to({0u, 0u, 0u, 0u})}},
-        .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-        .scissor = {}};
+    const RenderTarget target{.extent = frame.extent,
+                              .colors = {{&radiance, 0, clear_to(0.0f)},
+                                         {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
+                                         {&object, 0, clear_to({0u, 0u, 0u, 0u})}},
+                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
+                              .scissor = {}};
     recorder.draw(program,
                   {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
                    reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
@@ -92,9 +91,9 @@ SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaq
 
     const Recorder::Scope scope(recorder, "surface look");
     recorder.draw(glass,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects),
-                   reads("Indices", scene.indices), reads("Vertices", scene.vertices),
-                   reads("Appearance", scene.appearance), reads("Materials", scene.materials), reads("Textures", scene.textures),
+                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+                   reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
+                   reads("Materials", scene.materials), reads("Textures", scene.textures),
                    reads("texture_pages", scene.texture_pages), reads("layer_triangle", layers.triangle)},
                   target(glass_tint, 1.0f), scene.textured_refractive);
     recorder.draw(
@@ -105,9 +104,9 @@ SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaq
          reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
         target(thin_tint, 1.0f), scene.thin_walled);
     recorder.draw(reflection,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects),
-                   reads("Indices", scene.indices), reads("Vertices", scene.vertices),
-                   reads("Appearance", scene.appearance), reads("Materials", scene.materials), reads("Textures", scene.textures),
+                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+                   reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
+                   reads("Materials", scene.materials), reads("Textures", scene.textures),
                    reads("texture_pages", scene.texture_pages), reads("opaque_depth", opaque.depth),
                    reads("layer_depth", layers.depth), reads_layer("environment_map", frame.environment, 0)},
                   target(thin_reflection, 0.0f), scene.thin_walled);
@@ -126,13 +125,13 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
         refraction.radiance ? *refraction.radiance : workspace.image("no radiance", kRadianceFormat, {1, 1});
 
     const Recorder::Scope scope(recorder, "shade");
-    recorder.compute(workspace.compute({"background.comp", kBackground},
-                                       {frame.environment_kind, analysis, thin_walls, any(frame.scene.opaque)}),
-                     {reads("Frame", frame.constants), reads_layer("environment_map", frame.environment, 0),
-                      reads("thin_tint", look.thin_tint), reads("thin_reflection", look.thin_reflection),
-                      reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth),
-                      writes("radiance", radiance)},
-                     frame.extent);
+    recorder.compute(
+        workspace.compute({"background.comp", kBackground},
+                          {frame.environment_kind, analysis, thin_walls, any(frame.scene.opaque)}),
+        {reads("Frame", frame.constants), reads_layer("environment_map", frame.environment, 0),
+         reads("thin_tint", look.thin_tint), reads("thin_reflection", look.thin_reflection),
+         reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth), writes("radiance", radiance)},
+        frame.extent);
     recorder.compute_indirect(
         workspace.compute({"shade.comp", kShade},
                           {frame.environment_kind, analysis, thin_walls, any(frame.scene.textured_refractive),

@@ -7,14 +7,19 @@
 #include "layers/layers.glsl"
 #include "techniques/refraction.glsl"
 
+// A technique of several passes that reads its own result defines it as empty.
+#ifndef PELLUCID_RESULT_ACCESS
+#define PELLUCID_RESULT_ACCESS writeonly
+#endif
+
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };
 layout(set = 0, binding = 3, r32f) readonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 4, r32ui) readonly uniform uimage2DArray layer_triangle;
-layout(set = 0, binding = 5, rgba32f) writeonly uniform image2DArray exit_direction;
-layout(set = 0, binding = 6, rgba32f) writeonly uniform image2DArray exit_position;
-layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray transmittance;
-layout(set = 0, binding = 8, r32ui) writeonly uniform uimage2DArray path_events;
+layout(set = 0, binding = 5, rgba32f) PELLUCID_RESULT_ACCESS uniform image2DArray exit_direction;
+layout(set = 0, binding = 6, rgba32f) PELLUCID_RESULT_ACCESS uniform image2DArray exit_position;
+layout(set = 0, binding = 7, rgba32f) PELLUCID_RESULT_ACCESS uniform image2DArray transmittance;
+layout(set = 0, binding = 8, r32ui) PELLUCID_RESULT_ACCESS uniform uimage2DArray path_events;
 
 #include "layers/objects.glsl"
 

@@ -55,8 +55,9 @@ protected:
 
 private:
     Frame frame() {
-        return {workspace(), *scene_, *constants_,
-                workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1}), 0, extent_};
+        return {workspace(), *scene_,
+                *constants_, workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1}),
+                0,           extent_};
     }
     Opaque opaque_surfaces(float depth) {
         const GpuImage& image = workspace().image("opaque depth", vk::Format::eR32Sfloat, extent_);
@@ -164,10 +165,8 @@ TEST_F(LayersTest, AgreeWithRayCasting) {
                     continue;
                 }
                 ++crossed;
-                EXPECT_EQ(triangle & ~PELLUCID_BACK_FACE, expected[k].triangle)
-                    << x << "," << y << " layer " << k;
-                EXPECT_EQ((triangle & PELLUCID_BACK_FACE) != 0, expected[k].back)
-                    << x << "," << y << " layer " << k;
+                EXPECT_EQ(triangle & ~PELLUCID_BACK_FACE, expected[k].triangle) << x << "," << y << " layer " << k;
+                EXPECT_EQ((triangle & PELLUCID_BACK_FACE) != 0, expected[k].back) << x << "," << y << " layer " << k;
                 // Rasterised depth is interpolated in single precision.
                 EXPECT_NEAR(layers.depth[k][i], expected[k].depth, 2e-5 * expected[k].depth)
                     << x << "," << y << " layer " << k;

@@ -44,7 +44,7 @@ vec3 texel_normal(ivec2 texel, uint layer) {
     return unpack_unit_vector(imageLoad(merged_normal, ivec3(texel, layer)).r);
 }
 
-// In view space.
+// In world space.
 vec3 normal_at(vec2 pixel, uint layer) {
     Footprint around = footprint(pixel, layer);
     vec3 sum = around.weights.x * texel_normal(around.low, layer) +
@@ -52,7 +52,7 @@ vec3 normal_at(vec2 pixel, uint layer) {
                around.weights.z * texel_normal(ivec2(around.low.x, around.high.y), layer) +
                around.weights.w * texel_normal(around.high, layer);
     // Opposite normals may cancel out; then any of them will do.
-    return mat3(frame.view_from_world) * (dot(sum, sum) > 1e-12 ? normalize(sum) : texel_normal(around.low, layer));
+    return dot(sum, sum) > 1e-12 ? normalize(sum) : texel_normal(around.low, layer);
 }
 
 #endif

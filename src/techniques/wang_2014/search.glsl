@@ -65,55 +65,64 @@ struct Hit {
     uint status;     // why there is none
 };
 
-// Narrows a change of side between two distances; returns the last distance on the near side of it.
-// `behind_before` is the side of the ray before the change. `jump` is how far apart the depths on
-// the two sides of the change lie.
-float binary_search(ScreenRay ray, uint layer, bool behind_before, float before, float after, out float jump) {
+// Narrows the way between a point in front of the layer and one behind it; returns the last distance in front.
+// `jump` is how far apart the layer's depths on the two sides lie.
+float binary_search(ScreenRay ray, uint layer, float before, float after, out float jump) {
     float depth_before = footprint(pixel_at(ray, before), layer).depth;
     float depth_after = footprint(pixel_at(ray, after), layer).depth;
     for (uint i = 0u; i < binary_steps; ++i) {
         float middle = 0.5 * (before + after);
         float depth = footprint(pixel_at(ray, middle), layer).depth;
-        if ((depth_at(ray, middle) > depth) == behind_before) {
-            before = middle;
-            depth_before = depth;
-        } else {
+        if (depth_at(ray, middle) > depth) {
             after = middle;
             depth_after = depth;
+        } else {
+            before = middle;
+            depth_before = depth;
         }
     }
     jump = abs(depth_after - depth_before);
     return before;
 }
 
-// Searches `layer` along the ray, first in linear, then in binary steps (3.3, 3.5). Entries and exits
+// The pixel coordinate under a point of the world.
+vec2 world_pixel(vec3 position) { return project((frame.view_from_world * vec4(position, 1.0)).xyz); }
+
+// Searches `layer` along a ray of world space, first in linear, then in binary steps (3.3, 3.5). Entries and exits
 // alike are met from in front: a ray that comes up from behind comes out from below a fault zone.
-Hit search(vec3 origin, vec3 direction, uint layer, bool leaves_surface) {
+// `on_layer`: it starts on the searched layer; `from_afar`: it starts anywhere; neither: in front of it.
+Hit search(vec3 world_origin, vec3 world_direction, uint layer, bool on_layer, bool from_afar) {
+    vec3 origin = (frame.view_from_world * vec4(world_origin, 1.0)).xyz;
+    vec3 direction = mat3(frame.view_from_world) * world_direction;
     ScreenRay ray = screen_ray(origin, direction);
     float to_screen_edge = distance_to_screen_edge(ray);
-    float end = min(to_screen_edge, distances_in_box(origin, direction).y);
-    float step_length = max(end / float(linear_steps), fault_size());
+    vec2 in_box = distances_in_box(origin, direction);
+    float start = from_afar ? in_box.x : 0.0;
+    float end = min(to_screen_edge, in_box.y);
+    if (!(start < end)) return Hit(-1.0, kStatusMissingLayer);
+    float step_length = max((end - start) / float(linear_steps), fault_size());
 
     // Which side of the layer the ray is on; "-" of the thesis is true. A ray that starts on layer 1
     // is in front of layer 2. A ray that starts on the searched layer takes a small step first.
-    float before = leaves_surface ? kFirstStep * step_length : 0.0;
-    bool behind = leaves_surface && depth_at(ray, before) > stored_depth(pixel_at(ray, before), layer);
+    float before = on_layer ? kFirstStep * step_length : start;
+    bool behind = (on_layer || from_afar) && depth_at(ray, before) > stored_depth(pixel_at(ray, before), layer);
 
-    // The loops stand one in the other, not the binary search in the linear loop: on some drivers what stands in
-    // a loop costs its time at every turn, taken or not.
+    // The binary search stands beside the linear one, not in it: on some drivers what stands in a loop costs its
+    // time at every turn, taken or not.
     float after = before;
     for (uint i = 1u; after < end;) {
-        bool changed = false;
-        for (; !changed && after < end; ++i) {
+        bool passed = false;  // from in front of the layer to behind it
+        for (; !passed && after < end; ++i) {
             before = after;
-            after = min(float(i) * step_length, end);
-            changed = (depth_at(ray, after) > stored_depth(pixel_at(ray, after), layer)) != behind;
+            after = min(start + float(i) * step_length, end);
+            bool now_behind = depth_at(ray, after) > stored_depth(pixel_at(ray, after), layer);
+            passed = now_behind && !behind;
+            behind = now_behind;  // false: out from under a fault zone, if it was below one
         }
-        if (!changed) break;
+        if (!passed) break;
         float jump;
-        float hit = binary_search(ray, layer, behind, before, after, jump);
-        if (!behind && jump <= fault_size()) return Hit(hit, kStatusOk);  // case 3
-        behind = !behind;  // case 2: below the fault, or out from under it again
+        float hit = binary_search(ray, layer, before, after, jump);
+        if (jump <= fault_size()) return Hit(hit, kStatusOk);  // case 3; case 2: below the fault
     }
     // Beside the object nothing is missing from the picture: the ray has left unseen.
     bool over_glass = abs(stored_depth(pixel_at(ray, end), layer)) < PELLUCID_EMPTY_DEPTH;
