@@ -3,6 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/wang_2014/ray_state.glsl"
 #include "techniques/wang_2014/search.glsl"
+#include "techniques/wang_2014/first_surface.glsl"
+
+layout(constant_id = 0) const bool kFromEye = false;  // the rays are view rays that have yet to come in
 
 layout(std430, set = 0, binding = 17) buffer Outside {
     uint outside_groups[3];
@@ -19,13 +22,17 @@ void main() {
     ivec2 texel;
     if (!listed_pixel(texel)) return;
 
-    Path path = load_path(texel);
+    Path path = kFromEye ? pass_first_surface(texel) : load_path(texel);
+    if (kFromEye && path.status != kStatusOk) {
+        store_world_refraction(texel, path);
+        return;
+    }
     // A ray that was reflected stands on the layer that it searches, one that has come in does not.
     bool reflected = path.status == kStatusEventLimit;
     Hit hit = search(path.position, path.direction, layer, reflected, false);
     if (hit.distance < 0.0) {
         path.status = hit.status;
-        imageStore(path_events, ivec3(texel, 0), uvec4(pack_events(path)));
+        store_world_refraction(texel, path);
         return;
     }
     MaterialRecord material = object_material();

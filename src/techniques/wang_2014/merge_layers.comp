@@ -12,6 +12,7 @@ layout(set = 0, binding = 0, r32f) readonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 1, r32f) writeonly uniform image2DArray merged_depth;
 layout(set = 0, binding = 2, r32ui) readonly uniform uimage2DArray layer_normal;
 layout(set = 0, binding = 3, r32ui) writeonly uniform uimage2DArray merged_normal;
+layout(std430, set = 0, binding = 4) buffer EntryLimit { uint farthest_entry; };  // depth; 0 or more, so its bits compare
 layout(push_constant) uniform Push { uint layer_count; };
 
 void main() {
@@ -30,4 +31,5 @@ void main() {
         imageStore(merged_depth, ivec3(texel, layer), vec4(last_of_kind[layer & 1u]));
         imageStore(merged_normal, ivec3(texel, layer), uvec4(normal_of_kind[layer & 1u]));
     }
+    if (last_of_kind[0] < PELLUCID_EMPTY_DEPTH) atomicMax(farthest_entry, floatBitsToUint(max(last_of_kind[0], 0.0)));
 }

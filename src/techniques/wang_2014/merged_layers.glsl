@@ -5,6 +5,7 @@
 // Needs: technique_bindings.glsl, fault_size().
 
 layout(set = 0, binding = 10, r32f) readonly uniform image2DArray merged_depth;
+layout(std430, set = 0, binding = 13) readonly buffer EntryLimit { uint farthest_entry; };  // depth, as bits
 layout(set = 0, binding = 11, r32ui) readonly uniform uimage2DArray merged_normal;  // world, octahedral
 
 float texel_depth(ivec2 texel, uint layer) {

@@ -98,9 +98,12 @@ Hit search(vec3 world_origin, vec3 world_direction, uint layer, bool on_layer, b
     float to_screen_edge = distance_to_screen_edge(ray);
     vec2 in_box = distances_in_box(origin, direction);
     float start = from_afar ? in_box.x : 0.0;
-    float end = min(to_screen_edge, in_box.y);
-    if (!(start < end)) return Hit(-1.0, kStatusMissingLayer);
-    float step_length = max((end - start) / float(linear_steps), fault_size());
+    float last = min(to_screen_edge, in_box.y);
+    if (!(start < last)) return Hit(-1.0, kStatusMissingLayer);
+    // Behind the farthest entry of the picture there is none to be met.
+    bool entries = layer % 2u == 0u;
+    float end = entries ? min(last, reach_zero(uintBitsToFloat(farthest_entry) + fault_size() - ray.depth, -ray.depth_rate)) : last;
+    float step_length = max((last - start) / float(linear_steps), fault_size());
 
     // Which side of the layer the ray is on; "-" of the thesis is true. A ray that starts on layer 1
     // is in front of layer 2. A ray that starts on the searched layer takes a small step first.
@@ -125,8 +128,8 @@ Hit search(vec3 world_origin, vec3 world_direction, uint layer, bool on_layer, b
         if (jump <= fault_size()) return Hit(hit, kStatusOk);  // case 3; case 2: below the fault
     }
     // Beside the object nothing is missing from the picture: the ray has left unseen.
-    bool over_glass = abs(stored_depth(pixel_at(ray, end), layer)) < PELLUCID_EMPTY_DEPTH;
-    return Hit(-1.0, to_screen_edge <= end && over_glass ? kStatusLeftScreen : kStatusMissingLayer);
+    bool over_glass = abs(stored_depth(pixel_at(ray, last), layer)) < PELLUCID_EMPTY_DEPTH;
+    return Hit(-1.0, to_screen_edge <= last && over_glass ? kStatusLeftScreen : kStatusMissingLayer);
 }
 
 #endif
