@@ -1,6 +1,7 @@
 #version 460
 // Appends every glass fragment to the list of its pixel.
 #extension GL_GOOGLE_include_directive : require
+#include "gpu/frame.glsl"
 #include "layers/fragment_list.glsl"
 #include "layers/layer_fragment.glsl"
 

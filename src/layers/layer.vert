@@ -7,8 +7,7 @@ layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord obje
 
 layout(push_constant) uniform Push { uint drawn_object; };  // set by Recorder::draw
 
-layout(location = 0) out float eye_depth;
-layout(location = 1) flat out uint triangle;  // with PELLUCID_BACK_FACE if the object mirrors its mesh
+layout(location = 0) flat out uint triangle;  // with PELLUCID_BACK_FACE if the object mirrors its mesh
 
 invariant gl_Position;
 
@@ -17,7 +16,6 @@ void main() {
     vec3 position = vertex_position(indices[gl_VertexIndex]);
     vec4 view = frame.view_from_world * (object.world_from_object * vec4(position, 1.0));
     gl_Position = frame.clip_from_view * view;
-    eye_depth = -view.z;
     triangle = object.first_triangle + (uint(gl_VertexIndex) - object.first_corner) / 3u;
     if (object.mirrored != 0u) triangle |= PELLUCID_BACK_FACE;
 }

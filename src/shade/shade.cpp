@@ -57,6 +57,10 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     const GpuImage& nearest = workspace.image("opaque depth test", vk::Format::eD32Sfloat, frame.extent);
 
     const Recorder::Scope scope(recorder, "opaque");
+    if (frame.scene.opaque.empty()) {
+        recorder.clear(depth, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
+        return {radiance, depth, object};
+    }
     const RenderTarget target{.extent = frame.extent,
                               .colors = {{&radiance, 0, clear_to(0.0f)},
                                          {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
@@ -80,9 +84,13 @@ SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaq
         workspace.graphics(surface_program({"thin_tint.frag", kThinTint}, {kLookFormat}, Blend::kMultiply, false));
     const Program& reflection = workspace.graphics(
         surface_program({"thin_reflection.frag", kThinReflection}, {kLookFormat}, Blend::kAdd, false));
-    const GpuImage& glass_tint = workspace.image("glass tint", kLookFormat, frame.extent);
-    const GpuImage& thin_tint = workspace.image("thin tint", kLookFormat, frame.extent);
-    const GpuImage& thin_reflection = workspace.image("thin reflection", kLookFormat, frame.extent);
+    // What nothing in the scene draws into is not looked at either.
+    const auto look_image = [&](std::string_view name, const std::vector<DrawCall>& objects) -> const GpuImage& {
+        return workspace.image(name, kLookFormat, objects.empty() ? vk::Extent2D{1, 1} : frame.extent);
+    };
+    const GpuImage& glass_tint = look_image("glass tint", frame.scene.textured_refractive);
+    const GpuImage& thin_tint = look_image("thin tint", frame.scene.thin_walled);
+    const GpuImage& thin_reflection = look_image("thin reflection", frame.scene.thin_walled);
     const auto target = [&](const GpuImage& image, float clear) {
         return RenderTarget{
             .extent = frame.extent, .colors = {{&image, 0, clear_to(clear)}}, .depth = {}, .scissor = {}};
@@ -90,12 +98,16 @@ SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaq
     const GpuScene& scene = frame.scene;
 
     const Recorder::Scope scope(recorder, "surface look");
-    recorder.draw(glass,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-                   reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
-                   reads("Materials", scene.materials), reads("Textures", scene.textures),
-                   reads("texture_pages", scene.texture_pages), reads("layer_triangle", layers.triangle)},
-                  target(glass_tint, 1.0f), scene.textured_refractive);
+    if (!scene.textured_refractive.empty()) {
+        recorder.draw(
+            glass,
+            {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+             reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
+             reads("Materials", scene.materials), reads("Textures", scene.textures),
+             reads("texture_pages", scene.texture_pages), reads("layer_triangle", layers.triangle)},
+            target(glass_tint, 1.0f), scene.textured_refractive);
+    }
+    if (scene.thin_walled.empty()) return {glass_tint, thin_tint, thin_reflection};
     recorder.draw(
         tint,
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
