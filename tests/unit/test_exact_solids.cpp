@@ -19,8 +19,9 @@ namespace {
 
 using namespace test;
 
-const char* const kClosedShapes[] = {"shape:sphere", "shape:torus", "shape:knot",          "shape:goblet",
-                                     "shape:gem",    "shape:cube",  "shape:hollow-sphere", "shape:infinity-ring"};
+const char* const kClosedShapes[] = {"shape:sphere",        "shape:torus",         "shape:knot",
+                                     "shape:goblet",        "shape:gem",           "shape:cube",
+                                     "shape:hollow-sphere", "shape:infinity-ring", "shape:bottle"};
 
 /// A box of glass with a cubic cavity of 1 m, and a cube of water of the given size in it.
 Scene water_in_glass(float water_size, bool water_first, const glm::mat4& placed) {

@@ -96,15 +96,27 @@ TEST(Shapes, EveryDefaultIsClosedAndNamed) {
 }
 
 TEST(Shapes, EveryTessellationIsClosed) {
-    for (const char* spec :
-         {"sphere,segments=1", "sphere,segments=7,radius=0.01", "cube,segments=5",
-          "slab,width=3,height=0.7,thickness=0.001,segments=3", "torus,segments=3,sides=3",
-          "torus,segments=17,sides=5,radius=1,tube=0.4", "infinity-ring,segments=60,sides=20",
-          "infinity-ring,segments=101,sides=7,tube=0.05,lift=3", "knot,p=3,q=2",
-          "knot,p=5,q=7,tube=0.04,segments=1001,sides=9", "knot,p=1,q=1,tube=0.1", "goblet,segments=24,rings=60",
-          "goblet,segments=7,rings=40,wall=0.08", "goblet,segments=64,rings=500,wall=0.008", "gem,facets=5,table=0.7",
-          "gem,facets=64,girdle=0.005", "hollow-sphere,segments=3,inner=0.99",
-          "hollow-sphere,segments=11,inner=0.05"}) {
+    for (const char* spec : {"sphere,segments=1",
+                             "sphere,segments=7,radius=0.01",
+                             "cube,segments=5",
+                             "slab,width=3,height=0.7,thickness=0.001,segments=3",
+                             "torus,segments=3,sides=3",
+                             "torus,segments=17,sides=5,radius=1,tube=0.4",
+                             "infinity-ring,segments=60,sides=20",
+                             "infinity-ring,segments=101,sides=7,tube=0.05,lift=3",
+                             "knot,p=3,q=2",
+                             "knot,p=5,q=7,tube=0.04,segments=1001,sides=9",
+                             "knot,p=1,q=1,tube=0.1",
+                             "goblet,segments=24,rings=60",
+                             "goblet,segments=7,rings=40,wall=0.08",
+                             "goblet,segments=64,rings=500,wall=0.008",
+                             "bottle,segments=9,rings=64",
+                             "bottle,segments=24,rings=200,grooves=8,wall=0.06",
+                             "bottle,segments=64,rings=500,grooves=1,wall=0.008",
+                             "gem,facets=5,table=0.7",
+                             "gem,facets=64,girdle=0.005",
+                             "hollow-sphere,segments=3,inner=0.99",
+                             "hollow-sphere,segments=11,inner=0.05"}) {
         SCOPED_TRACE(spec);
         expect_sound(load_shape(spec));
     }
@@ -156,8 +168,8 @@ TEST(Shapes, AnalyticNormalsAreExact) {
 }
 
 TEST(Shapes, SmoothNormalsFollowTheSurface) {
-    for (const char* spec :
-         {"goblet,segments=600,rings=1500", "knot,segments=2400,sides=300", "infinity-ring,segments=1600,sides=300"}) {
+    for (const char* spec : {"goblet,segments=600,rings=1500", "bottle,segments=600,rings=2000",
+                             "knot,segments=2400,sides=300", "infinity-ring,segments=1600,sides=300"}) {
         SCOPED_TRACE(spec);
         const Mesh mesh = load_shape(spec);
         double least = 1.0;
@@ -197,14 +209,44 @@ bool cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
     return side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
 }
 
+/// Distance from the axis and height, from the middle of the underside to that of the bottom inside.
+std::vector<glm::dvec2> profile_of(const std::string& spec) {
+    // Three segments: the first vertex of each ring lies in the half plane z = 0, x > 0.
+    std::vector<glm::dvec2> profile;
+    for (const glm::vec3 p : load_shape(spec + ",segments=3").positions)
+        if (p.z == 0.0f && p.x >= 0.0f) profile.emplace_back(p.x, p.y);
+    return profile;
+}
+
+TEST(Shapes, BottleIsHollowAndOpen) {
+    for (const char* wall : {"0.008", "0.03", "0.06"}) {
+        SCOPED_TRACE(wall);
+        const std::vector<glm::dvec2> profile = profile_of("bottle,rings=800,grooves=8,wall=" + std::string(wall));
+        ASSERT_EQ(profile.size(), 801u);
+        int crossing_count = 0;
+        for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+            for (std::size_t j = i + 2; j + 1 < profile.size(); ++j)
+                crossing_count += cross(profile[i], profile[i + 1], profile[j], profile[j + 1]);
+        EXPECT_EQ(crossing_count, 0);
+        const auto rim = std::ranges::max_element(profile, {}, &glm::dvec2::y);
+        // The inside goes down from the rim to the bottom, and is never nearer to the outside than most of a wall.
+        const double thickness = std::stod(wall);
+        EXPECT_NEAR(profile.back().y - profile.front().y, thickness, 0.1 * thickness);
+        double thinnest = 1.0;
+        for (auto inner = rim; inner != profile.end(); ++inner) {
+            if (inner->y > rim->y - 2.0 * thickness) continue;  // around the rim itself
+            for (auto outer = profile.begin(); outer != rim; ++outer)
+                thinnest = std::min(thinnest, glm::distance(*inner, *outer));
+        }
+        EXPECT_GT(thinnest, 0.6 * thickness);
+        EXPECT_GT(rim->x, 0.05);
+    }
+}
+
 TEST(Shapes, GobletProfileDoesNotCrossItself) {
     for (const char* wall : {"0.008", "0.02", "0.035", "0.08"}) {
         SCOPED_TRACE(wall);
-        // Three segments: the first vertex of each ring lies in the half plane z = 0, x > 0.
-        const Mesh mesh = load_shape("goblet,segments=3,rings=400,wall=" + std::string(wall));
-        std::vector<glm::dvec2> profile;
-        for (const glm::vec3 p : mesh.positions)
-            if (p.z == 0.0f && p.x >= 0.0f) profile.emplace_back(p.x, p.y);
+        const std::vector<glm::dvec2> profile = profile_of("goblet,rings=400,wall=" + std::string(wall));
         ASSERT_EQ(profile.size(), 401u);
         int crossing_count = 0;
         for (std::size_t i = 0; i + 1 < profile.size(); ++i)
@@ -262,7 +304,8 @@ TEST(Shapes, BadSpecificationsAreRefusedInOneLine) {
                              "sphere,segments=1e9",
                              "knot,p=2,q=4",
                              "knot,p=2.5",
-                             "goblet,wall=0.5"}) {
+                             "goblet,wall=0.5",
+                             "bottle,grooves=2.5"}) {
         const std::string message = complaint(spec);
         EXPECT_FALSE(message.empty()) << spec;
         EXPECT_EQ(message.find('\n'), std::string::npos) << spec;

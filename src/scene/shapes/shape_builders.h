@@ -16,6 +16,7 @@ Mesh make_torus(const ShapeArguments& arguments);
 Mesh make_infinity_ring(const ShapeArguments& arguments);
 Mesh make_knot(const ShapeArguments& arguments);
 Mesh make_goblet(const ShapeArguments& arguments);
+Mesh make_bottle(const ShapeArguments& arguments);
 Mesh make_gem(const ShapeArguments& arguments);
 
 // What several shapes are made from. Computed in double, rounded once at the end.
@@ -56,5 +57,13 @@ struct ProfilePoint {
 /// Solid of revolution around +Y. The profile has the solid on its left and begins and ends on the
 /// axis, where it makes a fan around one vertex.
 Mesh revolve(const std::vector<ProfilePoint>& profile, int segments);
+
+/// A profile for revolve(): the uniform cubic B-spline of control points (distance from the axis, height), which begin
+/// and end on the axis and are met there at right angles. It has `rings` stretches, shorter where it bends.
+std::vector<ProfilePoint> spline_profile(const std::vector<glm::dvec2>& control_points, int rings);
+
+/// Appends the inside of a vessel to control points: those of its `outside` but the first, which go up and on to `end`,
+/// backwards and moved by `wall` to the side on which the axis is.
+void add_inside(std::vector<glm::dvec2>& points, const std::vector<glm::dvec2>& outside, glm::dvec2 end, double wall);
 
 }  // namespace pellucid
