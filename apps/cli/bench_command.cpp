@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
@@ -62,15 +61,6 @@ struct BenchView {
         return {embree.tracer, camera, {.width = settings.width, .height = settings.height, .packet = packet}};
     }
 };
-
-std::string cpu_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        const std::size_t colon = line.find(": ");
-        if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-    }
-    return "unknown";
-}
 
 nlohmann::ordered_json as_json(const std::vector<double>& times_ms) {
     const Spread s = spread(times_ms);
@@ -220,8 +210,8 @@ std::vector<BenchCase> cases_of(const BenchArguments& arguments, std::vector<std
     std::vector<BenchCase> cases;
     for (const std::string& scene : arguments.scenes) cases.push_back({.scene = scene, .source = scene});
     if (arguments.suite) {
-        for (BenchCase& each : suite_cases(*arguments.suite, arguments.models.value_or(""), warnings))
-            cases.push_back(std::move(each));
+        ModelFolder models(arguments.models.value_or(""), warnings);
+        for (BenchCase& each : suite_cases(*arguments.suite, models)) cases.push_back(std::move(each));
     }
     return cases;
 }
@@ -298,20 +288,6 @@ void run_bench(const BenchArguments& arguments) {
     check_validation(bench.renderer);
 }
 
-/// The command line with which others can repeat the measurement: files by their names, the folder of models as DIR,
-/// without the file that it writes.
-std::string command_without_folders(const CLI::App& command) {
-    std::string line = "pellucid " + command.get_name();
-    for (const CLI::Option* option : command.get_options()) {
-        if (option->count() == 0 || option->check_lname("json")) continue;
-        if (!option->get_positional()) line += " --" + option->get_lnames().front();
-        if (option->get_items_expected_max() == 0) continue;  // a flag
-        for (const std::string& value : option->reduced_results())
-            line += " " + (option->check_lname("models") ? "DIR" : std::filesystem::path(value).filename().string());
-    }
-    return line;
-}
-
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
@@ -342,7 +318,7 @@ void add_bench_command(CLI::App& app) {
     add_device_options(*command, a.device);
     add_parameter_options(*command, a.parameters);
     command->callback([arguments, command] {
-        arguments->command = command_without_folders(*command);
+        arguments->command = "pellucid bench" + arguments_without_folders(*command);
         run_bench(*arguments);
     });
 }

@@ -19,18 +19,9 @@ constexpr float kElevationDeg = 15.0f;
 /// here as well, and at the near one the bounding sphere fills three quarters of the height.
 constexpr float kNear = 5.0f, kFar = 10.0f;  // bounding-sphere radii
 
-/// What the suites call for, in the order in which the files are looked for.
-struct Model {
-    const char* name;
-    std::array<const char*, 2> files;
-    const char* installed;  ///< where Debian puts one like it; "" for nowhere
-};
-constexpr Model kBunny{"bunny", {"bunny_closed_69664.obj", "bunny.obj"}, "/usr/share/glmark2/models/bunny.obj"};
-constexpr Model kCow{"cow", {"cow.obj", "cow_5804.obj"}, ""};
-
 class Suite {
 public:
-    Suite(const fs::path& models, std::vector<std::string>& warnings) : models_(models), warnings_(warnings) {}
+    explicit Suite(ModelFolder& models) : models_(models) {}
 
     void add(BenchCase bench_case) { cases_.push_back(std::move(bench_case)); }
     void add_shape(const std::string& shape, BenchCase how) {
@@ -38,7 +29,7 @@ public:
         add(how);
     }
     void add_model(const Model& model, BenchCase how) {
-        const fs::path file = find(model);
+        const fs::path file = models_.find(model);
         how.scene = file.filename().string();
         how.source = file.string();
         if (!file.empty()) add(how);
@@ -46,21 +37,7 @@ public:
     std::vector<BenchCase> cases() && { return std::move(cases_); }
 
 private:
-    fs::path find(const Model& model) {
-        std::error_code ignored;
-        for (const char* file : model.files) {
-            if (!models_.empty() && fs::is_regular_file(models_ / file, ignored)) return models_ / file;
-        }
-        if (fs::is_regular_file(model.installed, ignored)) return model.installed;
-        const std::string warning =
-            fmt::format("{} is left out: {} has no {}", model.name,
-                        models_.empty() ? "there is no --models DIR that" : models_.string(), model.files.front());
-        if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
-        return {};
-    }
-
-    const fs::path& models_;
-    std::vector<std::string>& warnings_;
+    ModelFolder& models_;
     std::vector<BenchCase> cases_;
 };
 
@@ -126,12 +103,11 @@ Scene with_copies(Scene scene, int copies) {
     return scene;
 }
 
-std::vector<BenchCase> suite_cases(const std::string& name, const fs::path& models,
-                                   std::vector<std::string>& warnings) {
+std::vector<BenchCase> suite_cases(const std::string& name, ModelFolder& models) {
     std::vector<std::string> known;
     for (const SuiteInfo& info : kSuites) {
         if (info.name == name) {
-            Suite suite(models, warnings);
+            Suite suite(models);
             info.add(suite);
             return std::move(suite).cases();
         }

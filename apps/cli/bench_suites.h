@@ -1,9 +1,10 @@
 #pragma once
 
+#include "model_files.h"
+
 #include <pellucid/pellucid.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,8 +32,7 @@ Scene with_copies(Scene scene, int copies);
 
 /// The cases of a suite. Model files come from `models`; one that is missing is left out with a warning.
 /// Throws Error listing the known suites for an unknown name.
-std::vector<BenchCase> suite_cases(const std::string& name, const std::filesystem::path& models,
-                                   std::vector<std::string>& warnings);
+std::vector<BenchCase> suite_cases(const std::string& name, ModelFolder& models);
 /// "quick (...); thesis (...)", for the help.
 std::string suite_help();
 

@@ -8,6 +8,9 @@
 
 namespace pellucid::cli {
 
+/// The processor that traces are timed on.
+std::string cpu_name();
+
 /// Tracer::trace_fast of one view.
 struct TimedTrace {
     const Tracer& tracer;

@@ -122,6 +122,19 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
     }
 }
 
+std::string arguments_without_folders(const CLI::App& command, const CLI::Option* left_out) {
+    std::string line;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option == left_out || option->count() == 0 || option->check_lname("json") || option->check_lname("report"))
+            continue;
+        if (!option->get_positional()) line += " --" + option->get_lnames().front();
+        if (option->get_items_expected_max() == 0) continue;  // a flag
+        for (const std::string& value : option->reduced_results())
+            line += " " + (option->check_lname("models") ? "DIR" : std::filesystem::path(value).filename().string());
+    }
+    return line;
+}
+
 std::string shape_help() {
     std::string help =
         "Scene: a .gltf, .glb, .obj, .ply, .stl, .off or .3ds file, or shape:NAME[,PARAMETER=VALUE...] with NAME one "

@@ -57,6 +57,10 @@ void add_environment_option(CLI::App& command, std::string& name_or_file);
 /// that is one of `inputs`, or that is given for two outputs.
 void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
+/// The arguments with which others can repeat a measurement, each after a blank: files by their names, the folder of
+/// models as DIR, without the files that are written, and without the option `left_out`.
+std::string arguments_without_folders(const CLI::App& command, const CLI::Option* left_out = nullptr);
+
 /// Help texts that list what there is.
 std::string shape_help();
 std::string technique_list();

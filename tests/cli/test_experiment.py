@@ -1,0 +1,153 @@
+"""`pellucid experiment`: what there is, what it refuses, and the table, the figure and the JSON of a run."""
+import json
+import os
+import re
+import xml.dom.minidom
+
+import cli
+import pictures
+from cli import CliTest, TETRAHEDRON
+
+NAMES = ["wang-search-step", "wang-environment", "wang-layers", "interfaces", "wyman-speed", "wang-table-4-1",
+         "wang-many-objects"]
+
+
+class Experiment(CliTest):
+    def experiment(self, *arguments, size="96x96", frames="2"):
+        return self.run_cli("experiment", *arguments, "--size", size, "--frames", frames, "--validate")
+
+    def measure(self, *arguments, **options):
+        result = self.experiment(*arguments, "--json", "experiment.json", **options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result, json.loads(self.read("experiment.json"))
+
+    def page(self, name, folder="out/experiments"):
+        return self.read(f"{folder}/{name}/index.html").decode()
+
+    def check_links(self, page_file):
+        """Every file that a page names is there, and nothing comes from elsewhere."""
+        page = self.read(page_file).decode()
+        self.assertNotIn("<script", page)
+        self.assertNotRegex(page, r"https?://(?!www\.w3\.org/)")
+        for link in re.findall(r"(?:href|src)='([^']*)'", page):
+            self.assertTrue(os.path.isfile(self.path(os.path.join(os.path.dirname(page_file), link))), link)
+
+    def test_list(self):
+        for arguments in ((), ("--list",), ("all", "--list")):
+            result = self.run_cli("experiment", *arguments)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertEqual([line.split()[0] for line in result.stdout.splitlines()], NAMES)
+        self.assertEqual(self.files(), [])
+
+    def test_refusals(self):
+        for words, arguments in (
+                (["unknown experiment 'nonsense'", *NAMES], ("wang-layers", "nonsense")),
+                (["--models", "nowhere"], ("all", "--models", "nowhere")),
+                (["--frames"], ("all", "--frames", "0")),
+                (["--size"], ("all", "--size", "big")),
+                (["size 1000000x2"], ("all", "--size", "1000000x2")),
+                (["nowhere"], ("all", "--json", "nowhere/experiment.json"))):
+            with self.subTest(arguments):
+                self.assert_refused(self.run_cli("experiment", *arguments), *words)
+        self.assertEqual(self.files(), [])
+
+    def test_missing_models(self):
+        """Named in a warning; nothing is left of an experiment that has no other scene."""
+        result, content = self.measure("wang-layers")
+        self.assertRegex(result.stderr, r"warning: wang-layers: dragon is left out: .*photon_dragon\.obj")
+        self.assertEqual(content["experiments"][0]["runs"], [])
+        self.assertTrue(any("photon_dragon.obj" in warning for warning in content["experiments"][0]["warnings"]))
+        self.assertFalse(os.path.exists(self.path("out/experiments/wang-layers")))
+        result, content = self.measure("interfaces", size="24x24")
+        self.assertIn("cow.obj", result.stderr)
+        scenes = {run["scene"] for run in content["experiments"][0]["runs"]}
+        self.assertLessEqual({"goblet", "torus", "knot", "bottle"}, scenes)
+        self.assertNotIn("cow", scenes)
+
+    def test_timed_experiment(self):
+        """A curve over a parameter: table, plots, pictures and numbers agree."""
+        os.mkdir(self.path("models"))
+        self.write("models/photon_dragon.obj", TETRAHEDRON)
+        result, content = self.measure("wang-layers", "--models", self.path("models"))
+        self.assertEqual(result.stderr, "")  # no progress bar where nobody watches
+        for key in ("device", "driver", "version", "cpu"):
+            self.assertTrue(content[key], key)
+        one, = content["experiments"]
+        self.assertEqual(one["name"], "wang-layers")
+        self.assertEqual(one["command"], "pellucid experiment wang-layers --models DIR --size 96x96 --frames 2 --validate")
+        self.assertEqual([run["parameters"]["layers"] for run in one["runs"]], [2, 4, 6, 8])
+        for run in one["runs"]:
+            self.assertEqual((run["width"], run["height"], run["triangles"], run["frames"]), (96, 96, 4, 2))
+            self.assertGreater(run["covered"], 0)
+            self.assertGreater(run["frame_ms"]["median"], 0)
+            self.assertAlmostEqual(run["ratio_embree"], run["embree_ms"] / run["frame_ms"]["median"])
+            self.assertAlmostEqual(run["fps"], 1000 / run["frame_ms"]["median"])
+        table = self.read("out/experiments/wang-layers/wang-layers.md").decode()
+        for run in one["runs"]:
+            self.assertRegex(table, rf"\| dragon \| {run['parameters']['layers']:.0f} layers \| 4 \| "
+                             rf"{100 * run['within_1deg']:.1f} \|")
+        self.assertIn(one["command"], table)
+        self.assertIn(content["device"], table)
+        for plot in ("plot-1.svg", "plot-2.svg"):
+            svg = xml.dom.minidom.parseString(self.read(f"out/experiments/wang-layers/{plot}"))
+            self.assertGreater(len(svg.getElementsByTagName("circle")), 4)
+        for page in ("wang-layers/index.html", "index.html"):
+            self.check_links(f"out/experiments/{page}")
+        for link in re.findall(r"\]\(([^)]*)\)", table):
+            self.assertTrue(os.path.isfile(self.path(f"out/experiments/wang-layers/{link}")), link)
+
+    def test_an_experiment_replaces_its_own_page_alone(self):
+        self.measure("wang-many-objects", "--report", "pages", size="32x32")
+        os.mkdir(self.path("models"))
+        self.write("models/cow.obj", TETRAHEDRON)
+        self.measure("wang-search-step", "--models", "models", "--report", "pages", size="32x32")
+        index = self.read("pages/index.html").decode()
+        for name in ("wang-many-objects", "wang-search-step"):
+            self.assertIn(f"{name}/index.html", index)
+        self.assertNotIn("wyman-speed/index.html", index)
+        self.check_links("pages/index.html")
+        before = self.files()
+        self.measure("wang-search-step", "--models", "models", "--report", "pages", size="32x32")
+        self.assertEqual(self.files(), before)
+
+    def test_foreign_files_are_kept(self):
+        os.makedirs(self.path("pages/wang-many-objects"))
+        self.write("pages/wang-many-objects/index.html", "mine")
+        self.assert_refused(self.run_cli("experiment", "wang-many-objects", "--size", "16x16", "--report", "pages"),
+                            "index.html", "in the way")
+        self.assertEqual(self.read("pages/wang-many-objects/index.html"), b"mine")
+
+    def test_environment_maps_converge_to_the_formula(self):
+        _, content = self.measure("wang-environment", size="128x128")
+        runs = [run for run in content["experiments"][0]["runs"] if run["scene"] == "torus"]
+        self.assertEqual([run["map_width"] for run in runs], [256, 512, 1024])
+        errors = [run["rmse"] for run in runs]
+        self.assertGreater(errors[0], errors[1])
+        self.assertGreater(errors[1], errors[2])
+        self.assertGreater(errors[2], 0)
+        exact = pictures.read_png(self.read("out/experiments/wang-environment/torus-procedural.png"))
+        self.assertEqual((exact.width, exact.height), (128, 128))
+        self.assertIn("torus-magnified-256-texels.png", self.page("wang-environment"))
+
+    def test_several_objects(self):
+        _, content = self.measure("wang-many-objects", size="48x48")
+        runs = content["experiments"][0]["runs"]
+        self.assertEqual([run["objects"] for run in runs], [2, 2, 5])
+        for run in runs:
+            self.assertGreater(run["covered"], 100)
+            # What is exact does not depend on the last bits: no two surfaces coincide.
+            self.assertGreater(run["self_within_1deg"], 0.98)
+
+    def test_published_figures(self):
+        """Table 4.1: a row for each model and distance, with the thesis's ratio beside ours."""
+        _, content = self.measure("wang-table-4-1", size="32x32")
+        ratios = {run["scene"]: run["published"]["ratio"] for run in content["experiments"][0]["runs"]}
+        self.assertAlmostEqual(ratios["sphere, far"], 153 / 112)
+        self.assertAlmostEqual(ratios["sphere, near"], 153 / 56)
+        self.assertAlmostEqual(ratios["torus, near"], 142 / 49)
+        self.assertAlmostEqual(ratios["infinity ring, far"], 133 / 79)
+        self.assertIn("1.37", self.page("wang-table-4-1"))
+
+
+if __name__ == "__main__":
+    cli.main()
