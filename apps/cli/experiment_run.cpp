@@ -169,11 +169,15 @@ Image magnified(const Image& picture, const Region& region) {
     return shown;
 }
 
-/// The region where the first picture differs most from the truth, of all of them.
+/// The region where the first picture differs most from the truth behind glass, of all of them.
 void add_zoom(const ExperimentView& view, const Variant& truth, const std::vector<CaptionedPicture>& pictures,
               ExperimentPage& page) {
     if (pictures.empty()) return;
-    const std::optional<Region> worst = worst_region(flip_ldr(view.truth.display, pictures.front().picture));
+    Image flip = flip_ldr(view.truth.display, pictures.front().picture);
+    for (std::size_t i = 0; i < flip.pixels.size(); ++i) {
+        if (view.exact.covered[i] == 0) flip.pixels[i] = 0.0f;
+    }
+    const std::optional<Region> worst = worst_region(flip);
     if (!worst) return;
     const std::string row = view.scene.label + ", magnified";
     page.add_picture(row, truth.label, magnified(view.truth.display, *worst));

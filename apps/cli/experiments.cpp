@@ -63,7 +63,7 @@ std::vector<ExperimentScene> models_of_the_thesis(ModelFolder& models) {
         .model("cow", kCow)
         .shape("bottle", "shape:bottle")
         .model("bunny", kBunny)
-        .model("head (an open mesh)", kHead)
+        .model("head (open)", kHead)
         .all();
 }
 
