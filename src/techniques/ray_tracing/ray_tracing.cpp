@@ -50,9 +50,10 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
                                      .closest_hit = {"ray_tracing.rchit", kClosestHit}}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-         reads("layer_triangle", layers.triangle), writes("exit_direction", refraction.exit_direction),
-         writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
-         writes("path_events", refraction.events), reads("solids", hierarchy.top())},
+         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
+         writes("exit_direction", refraction.exit_direction), writes("exit_position", refraction.exit_position),
+         writes("transmittance", refraction.transmittance), writes("path_events", refraction.events),
+         reads("solids", hierarchy.top())},
         push, frame.extent);
     return refraction;
 }
