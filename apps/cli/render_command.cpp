@@ -130,6 +130,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
     if (!find_technique(settings.technique).reference) json["frame_ms"] = frame_ms;
     if (!result.standard_error.pixels.empty()) json["cut_paths"] = result.cut_paths;
     json["frames"] = result.frames.size();
+    json["layer_passes"] = result.layer_passes;
     json["warnings"] = warnings;
     return json;
 }
@@ -229,7 +230,7 @@ void add_render_command(CLI::App& app) {
                      "reflection, grey where the technique gave up")
         ->capture_default_str()
         ->type_name("NAME");
-    command->add_option("--layer-builder", a.layer_builder, "single-pass or depth-peeling")
+    command->add_option("--layer-builder", a.layer_builder, "single-pass, depth-peeling or dual-depth-peeling")
         ->capture_default_str()
         ->type_name("NAME");
     command->add_option("--aov", a.aovs, aov_help())

@@ -29,10 +29,11 @@ enum class View {
     kAnalysis,
 };
 
-/// How layers are gathered. Both give the same layers.
+/// How layers are gathered. All give the same layers.
 enum class LayerBuilder {
-    kSinglePass,    ///< per-pixel lists, one geometry pass (default)
-    kDepthPeeling,  ///< one geometry pass per layer (Everitt 2001)
+    kSinglePass,        ///< per-pixel lists, one geometry pass (default)
+    kDepthPeeling,      ///< one geometry pass per layer (Everitt 2001)
+    kDualDepthPeeling,  ///< nearest and farthest in one geometry pass, half as many (Bavoil & Myers 2008)
 };
 
 /// Curves from scene-linear radiance to display values; every one ends with the sRGB curve.
@@ -83,6 +84,7 @@ struct RenderResult {
     /// One entry per sample; empty where the device has no timestamps. On the software driver the
     /// first frame of a size includes compiling the shaders.
     std::vector<std::vector<PassTime>> frames;
+    std::uint32_t layer_passes = 0;                    ///< geometry passes that built the last frame's layers
     std::uint64_t covered = 0;                         ///< pixels whose first surface is refracting glass
     std::array<std::uint64_t, kStatusCount> status{};  ///< covered pixels by Status
     std::uint64_t side_conflicts = 0;   ///< covered pixels where shading and geometric normal disagreed about the side

@@ -43,6 +43,8 @@ public:
     vk::DeviceSize max_storage_binding() const { return limits_.maxStorageBufferRange; }
     /// Atomics from fragment shaders, which the single-pass layer builder needs.
     bool fragment_atomics() const { return fragment_atomics_; }
+    /// Blending of RGBA32F targets, which dual depth peeling needs.
+    bool float_blending() const { return float_blending_; }
     /// Ray-tracing pipelines and acceleration structures; nothing where the device has none.
     const std::optional<RayTracingLimits>& ray_tracing() const { return ray_tracing_; }
     /// Nanoseconds per timestamp tick; 0 where the queue has no timestamps.
@@ -71,6 +73,7 @@ private:
     vk::PhysicalDeviceMemoryProperties memory_;
     vk::DeviceSize max_allocation_ = 0;
     bool fragment_atomics_ = false;
+    bool float_blending_ = false;
     std::optional<RayTracingLimits> ray_tracing_;
     bool debug_labels_ = false;
     double timestamp_period_ns_ = 0.0;

@@ -26,8 +26,9 @@ struct BindingSlot {
     vk::ShaderStageFlags stages;
 };
 
-/// How a fragment's colour joins what the target holds.
-enum class Blend { kReplace, kMultiply, kAdd, kMax };
+/// How a fragment's colour joins what the target holds; kMaxAddAlpha: the maximum of red, green and blue, the sum of
+/// alpha.
+enum class Blend { kReplace, kMultiply, kAdd, kMax, kMaxAddAlpha };
 
 /// Shader stages of a ray-tracing program.
 inline constexpr vk::ShaderStageFlags kRayTracingStages =

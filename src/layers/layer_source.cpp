@@ -7,10 +7,24 @@ Layers LayerSource::build(Recorder& recorder, const Frame& frame, const Opaque& 
     switch (builder_) {
         case LayerBuilder::kDepthPeeling:
             return peel(recorder, frame, opaque, request);
+        case LayerBuilder::kDualDepthPeeling:
+            return peel_dual(recorder, frame, opaque, request);
         case LayerBuilder::kSinglePass:
             break;
     }
     return gather(recorder, frame, opaque, request);
+}
+
+bool LayerSource::must_repeat(const Frame& frame) {
+    switch (builder_) {
+        case LayerBuilder::kDepthPeeling:
+            return false;
+        case LayerBuilder::kDualDepthPeeling:
+            return must_peel_more(frame);
+        case LayerBuilder::kSinglePass:
+            break;
+    }
+    return must_enlarge_pool(frame);
 }
 
 }  // namespace pellucid

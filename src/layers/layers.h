@@ -55,6 +55,13 @@ struct FragmentPool {
     std::uint32_t bands = 1;     ///< the picture is done in this many horizontal bands
 };
 
+/// What dual depth peeling learnt of a scene: measured in one frame, used in the next.
+struct DualPeeling {
+    std::uint32_t extra_peels = 0;  ///< beyond half the layers: view rays cross more surfaces than there are layers
+    bool measuring = false;         ///< the frame makes all the passes that can be needed, to count those that are
+    bool crowded = false;           ///< three surfaces at one depth, which only peeling one by one tells apart
+};
+
 /// Builds the layers of a frame, as often as it is asked to. Lives from frame to frame and learns from each how
 /// much room the next one needs.
 class LayerSource {
@@ -62,19 +69,26 @@ public:
     explicit LayerSource(FragmentPool pool = {}) : pool_(pool) {}
 
     /// Before the first build() of a frame.
-    void begin_frame(LayerBuilder builder) { builder_ = builder, builds_ = 0; }
+    void begin_frame(LayerBuilder builder) { builder_ = builder, builds_ = geometry_passes_ = 0; }
     Layers build(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     /// After the frame has run: true if something did not fit. What build() does next will, and the frame must be
     /// recorded again. Throws Error if the device has no room for it.
     bool must_repeat(const Frame& frame);
+    /// How often the frame's builds drew their solids so far; bands of a picture count as one each.
+    std::uint32_t geometry_passes() const { return geometry_passes_; }
 
 private:
     Layers peel(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
+    Layers peel_dual(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     Layers gather(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
+    bool must_peel_more(const Frame& frame);
+    bool must_enlarge_pool(const Frame& frame);
 
     LayerBuilder builder_ = LayerBuilder::kSinglePass;
-    std::uint32_t builds_ = 0;  ///< in this frame
+    std::uint32_t builds_ = 0;  ///< in this frame, that counted something
+    std::uint32_t geometry_passes_ = 0;
     FragmentPool pool_;
+    DualPeeling dual_;
 };
 
 }  // namespace pellucid

@@ -41,6 +41,7 @@ Layers LayerSource::peel(Recorder& recorder, const Frame& frame, const Opaque& o
                        reads_layer("last_triangle", layer > 0 ? images.triangle : no_triangle, last)},
                       std::array{layer, request.hidden_by_opaque ? 1u : 0u}, target, request.solids);
     }
+    geometry_passes_ += request.count;
     return finish_layers(recorder, frame, images, opaque, request, *this);
 }
 

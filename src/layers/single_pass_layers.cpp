@@ -74,6 +74,7 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
         const std::uint32_t first_row = std::min(band * band_rows, frame.extent.height);
         const std::uint32_t rows = std::min(band_rows, frame.extent.height - first_row);
         if (rows == 0) break;
+        ++geometry_passes_;
         const RenderTarget target{.extent = frame.extent,
                                   .colors = {},
                                   .depth = {},
@@ -104,8 +105,8 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
     return {images.depth, images.triangle, images.normal, *listed, request.count, opaque, *this};
 }
 
-bool LayerSource::must_repeat(const Frame& frame) {
-    if (builder_ != LayerBuilder::kSinglePass || builds_ == 0) return false;
+bool LayerSource::must_enlarge_pool(const Frame& frame) {
+    if (builds_ == 0) return false;
     const Buffer& counters = counters_on_host(frame, pool_);
     std::uint32_t needed = 0;
     for (std::uint32_t i = 0; i < builds_ * pool_.bands; ++i) {

@@ -161,6 +161,11 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
         warnings.push_back(
             fmt::format("{} has no fragment-shader atomics: layers are built by depth peeling", device.info().name));
     }
+    if (chosen.layer_builder == LayerBuilder::kDualDepthPeeling && !device.float_blending()) {
+        chosen.layer_builder = LayerBuilder::kDepthPeeling;
+        warnings.push_back(fmt::format("{} does not blend 32-bit floats: layers are built by depth peeling one by one",
+                                       device.info().name));
+    }
     return chosen;
 }
 
@@ -200,6 +205,7 @@ Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const
     gpu::FrameConstants view{};
     std::memcpy(&view, constants->mapped(), sizeof(view));
     read_back(device, *images, view, scene->first_triangles, settings, result);
+    result.layer_passes = layer_source.geometry_passes();
     if (!draws) return trace_picture(frame, chosen, settings, result);
     if (alone) {
         result.frames.push_back(std::move(times));
@@ -216,6 +222,7 @@ Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const
         sum = &accumulate(recorder, frame, images->radiance, sample);
         for (PassTime& time : recorder.submit_and_wait()) times.push_back(std::move(time));
         result.frames.push_back(std::move(times));
+        result.layer_passes = layer_source.geometry_passes();
         progress(1.0);
     }
     return {*sum, float(share)};
@@ -322,9 +329,10 @@ View parse_view(std::string_view name) {
 }
 
 LayerBuilder parse_layer_builder(std::string_view name) {
-    return parse_name<LayerBuilder, 2>(
-        "layer builder", name,
-        {{{"single-pass", LayerBuilder::kSinglePass}, {"depth-peeling", LayerBuilder::kDepthPeeling}}});
+    return parse_name<LayerBuilder, 3>("layer builder", name,
+                                       {{{"single-pass", LayerBuilder::kSinglePass},
+                                         {"depth-peeling", LayerBuilder::kDepthPeeling},
+                                         {"dual-depth-peeling", LayerBuilder::kDualDepthPeeling}}});
 }
 
 ToneMap parse_tonemap(std::string_view name) {

@@ -80,7 +80,20 @@ class Samples(CliTest):
         self.assertNotEqual(one_picture, more_picture)
         self.assertEqual(one_aov, more_aov)
         self.assertEqual((one["frames"], more["frames"]), (1, 5))
+        self.assertEqual((one["layer_passes"], more["layer_passes"]), (1, 1))
         self.assertEqual((one["covered"], one["status"]), (more["covered"], more["status"]))
+
+
+class LayerBuilders(CliTest):
+    """`--layer-builder`: one picture, however its layers were gathered."""
+
+    def test_pictures_are_the_same(self):
+        pictures = set()
+        for builder in ("single-pass", "depth-peeling", "dual-depth-peeling"):
+            self.assert_rendered(self.render("shape:goblet", "--layer-builder", builder, "--json", "out.json"))
+            pictures.add(self.read("out.png"))
+            self.assertEqual(json.loads(self.read("out.json"))["layer_passes"] > 1, builder != "single-pass")
+        self.assertEqual(len(pictures), 1)
 
 
 class PathTraced(CliTest):

@@ -1,4 +1,4 @@
-// Layers against ray casting on the CPU, and the two builders against each other.
+// Layers against ray casting on the CPU, and the builders against each other.
 #include "layers/layers.h"
 #include "render/camera_constants.h"
 
@@ -37,14 +37,37 @@ protected:
     HostLayers build(LayerBuilder builder, std::uint32_t count, FragmentPool pool = {},
                      float opaque = float(PELLUCID_EMPTY_DEPTH), bool hidden_by_opaque = true) {
         LayerSource source(pool);
-        for (;;) {
+        return read(build_frame(source, builder, {{scene_->refractive, count, hidden_by_opaque}}, opaque).front());
+    }
+    /// As often as it takes; `drawn` says how often.
+    std::vector<Layers> build_frame(LayerSource& source, LayerBuilder builder,
+                                    const std::vector<LayerRequest>& requests,
+                                    float opaque = float(PELLUCID_EMPTY_DEPTH), int* drawn = nullptr) {
+        for (int frames = 1;; ++frames) {
             source.begin_frame(builder);
-            const Opaque surfaces = opaque_surfaces(opaque);
-            const Layers layers =
-                source.build(recorder(), frame(), surfaces, {scene_->refractive, count, hidden_by_opaque});
+            opaque_.emplace(opaque_surfaces(opaque));
+            std::vector<Layers> built;
+            for (const LayerRequest& request : requests) {
+                built.push_back(source.build(recorder(), frame(), *opaque_, request));
+            }
             recorder().submit_and_wait();
-            if (!source.must_repeat(frame())) return read(layers);
+            if (drawn) *drawn = frames;
+            if (!source.must_repeat(frame())) return built;
         }
+    }
+    HostLayers dual_peel(std::uint32_t count, float opaque = float(PELLUCID_EMPTY_DEPTH),
+                         bool hidden_by_opaque = true) {
+        return build(LayerBuilder::kDualDepthPeeling, count, {}, opaque, hidden_by_opaque);
+    }
+    struct Effort {
+        int frames;                     ///< drawn until one was right
+        std::uint32_t geometry_passes;  ///< of the last
+        bool operator==(const Effort&) const = default;
+    };
+    Effort effort(LayerSource& source, LayerBuilder builder, std::uint32_t count) {
+        int frames = 0;
+        build_frame(source, builder, {{scene_->refractive, count}}, float(PELLUCID_EMPTY_DEPTH), &frames);
+        return {frames, source.geometry_passes()};
     }
     HostLayers peel(std::uint32_t count, float opaque = float(PELLUCID_EMPTY_DEPTH)) {
         return build(LayerBuilder::kDepthPeeling, count, {}, opaque);
@@ -53,7 +76,8 @@ protected:
         return build(LayerBuilder::kSinglePass, count, pool, opaque);
     }
 
-private:
+    std::span<const DrawCall> solids() const { return scene_->refractive; }
+
     Frame frame() {
         return {workspace(), *scene_,
                 *constants_, workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1}),
@@ -78,7 +102,9 @@ private:
         return host;
     }
 
+private:
     vk::Extent2D extent_;
+    std::optional<Opaque> opaque_;
     std::optional<GpuScene> scene_;
     std::optional<Buffer> constants_;
     Camera camera_;
@@ -181,9 +207,10 @@ TEST_F(LayersTest, BuildersAgreeOnShapes) {
     for (const char* shape :
          {"shape:sphere", "shape:goblet", "shape:gem", "shape:hollow-sphere", "shape:infinity-ring"}) {
         set_scene(load_scene(shape), {131, 77});
-        for (const std::uint32_t count : {1u, 2u, 5u, 11u}) {
+        for (const std::uint32_t count : {1u, 2u, 3u, 5u, 8u, 11u, 14u}) {
             const HostLayers peeled = peel(count);
             EXPECT_TRUE(peeled == single_pass(count)) << shape << ", " << count << " layers";
+            EXPECT_TRUE(peeled == dual_peel(count)) << shape << ", " << count << " layers";
             expect_sorted(peeled);
         }
         EXPECT_GT(fragments(peel(11)), 1000u) << shape;
@@ -194,7 +221,8 @@ TEST_F(LayersTest, BuildersAgreeOnRealMeshes) {
     std::vector<std::string> files;
     if (!glmark2_folder().empty()) files.push_back(glmark2_folder() / "bunny.obj");
     if (!data_folder().empty()) {
-        for (const char* model : {"cow.obj", "photon_dragon.obj", "teapot.obj", "horse.ply"}) {
+        for (const char* model :
+             {"cow.obj", "photon_dragon.obj", "teapot.obj", "horse.ply", "bunny_closed_69664.obj"}) {
             files.push_back(data_folder() / "models" / model);
         }
     }
@@ -203,6 +231,12 @@ TEST_F(LayersTest, BuildersAgreeOnRealMeshes) {
         set_scene(load_scene(file), {256, 256}, 200.0f);
         const HostLayers peeled = peel(14);
         EXPECT_TRUE(peeled == single_pass(14)) << file;
+        for (const std::uint32_t count : {3u, 4u, 8u, 14u}) {
+            HostLayers nearest = peeled;
+            for (auto* images : {&nearest.triangle, &nearest.normal}) images->resize(count);
+            nearest.depth.resize(count);
+            EXPECT_TRUE(nearest == dual_peel(count)) << file << ", " << count << " layers";
+        }
         EXPECT_GT(fragments(peeled), 10000u) << file;
         expect_sorted(peeled);
     }
@@ -223,6 +257,7 @@ TEST_F(LayersTest, EqualDepthsAreAllKept) {
     set_scene(glass_scene({cube, cube, cube}), {64, 64});
     const HostLayers peeled = peel(7);
     EXPECT_TRUE(peeled == single_pass(7));
+    EXPECT_TRUE(peeled == dual_peel(7));
     const std::size_t center = 32 * 64 + 32;
     EXPECT_EQ(peeled.depth[0][center], peeled.depth[2][center]);
     EXPECT_LT(peeled.depth[2][center], peeled.depth[3][center]);
@@ -242,6 +277,13 @@ TEST_F(LayersTest, OpaqueSurfacesHideWhatLiesBehindThem) {
     // Inside the sphere: pixels whose first surface is in front keep all their layers.
     const HostLayers cut = peel(2, behind_first);
     EXPECT_TRUE(cut == single_pass(2, {}, behind_first));
+    EXPECT_EQ(fragments(dual_peel(2, 0.9f * nearest)), 0u);
+    EXPECT_TRUE(all == dual_peel(2, 0.9f * nearest, false));
+    EXPECT_TRUE(cut == dual_peel(2, behind_first));
+    const HostLayers partly = peel(2, 0.5f * (nearest + behind_first));
+    EXPECT_TRUE(partly == dual_peel(2, 0.5f * (nearest + behind_first)));
+    EXPECT_LT(fragments(partly), fragments(all));
+    EXPECT_GT(fragments(partly), 0u);
     EXPECT_EQ(cut.depth[1][16 * 33 + 16], all.depth[1][16 * 33 + 16]);
 }
 
@@ -252,6 +294,90 @@ TEST_F(LayersTest, MirroredObjectsKeepTheirSides) {
     const HostLayers layers = single_pass(2);
     EXPECT_EQ(layers.triangle[0][16 * 32 + 16] & PELLUCID_BACK_FACE, 0u);
     EXPECT_NE(layers.triangle[1][16 * 32 + 16] & PELLUCID_BACK_FACE, 0u);
+    EXPECT_TRUE(layers == dual_peel(2));
+}
+
+// Two surfaces at one depth are known by the lowest and the highest triangle, wherever the cut falls.
+TEST_F(LayersTest, DoubleSurfacesNeedNoFallback) {
+    const Mesh cube = load_scene("shape:cube").meshes[0];
+    set_scene(glass_scene({cube, cube}), {64, 64});
+    for (const std::uint32_t count : {1u, 2u, 3u, 4u, 5u}) {
+        EXPECT_TRUE(peel(count) == dual_peel(count)) << count << " layers";
+    }
+    LayerSource source;
+    EXPECT_EQ(effort(source, LayerBuilder::kDualDepthPeeling, 4), (Effort{1, 3}));
+}
+
+TEST_F(LayersTest, TripleSurfacesArePeeledOneByOneFromThenOn) {
+    const Mesh cube = load_scene("shape:cube").meshes[0];
+    set_scene(glass_scene({cube, cube, cube}), {64, 64});
+    LayerSource source;
+    EXPECT_EQ(effort(source, LayerBuilder::kDualDepthPeeling, 6), (Effort{2, 6}));
+    EXPECT_EQ(effort(source, LayerBuilder::kDualDepthPeeling, 6), (Effort{1, 6}));
+}
+
+/// Boxes one in another: view rays cross up to twice as many surfaces.
+Scene nested_boxes(int boxes) {
+    Scene scene = glass_scene(std::vector<Mesh>(std::size_t(boxes), load_scene("shape:cube").meshes[0]));
+    for (int i = 0; i < boxes; ++i) {
+        const float size = 1.0f - 0.8f * float(i) / float(boxes);
+        scene.objects[std::size_t(i)].world_from_object = glm::mat4(glm::mat3(size));
+    }
+    return scene;
+}
+
+std::size_t most_surfaces(const HostLayers& layers) {
+    std::size_t k = 0;
+    const auto any = [](const std::vector<std::uint32_t>& triangles) {
+        return std::any_of(triangles.begin(), triangles.end(), [](auto t) { return t != PELLUCID_NO_TRIANGLE; });
+    };
+    while (k < layers.triangle.size() && any(layers.triangle[k])) ++k;
+    return k;
+}
+
+TEST_F(LayersTest, DualPeelingTakesHalfThePassesAndOne) {
+    set_scene(nested_boxes(4), {64, 64});
+    const std::size_t deepest = most_surfaces(peel(20));
+    ASSERT_EQ(deepest, 8u);
+    for (auto count = std::uint32_t(deepest); count < 20; ++count) {
+        LayerSource source;
+        EXPECT_EQ(effort(source, LayerBuilder::kDualDepthPeeling, count), (Effort{1, (count + 1) / 2 + 1}));
+        EXPECT_EQ(effort(source, LayerBuilder::kDepthPeeling, count), (Effort{1, count}));
+        EXPECT_EQ(effort(source, LayerBuilder::kSinglePass, count).geometry_passes, 1u);
+    }
+}
+
+// With fewer layers than surfaces the sides do not meet: one frame more finds out how many passes are needed.
+TEST_F(LayersTest, DualPeelingLearnsHowManyPassesAreNeeded) {
+    set_scene(nested_boxes(4), {64, 64});
+    for (const auto& [count, peels] : {std::pair{6u, 4u}, {5u, 4u}, {4u, 4u}, {3u, 3u}}) {  // 8 surfaces: 4 peels do
+        LayerSource source;
+        EXPECT_EQ(effort(source, LayerBuilder::kDualDepthPeeling, count), (Effort{2, count + 1}));
+        EXPECT_EQ(effort(source, LayerBuilder::kDualDepthPeeling, count), (Effort{1, peels + 1}));
+        EXPECT_EQ(effort(source, LayerBuilder::kDualDepthPeeling, count), (Effort{1, peels + 1}));
+        EXPECT_TRUE(peel(count) == dual_peel(count));
+    }
+    LayerSource source;
+    EXPECT_EQ(effort(source, LayerBuilder::kDualDepthPeeling, 1), (Effort{1, 2}));
+    EXPECT_EQ(effort(source, LayerBuilder::kDualDepthPeeling, 2), (Effort{2, 3}));
+}
+
+TEST_F(LayersTest, SeveralBuildsInAFrameKeepApart) {
+    set_scene(nested_boxes(3), {64, 48});
+    const std::vector<LayerRequest> requests = {{solids(), 5, true, "all"},
+                                                {solids().subspan(0, 1), 2, false, "first"},
+                                                {solids().subspan(1, 2), 3, false, "others"}};
+    LayerSource lists, sides;
+    std::vector<HostLayers> expected;
+    for (const Layers& layers : build_frame(lists, LayerBuilder::kSinglePass, requests))
+        expected.push_back(read(layers));
+    for (int frame = 0; frame < 3; ++frame) {
+        const std::vector<Layers> built = build_frame(sides, LayerBuilder::kDualDepthPeeling, requests);
+        for (std::size_t i = 0; i < built.size(); ++i) {
+            EXPECT_TRUE(expected[i] == read(built[i])) << requests[i].name << ", frame " << frame;
+            EXPECT_GT(fragments(expected[i]), 100u) << requests[i].name;
+        }
+    }
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST_F(RendererSuite, AnySizeInAnyOrder) {
     renderer().set_scene(load_scene("shape:torus"));
     for (const auto& [width, height] :
          {std::pair{17u, 13u}, {1u, 1u}, {4001u, 3u}, {3u, 1501u}, {64u, 64u}, {17u, 13u}}) {
-        for (const LayerBuilder builder : {LayerBuilder::kSinglePass, LayerBuilder::kDepthPeeling}) {
+        for (const LayerBuilder builder : {LayerBuilder::kSinglePass, LayerBuilder::kDepthPeeling, LayerBuilder::kDualDepthPeeling}) {
             RenderSettings settings = sized(width, height);
             settings.layer_builder = builder;
             settings.aovs = all_aovs();
@@ -154,12 +154,29 @@ TEST_F(RendererSuite, SamplesConvergeAndAovsStay) {
     EXPECT_LT(rms(many.radiance, more.radiance), 0.3 * rms(one.radiance, more.radiance));
 }
 
-TEST_F(RendererSuite, BothLayerBuildersDrawTheSamePicture) {
+TEST_F(RendererSuite, AllLayerBuildersDrawTheSamePicture) {
     renderer().set_scene(load_scene("shape:infinity-ring"));
-    RenderSettings settings = sized(200, 150);
-    const RenderResult single = renderer().render(settings);
-    settings.layer_builder = LayerBuilder::kDepthPeeling;
-    EXPECT_EQ(single.radiance.pixels, renderer().render(settings).radiance.pixels);
+    for (const std::uint32_t samples : {1u, 3u}) {
+        RenderSettings settings = sized(200, 150);
+        settings.samples = samples;
+        const RenderResult single = renderer().render(settings);
+        EXPECT_EQ(single.layer_passes, 1u);
+        for (const char* builder : {"depth-peeling", "dual-depth-peeling"}) {
+            settings.layer_builder = parse_layer_builder(builder);
+            const RenderResult result = renderer().render(settings);
+            EXPECT_EQ(single.radiance.pixels, result.radiance.pixels) << builder;
+            EXPECT_GT(result.layer_passes, 1u) << builder;
+            EXPECT_TRUE(result.warnings.empty()) << builder;
+        }
+    }
+}
+
+TEST_F(RendererSuite, LayerBuildersHaveNames) {
+    EXPECT_EQ(parse_layer_builder("single-pass"), LayerBuilder::kSinglePass);
+    EXPECT_EQ(parse_layer_builder("depth-peeling"), LayerBuilder::kDepthPeeling);
+    EXPECT_EQ(parse_layer_builder("dual-depth-peeling"), LayerBuilder::kDualDepthPeeling);
+    EXPECT_THAT([] { parse_layer_builder("dual"); },
+                ThrowsMessage<Error>(HasSubstr("known: single-pass, depth-peeling, dual-depth-peeling")));
 }
 
 TEST_F(RendererSuite, PassTimesAreThere) {

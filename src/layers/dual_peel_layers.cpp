@@ -1,0 +1,124 @@
+// Dual depth peeling, two depths per geometry pass, one from either side: Bavoil & Myers, "Order Independent
+// Transparency with Dual Depth Peeling", NVIDIA 2008. The list made of both sides: Chen, translucency by measured
+// thickness. Needs Device::float_blending().
+//
+// Blending finds depths only; the triangles that lie at the depths of one pass are collected in the next. So n layers
+// take n/2 passes and one more, wherever a view ray crosses no more than n surfaces. Where it crosses more, the two
+// sides have not met, and more passes are needed, n + 1 at most.
+#include "layers/layer_images.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace pellucid {
+namespace {
+
+constexpr std::uint32_t kLayerVertex[] = {
+#include "layer.vert.inc"
+};
+constexpr std::uint32_t kDualPeelLayersFragment[] = {
+#include "dual_peel_layers.frag.inc"
+};
+constexpr std::uint32_t kOrderLayersCompute[] = {
+#include "order_layers.comp.inc"
+};
+
+constexpr vk::Format kSideFormat = vk::Format::eR32G32B32A32Sfloat;
+constexpr std::uint64_t kMostTriangles = 0x7f000000u / 2;  // as many as dual_peel.glsl can tell apart
+
+/// As order_layers.comp declares them, of all builds of a frame.
+struct PeelCounters {
+    std::uint32_t extra_peels;
+    std::uint32_t crowded;
+};
+static_assert(sizeof(PeelCounters) == 8);
+
+const Buffer& counters_on_host(const Frame& frame) {
+    return frame.workspace.buffer("peel counts", sizeof(PeelCounters), true);
+}
+
+bool too_many_triangles(const Frame& frame, std::span<const DrawCall> solids) {
+    return std::any_of(solids.begin(), solids.end(), [&](const DrawCall& call) {
+        return std::uint64_t(frame.scene.first_triangles[call.instance]) + call.corner_count / 3 > kMostTriangles;
+    });
+}
+
+/// Either side's texels, a slice per pass.
+struct Sides {
+    const GpuImage& near_side;
+    const GpuImage& far_side;
+};
+
+Sides peel_both_sides(Recorder& recorder, const Frame& frame, const Opaque& opaque, std::span<const DrawCall> solids,
+                      std::uint32_t passes) {
+    Workspace& workspace = frame.workspace;
+    const Program& program = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
+                                                 .fragment = {"dual_peel_layers.frag", kDualPeelLayersFragment},
+                                                 .colors = {kSideFormat, kSideFormat},
+                                                 .blend = Blend::kMaxAddAlpha});
+    // Requests of one frame may take different numbers of passes.
+    const Sides sides{workspace.image(fmt::format("near side of {} passes", passes), kSideFormat, frame.extent, passes),
+                      workspace.image(fmt::format("far side of {} passes", passes), kSideFormat, frame.extent, passes)};
+    const vk::ClearValue nothing = vk::ClearColorValue(std::array{-float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f});
+    for (std::uint32_t pass = 0; pass < passes; ++pass) {
+        const RenderTarget target{.extent = frame.extent,
+                                  .colors = {{&sides.near_side, pass, nothing}, {&sides.far_side, pass, nothing}},
+                                  .depth = {},
+                                  .scissor = {}};
+        // Before the first pass there is nothing to read; something of the right kind has to be bound.
+        const bool first = pass == 0;
+        const std::uint32_t last = first ? 0 : pass - 1;
+        recorder.draw(program,
+                      {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
+                       reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
+                       reads_layer("last_near", first ? opaque.radiance : sides.near_side, last),
+                       reads_layer("last_far", first ? opaque.radiance : sides.far_side, last)},
+                      first ? 1u : 0u, target, solids);
+    }
+    return sides;
+}
+
+}  // namespace
+
+Layers LayerSource::peel_dual(Recorder& recorder, const Frame& frame, const Opaque& opaque,
+                              const LayerRequest& request) {
+    if (dual_.crowded || too_many_triangles(frame, request.solids)) return peel(recorder, frame, opaque, request);
+
+    const std::uint32_t peels = std::min(request.count, (request.count + 1) / 2 + dual_.extra_peels);
+    const Sides sides = peel_both_sides(recorder, frame, opaque, request.solids, peels + 1);
+    geometry_passes_ += peels + 1;
+
+    const LayerImages images = allocate_layers(frame, request);
+    const Buffer& counters = frame.workspace.buffer("peel counters", sizeof(PeelCounters));
+    if (builds_++ == 0) recorder.fill(counters, 0);
+    recorder.clear(images.depth, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
+    recorder.clear(images.triangle, vk::ClearColorValue(std::array{PELLUCID_NO_TRIANGLE, 0u, 0u, 0u}));
+    recorder.compute(frame.workspace.compute({"order_layers.comp", kOrderLayersCompute}),
+                     {reads("near_side", sides.near_side), reads("far_side", sides.far_side),
+                      reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
+                      writes("layer_triangle", images.triangle), updates("PeelCounters", counters)},
+                     std::array{request.count, request.hidden_by_opaque ? 1u : 0u, peels}, frame.extent);
+    recorder.copy(counters, counters_on_host(frame), counters.size());
+    return finish_layers(recorder, frame, images, opaque, request, *this);
+}
+
+// Sides that have not met do not say how far they are from it: the frame is drawn again with as many passes as can
+// be needed, and that tells how many are.
+bool LayerSource::must_peel_more(const Frame& frame) {
+    if (builds_ == 0) return false;
+    PeelCounters counters;
+    std::memcpy(&counters, counters_on_host(frame).mapped(), sizeof(counters));
+    if (counters.crowded > 0) {
+        dual_.crowded = true;
+        return true;
+    }
+    const bool more = counters.extra_peels > dual_.extra_peels;
+    if (more || dual_.measuring) dual_.extra_peels = counters.extra_peels;
+    dual_.measuring = more;
+    return more;
+}
+
+}  // namespace pellucid
