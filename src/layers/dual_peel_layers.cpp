@@ -42,7 +42,7 @@ const Buffer& counters_on_host(const Frame& frame) {
 
 bool too_many_triangles(const Frame& frame, std::span<const DrawCall> solids) {
     return std::any_of(solids.begin(), solids.end(), [&](const DrawCall& call) {
-        return std::uint64_t(frame.scene.first_triangles[call.instance]) + call.corner_count / 3 > kMostTriangles;
+        return std::uint64_t(frame.scene.first_triangles[call.object]) + call.corner_count / 3 > kMostTriangles;
     });
 }
 

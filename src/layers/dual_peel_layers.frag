@@ -8,7 +8,10 @@
 
 layout(set = 0, binding = 2, rgba32f) readonly uniform image2D last_near;
 layout(set = 0, binding = 3, rgba32f) readonly uniform image2D last_far;
-layout(push_constant) uniform Push { uint first; };
+layout(push_constant) uniform Push {
+    uint drawn_object;
+    uint first;
+};
 
 layout(location = 0) out vec4 out_near;
 layout(location = 1) out vec4 out_far;

@@ -268,15 +268,18 @@ TEST_F(RendererSuite, ApproximationsAreSaid) {
     scene.objects.push_back(scene.objects[0]);
     scene.objects.back().material = 1;
     renderer().set_scene(scene);
-    EXPECT_THAT(renderer().render(sized(8, 8)).warnings,
+    RenderSettings settings = sized(8, 8);
+    settings.technique = "one-interface";
+    EXPECT_THAT(renderer().render(settings).warnings,
                 ::testing::ElementsAre(HasSubstr("frosted: dispersion"), HasSubstr("frosted: rough glass"),
                                        HasSubstr("2 refracting objects"), HasSubstr("opaque objects")));
     // Techniques are not blamed for what they do draw.
-    RenderSettings settings = sized(8, 8);
-    settings.technique = "reference";
-    EXPECT_THAT(renderer().render(settings).warnings,
-                ::testing::ElementsAre(HasSubstr("frosted: dispersion"), HasSubstr("frosted: rough glass"),
-                                       HasSubstr("opaque objects")));
+    for (const char* technique : {"wang-2014", "reference"}) {
+        settings.technique = technique;
+        EXPECT_THAT(renderer().render(settings).warnings,
+                    ::testing::ElementsAre(HasSubstr("frosted: dispersion"), HasSubstr("frosted: rough glass"),
+                                           HasSubstr("opaque objects")));
+    }
     settings.technique = "path";
     EXPECT_THAT(renderer().render(settings).warnings, ::testing::ElementsAre(HasSubstr("frosted: dispersion")));
 }
