@@ -1,3 +1,4 @@
+#include "techniques/oliveira_brauwers_2007/oliveira_brauwers_2007.h"
 #include "techniques/one_interface/one_interface.h"
 #include "techniques/path/path.h"
 #include "techniques/ray_tracing/ray_tracing.h"
@@ -18,7 +19,7 @@ namespace {
 
 // Every technique, one line each.
 constexpr std::array kTechniques = {
-    &kOneInterface, &kWang2014, &kRayTracing, &kPath, &kReference,
+    &kOneInterface, &kOliveiraBrauwers2007, &kWang2014, &kRayTracing, &kPath, &kReference,
 };
 
 constexpr auto kInfos = [] {

@@ -1,0 +1,33 @@
+#ifndef PELLUCID_TECHNIQUES_RAY_RANGE_GLSL
+#define PELLUCID_TECHNIQUES_RAY_RANGE_GLSL
+
+// How far a ray in view space can be followed in layers of the view.
+// Needs: frame (FrameConstants).
+
+// Distance to where a quantity that starts at `value` and changes at `rate` per metre reaches zero.
+float reach_zero(float value, float rate) {
+    return rate < 0.0 ? max(value, 0.0) / -rate : PELLUCID_EMPTY_DEPTH;
+}
+
+// How far the ray stays within the picture.
+float distance_to_screen_edge(vec3 origin, vec3 direction) {
+    bool orthographic = frame.orthographic != 0u;
+    float depth = orthographic ? 1.0 : -origin.z;
+    float depth_rate = orthographic ? 0.0 : -direction.z;
+    vec2 low = vec2(frame.film.x, frame.film.y - float(frame.height) * frame.film.w);
+    vec2 high = vec2(frame.film.x + float(frame.width) * frame.film.z, frame.film.y);
+    vec2 from_low = origin.xy - low * depth, from_low_rate = direction.xy - low * depth_rate;
+    vec2 from_high = high * depth - origin.xy, from_high_rate = high * depth_rate - direction.xy;
+    return min(min(reach_zero(from_low.x, from_low_rate.x), reach_zero(from_low.y, from_low_rate.y)),
+               min(reach_zero(from_high.x, from_high_rate.x), reach_zero(from_high.y, from_high_rate.y)));
+}
+
+// How far the ray stays within the depth range of the glass and `margin` metres more: t(Zmin) or t(Zmax),
+// whichever lies ahead.
+float distance_to_depth_edge(vec3 origin, vec3 direction, float margin) {
+    float depth = -origin.z, depth_rate = -direction.z;
+    return min(reach_zero(depth - frame.glass_near + margin, depth_rate),
+               reach_zero(frame.glass_far + margin - depth, -depth_rate));
+}
+
+#endif
