@@ -182,7 +182,7 @@ void render(const RenderArguments& arguments) {
     renderer.set_environment(environment);
     if (const std::optional<Camera> camera = chosen_camera(arguments, settings, scene)) renderer.set_camera(*camera);
     ProgressBar bar(settings.technique);
-    if (technique.reference) settings.progress = bar.progress();
+    if (technique.reference || technique.bakes) settings.progress = bar.progress();
     const RenderResult result = renderer.render(settings);
     bar.clear();
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());

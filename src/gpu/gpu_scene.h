@@ -6,6 +6,8 @@
 
 #include <pellucid/scene.h>
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace pellucid {
@@ -37,6 +39,8 @@ struct GpuScene {
     std::vector<DrawCall> opaque;
     Bounds bounds;
     std::vector<glm::vec3> refractive_corners;  ///< corners of the refractive objects' boxes, world
+    /// What techniques have computed from the scene, by name; kept as long as the scene is.
+    std::map<std::string, Buffer, std::less<>> prepared;
 };
 
 /// Bytes from one vertex of GpuScene::vertices to the next.

@@ -1,7 +1,8 @@
 #ifndef PELLUCID_LAYERS_SURFACE_NORMAL_GLSL
 #define PELLUCID_LAYERS_SURFACE_NORMAL_GLSL
 
-// Normals of layer records, interpolated between the triangle's vertices.
+// What layer records leave out, interpolated between the vertices of their triangles: normals, and whatever else is
+// known per vertex.
 // Needs: frame (FrameConstants), objects (ObjectRecord[]), gpu/vertices.glsl.
 
 // Weights of a triangle's corners where a line meets its plane (Moeller & Trumbore 1997); kept to the triangle,
@@ -16,6 +17,12 @@ vec3 corner_weights(vec3 direction, vec3 a, vec3 edge_b, vec3 edge_c) {
     return vec3(1.0 - w.x - w.y, w);
 }
 
+// A point of a triangle, between its corners.
+struct SurfacePoint {
+    uvec3 corners;  // vertices
+    vec3 weights;   // of the corners; they add up to 1
+};
+
 // The view ray through a pixel coordinate in the frame of an object's mesh. The inverse of the object's linear part
 // is its normal matrix, transposed.
 Ray object_ray(vec2 pixel, uint object_index) {
@@ -26,15 +33,21 @@ Ray object_ray(vec2 pixel, uint object_index) {
                object_from_world * (mat3(frame.world_from_view) * ray.direction));
 }
 
-// Unit world normal where such a ray meets a triangle of the object, octahedral.
-uint surface_normal(Ray ray, uint triangle, uint object_index) {
+// Where such a ray meets a triangle of the object.
+SurfacePoint surface_point(Ray ray, uint triangle, uint object_index) {
     uint corner =
         objects[object_index].first_corner + 3u * (triangle_index(triangle) - objects[object_index].first_triangle);
-    uint a = indices[corner], b = indices[corner + 1u], c = indices[corner + 2u];
-    vec3 at_a = vertex_position(a);
-    vec3 weights =
-        corner_weights(ray.direction, at_a - ray.origin, vertex_position(b) - at_a, vertex_position(c) - at_a);
-    vec3 normal = weights.x * vertex_normal(a) + weights.y * vertex_normal(b) + weights.z * vertex_normal(c);
+    uvec3 corners = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);
+    vec3 a = vertex_position(corners.x);
+    return SurfacePoint(corners, corner_weights(ray.direction, a - ray.origin, vertex_position(corners.y) - a,
+                                                vertex_position(corners.z) - a));
+}
+
+// Unit world normal there, octahedral.
+uint surface_normal(Ray ray, uint triangle, uint object_index) {
+    SurfacePoint point = surface_point(ray, triangle, object_index);
+    vec3 normal = point.weights.x * vertex_normal(point.corners.x) + point.weights.y * vertex_normal(point.corners.y) +
+                  point.weights.z * vertex_normal(point.corners.z);
     normal = mat3(objects[object_index].world_from_object_normal) * normal;
     // Opposite normals cancel out somewhere; any will do there.
     return pack_direction(dot(normal, normal) > 1e-30 ? normal : vec3(0.0, 1.0, 0.0));

@@ -40,7 +40,10 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
     }
     if (refractive > 0 && opaque + thin > 0) {
         lines.push_back(
-            "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
+            technique.opaque_behind
+                ? "through refracting glass only those opaque surfaces are seen that the picture shows, and no thin "
+                  "walls"
+                : "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
     if (!scene.lights.empty()) {
         lines.push_back(

@@ -106,12 +106,14 @@ std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std
 
 struct Renderer::Impl {
     explicit Impl(const DeviceOptions& options)
-        : device(options), workspace(device), recorder(device), cpu(options.threads) {}
+        : device(options), workspace(device), recorder(device), cpu(options.threads), threads(options.threads) {}
 
     Device device;
     Workspace workspace;
     Recorder recorder;
     CpuTracing cpu;
+    std::uint32_t threads;
+    bake::BakeCache bake_cache;
     LayerSource layer_source;
     vk::Extent2D layer_extent;  // the size that `layer_source` has learnt from
     std::optional<GpuScene> scene;
@@ -123,6 +125,8 @@ struct Renderer::Impl {
     gpu::FrameConstants environment_constants{};
 
     FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
+    /// Lets the technique compute what it wants of the scene; ParameterValues of `chosen` say what.
+    void prepare(const FrameSettings& chosen, const Progress& progress, std::vector<std::string>& warnings);
     /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
     /// the pass times. `progress` is of this sample.
     std::vector<PassTime> run_frame(Frame frame, const FrameSettings& chosen, const RenderSettings& settings,
@@ -167,6 +171,12 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
                                        device.info().name));
     }
     return chosen;
+}
+
+void Renderer::Impl::prepare(const FrameSettings& chosen, const Progress& progress,
+                             std::vector<std::string>& warnings) {
+    if (chosen.technique.prepare == nullptr) return;
+    chosen.technique.prepare({device, cpu.scene(), *scene, bake_cache, threads, progress, warnings}, chosen.parameters);
 }
 
 void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jitter) {
@@ -289,6 +299,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     check_settings(settings, impl.device);
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
+    impl.prepare(chosen, settings.progress, result.warnings);
     const Frame frame{impl.workspace,
                       *impl.scene,
                       *impl.constants,

@@ -5,6 +5,7 @@
 #include "techniques/reference/reference.h"
 #include "techniques/technique.h"
 #include "techniques/wang_2014/wang_2014.h"
+#include "techniques/wyman_2005/wyman_2005.h"
 
 #include <pellucid/error.h>
 
@@ -19,7 +20,7 @@ namespace {
 
 // Every technique, one line each.
 constexpr std::array kTechniques = {
-    &kOneInterface, &kOliveiraBrauwers2007, &kWang2014, &kRayTracing, &kPath, &kReference,
+    &kOneInterface, &kWyman2005, &kOliveiraBrauwers2007, &kWang2014, &kRayTracing, &kPath, &kReference,
 };
 
 constexpr auto kInfos = [] {

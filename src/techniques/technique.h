@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bake/bake_cache.h"
 #include "layers/layers.h"
 
 #include <pellucid/technique.h>
@@ -55,12 +56,25 @@ private:
     std::vector<double> values_;
 };
 
+/// What a technique computes from the scene before the first frame that needs it.
+struct Preparation {
+    const Device& device;
+    const Scene& scene;
+    GpuScene& gpu_scene;  ///< its `prepared` takes the result
+    bake::BakeCache& cache;
+    std::uint32_t threads;  ///< 0: all cores
+    const Progress& progress;
+    std::vector<std::string>& warnings;
+};
+
 /// A row of the registry: what the technique is, what it needs, and how it is recorded.
 struct Technique {
     TechniqueInfo info;
     /// What the device lacks for it, in words that follow "needs"; empty: nothing. Null: any device will do.
     std::string (*lacking)(const Device& device) = nullptr;
     std::uint32_t (*layer_count)(const ParameterValues& parameters);
+    /// Called before every picture; does its work in the first that needs it. Null: there is nothing to do.
+    void (*prepare)(const Preparation& preparation, const ParameterValues& parameters) = nullptr;
     /// `layers` are of all solids together.
     Refraction (*record)(Recorder& recorder, const Frame& frame, const Layers& layers,
                          const ParameterValues& parameters);

@@ -1,0 +1,148 @@
+#version 460
+// Wyman, "Interactive Image-Space Refraction of Nearby Geometry", GRAPHITE 2005: refracted rays meet the opaque surfaces
+// that the picture shows. A ray is followed over the picture and compared with the depth there, first in linear, then
+// in binary steps. It starts at the first interface, since the exit was only guessed and may lie behind what
+// touches the glass.
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/frame.glsl"
+#include "layers/layers.glsl"
+#include "layers/pixel_list.glsl"
+#include "techniques/refraction.glsl"
+
+layout(local_size_x = PELLUCID_LIST_GROUP) in;
+
+layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };
+layout(set = 0, binding = 3, r32f) readonly uniform image2DArray layer_depth;
+layout(set = 0, binding = 4, r32ui) readonly uniform uimage2DArray layer_triangle;
+layout(set = 0, binding = 5, rgba32f) uniform image2DArray exit_direction;
+layout(set = 0, binding = 6, rgba32f) uniform image2DArray exit_position;
+layout(set = 0, binding = 7, rgba32f) uniform image2DArray transmittance;  // a: of the first interface alone
+layout(set = 0, binding = 8, r32ui) uniform uimage2DArray path_events;
+layout(set = 0, binding = 9, rgba32f) readonly uniform image2DArray opaque_radiance;
+layout(set = 0, binding = 10, r32f) readonly uniform image2DArray opaque_depth;
+layout(set = 0, binding = 11, r32ui) readonly uniform uimage2DArray opaque_object;
+layout(set = 0, binding = 12, rgba32f) writeonly uniform image2DArray path_radiance;
+layout(push_constant) uniform Push {
+    uint linear_steps;
+    uint binary_steps;
+};
+
+#include "layers/objects.glsl"
+
+// A stretch of a ray over the picture: pixel coordinates, and what is linear in them: the depth of an orthographic
+// camera, the inverse depth of a perspective one.
+struct Stretch {
+    vec2 from, to;
+    float at_from, at_to;
+};
+
+float linear_depth(float depth) { return frame.orthographic != 0u ? depth : 1.0 / depth; }  // its own inverse
+
+Stretch stretch_of(vec3 from, vec3 to) {
+    return Stretch(project(from), project(to), linear_depth(-from.z), linear_depth(-to.z));
+}
+
+vec2 pixel_at(Stretch s, float share) { return mix(s.from, s.to, share); }
+float depth_at(Stretch s, float share) { return linear_depth(mix(s.at_from, s.at_to, share)); }
+
+ivec2 texel_at(Stretch s, float share) {
+    return clamp(ivec2(floor(pixel_at(s, share))), ivec2(0), ivec2(frame.width, frame.height) - 1);
+}
+float stored_depth(ivec2 texel) { return imageLoad(opaque_depth, ivec3(texel, 0)).r; }
+bool is_behind(Stretch s, float share) { return depth_at(s, share) > stored_depth(texel_at(s, share)); }
+
+// Whether the depths on two sides of a change are of one surface: their difference is no more than that to the next
+// texel beyond. Otherwise the ray passes behind the edge of something.
+bool one_surface(ivec2 front, ivec2 behind) {
+    if (front == behind) return true;
+    float at_behind = stored_depth(behind);
+    ivec2 beyond = clamp(2 * behind - front, ivec2(0), ivec2(frame.width, frame.height) - 1);
+    float slope = abs(stored_depth(beyond) - at_behind);
+    return abs(stored_depth(front) - at_behind) <= 2.0 * slope + 1e-4 * at_behind;
+}
+
+// The part of a stretch that lies over the picture.
+float share_within_picture(Stretch s) {
+    vec2 step = s.to - s.from;
+    float share = 1.0;
+    for (int axis = 0; axis < 2; ++axis) {
+        float edge = step[axis] > 0.0 ? float(axis == 0 ? frame.width : frame.height) : 0.0;
+        if (step[axis] != 0.0) share = min(share, max((edge - s.from[axis]) / step[axis], 0.0));
+    }
+    return share;
+}
+
+// Share of the stretch at which it meets an opaque surface from in front; negative: nowhere. `behind` is kept from
+// stretch to stretch.
+float search(Stretch s, inout bool behind) {
+    float end = share_within_picture(s), before = 0.0;
+    for (uint i = 1u; i <= linear_steps; ++i) {
+        float after = end * float(i) / float(linear_steps), last = after;
+        if (is_behind(s, after) != behind) {
+            float low = before, high = after;
+            for (uint k = 0u; k < binary_steps; ++k) {
+                float middle = 0.5 * (low + high);
+                if (is_behind(s, middle) == behind) low = middle;
+                else high = middle;
+            }
+            if (!behind && one_surface(texel_at(s, low), texel_at(s, high))) return high;
+            behind = !behind;
+        }
+        before = last;
+    }
+    return -1.0;
+}
+
+vec3 position_at(Stretch s, float share) { return view_position(pixel_at(s, share), depth_at(s, share)); }
+
+// Where a ray from `from` ends at the latest: the depth range of the scene.
+vec3 ray_end(vec3 from, vec3 direction) {
+    float depth = -from.z, rate = -direction.z;
+    float far = frame.far_plane < PELLUCID_EMPTY_DEPTH ? frame.far_plane : 1e6 * max(depth, frame.glass_far);
+    float limit = max(far, depth) - depth;
+    float t = rate > 0.0 ? limit / rate : rate < 0.0 ? max(depth - frame.near_plane, 0.0) / -rate : limit;
+    return from + min(t, 1e3 * (limit + depth)) * direction;
+}
+
+void store_hit(ivec3 at, ivec2 seen, vec3 position, vec3 share) {
+    vec3 world = (frame.world_from_view * vec4(position, 1.0)).xyz;
+    imageStore(exit_position, at, vec4(world, float(imageLoad(opaque_object, ivec3(seen, 0)).r)));
+    imageStore(path_radiance, at, vec4(share * imageLoad(opaque_radiance, ivec3(seen, 0)).rgb, 1.0));
+}
+
+// The path ends on something that touches the glass or lies in it, before the exit.
+void end_inside(ivec3 at, ivec2 seen, vec3 position, vec3 entry, vec3 direction) {
+    vec3 sigma_a = materials[objects[find_object(triangle_index(imageLoad(layer_triangle, at).r))].material].sigma_a.rgb;
+    float length_inside = distance(entry, position);
+    vec3 share = imageLoad(transmittance, at).a * beer_lambert(sigma_a, length_inside);
+    store_hit(at, seen, position, share);
+    imageStore(transmittance, at, vec4(share, 1.0));
+    imageStore(exit_direction, at, vec4(mat3(frame.world_from_view) * direction, length_inside));
+    uint events = imageLoad(path_events, at).r;
+    imageStore(path_events, at, uvec4((events & 0x10000000u) | 1u | kStatusOk << 24));  // one interface
+}
+
+void main() {
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
+
+    ivec3 at = ivec3(texel, 0);
+    imageStore(path_radiance, at, vec4(0.0));
+    vec3 entry = view_position(vec2(texel) + 0.5, imageLoad(layer_depth, at).r);
+    vec3 exit = (frame.view_from_world * vec4(imageLoad(exit_position, at).xyz, 1.0)).xyz;
+    if (-exit.z < frame.near_plane) return;  // behind the eye nothing is known
+    bool behind = false;  // nothing opaque hides the entry
+    Stretch inside = stretch_of(entry, exit);
+    float share = search(inside, behind);
+    if (share >= 0.0) {
+        vec3 position = position_at(inside, share);
+        end_inside(at, texel_at(inside, share), position, entry, normalize(exit - entry));
+        return;
+    }
+    vec3 direction = mat3(frame.view_from_world) * imageLoad(exit_direction, at).xyz;
+    Stretch outside = stretch_of(exit, ray_end(exit, direction));
+    share = search(outside, behind);
+    if (share < 0.0) return;
+    store_hit(at, texel_at(outside, share), position_at(outside, share), imageLoad(transmittance, at).rgb);
+}

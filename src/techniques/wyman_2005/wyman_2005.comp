@@ -1,0 +1,130 @@
+#version 460
+// Wyman, "An Approximate Image-Space Approach for Interactive Refraction", SIGGRAPH 2005: two interfaces. How far the
+// refracted ray runs to the second one is guessed from two distances that are known; its normal is then found in
+// a picture of the back faces. Section numbers are the paper's.
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/technique_bindings.glsl"
+
+#include "gpu/vertices.glsl"
+#include "layers/pixel_list.glsl"
+#include "layers/surface_normal.glsl"
+#include "techniques/wyman_2005/baked_distances.glsl"
+
+layout(local_size_x = PELLUCID_LIST_GROUP) in;
+
+layout(constant_id = 0) const bool kSampled = false;  // the table of distances instead of d_N
+
+layout(set = 0, binding = 10, r32f) readonly uniform image2DArray back_depth;
+layout(set = 0, binding = 11, r32ui) readonly uniform uimage2DArray back_normal;
+layout(push_constant) uniform Push { uint table_side; };
+
+const float kSmallAngle = 1e-3;  // radians; the ratio of the angles differs from its limit by less than 1e-6 below
+
+bool within_picture(ivec2 texel) {
+    return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(frame.width, frame.height)));
+}
+
+float back_depth_at(ivec2 texel) { return imageLoad(back_depth, ivec3(texel, 0)).r; }
+
+// theta_t / theta_i at the entry.
+float angle_ratio(vec3 incident, vec3 normal, float eta) {
+    float sin_i = min(length(cross(incident, normal)), 1.0);
+    return sin_i < kSmallAngle ? eta : asin(min(eta * sin_i, 1.0)) / asin(sin_i);
+}
+
+// Distance from the entry to the exit, d (3.1); negative: none is known.
+float guess_distance(Path path, vec2 pixel, Fragment first, vec3 incident, vec3 normal, float eta) {
+    uint object = find_object(triangle_index(first.triangle));
+    if (kSampled) {
+        vec3 position = (frame.world_from_view * vec4(path.position, 1.0)).xyz;
+        vec3 direction = mat3(frame.world_from_view) * path.direction;
+        return sampled_distance(object, position, direction, table_side);
+    }
+    float depth = back_depth_at(ivec2(pixel));
+    if (depth == PELLUCID_EMPTY_DEPTH) return -1.0;
+    float along_view = distance(path.position, view_position(pixel, max(depth, first.depth)));
+    SurfacePoint entry = surface_point(object_ray(pixel, object), first.triangle, object);
+    return mix(inward_distance(entry, object), along_view, angle_ratio(incident, normal, eta));
+}
+
+// Outward normal of the back faces where a point projects to (3.2), between the four texels around; false: it
+// projects beside them.
+bool exit_normal(vec3 position, out vec3 normal) {
+    vec2 pixel = project(position);
+    ivec2 texel = ivec2(floor(pixel));
+    if (!within_picture(texel) || back_depth_at(texel) == PELLUCID_EMPTY_DEPTH) return false;
+    ivec2 low = ivec2(floor(pixel - 0.5));
+    vec2 share = pixel - 0.5 - vec2(low);
+    vec3 nearest = unpack_unit_vector(imageLoad(back_normal, ivec3(texel, 0)).r);
+    normal = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        if (!within_picture(low + step) || back_depth_at(low + step) == PELLUCID_EMPTY_DEPTH) continue;
+        vec2 weights = mix(1.0 - share, share, vec2(step));
+        normal += weights.x * weights.y * unpack_unit_vector(imageLoad(back_normal, ivec3(low + step, 0)).r);
+    }
+    // Opposite normals may cancel out; then that of the nearest texel will do.
+    normal = mat3(frame.view_from_world) * (dot(normal, normal) > 1e-12 ? normalize(normal) : nearest);
+    return true;
+}
+
+// Leaves the solid. The angle of incidence is kept to the critical one (3.3): where the ray would be reflected totally
+// it leaves along the surface, with all its light, as a reflection would have it.
+void leave(inout Path path, vec3 normal, float ior) {
+    vec3 incident = path.direction;
+    if (cross_interface(path, normal, true, ior)) return;
+    --path.reflections;
+    if (path.status == kStatusOk) path.status = kStatusEventLimit;
+    vec3 along = incident - dot(incident, normal) * normal;
+    path.direction = dot(along, along) > 1e-12 ? normalize(along) : incident;
+}
+
+// What the second interface does to a path that has crossed the first one.
+void cross_second(inout Path path, vec3 view_direction, vec3 normal, float ior) {
+    if (-path.position.z <= 0.0 && frame.orthographic == 0u) {  // behind the eye
+        path.status = kStatusLeftScreen;
+        return;
+    }
+    vec3 exit;
+    if (!exit_normal(path.position, exit)) {
+        bool seen = within_picture(ivec2(floor(project(path.position))));
+        path.status = seen ? kStatusMissingLayer : kStatusLeftScreen;
+        // The edge of the object is met: its normals there are perpendicular to the view ray (3.3).
+        vec3 across = path.direction - dot(path.direction, view_direction) * view_direction;
+        exit = dot(across, across) > 1e-12 ? normalize(across) : path.direction;
+    }
+    leave(path, exit, ior);
+}
+
+void main() {
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
+
+    vec2 pixel = vec2(texel) + 0.5;
+    Path path = camera_path(pixel);
+    vec3 view_direction = path.direction;
+    Fragment first = load_fragment(texel, 0u);
+    MaterialRecord material = material_of(first);
+    vec3 position = view_position(pixel, first.depth);
+    vec3 normal = view_normal(texel, 0u);
+    bool inside = back_face(first.triangle);
+    if (inside) {  // the interface before this one is missing
+        travel(path, distance(path.position, position), material.sigma_a.rgb);
+        path.status = kStatusMissingLayer;
+    }
+    path.position = position;
+    cross_interface(path, normal, inside, material.ior);
+    float first_transmittance = path.transmittance.r;
+    if (!inside) {
+        float d = guess_distance(path, pixel, first, view_direction, normal, 1.0 / material.ior);
+        if (d < 0.0) {
+            path.status = kStatusMissingLayer;
+        } else {
+            travel(path, d, material.sigma_a.rgb);
+            cross_second(path, view_direction, normal, material.ior);
+        }
+    }
+    store_refraction(texel, path);
+    // For nearby_geometry.comp: what is left behind the first interface.
+    imageStore(transmittance, ivec3(texel, 0), vec4(path.transmittance, first_transmittance));
+}
