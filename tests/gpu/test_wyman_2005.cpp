@@ -208,7 +208,7 @@ Scene slab_before_a_plane(float distance) {
 TEST_F(Wyman2005, APlaneBehindASlabIsSeenAtTheRightPlace) {
     constexpr int kSize = 201;
     constexpr float kAngle = 0.5f, kExtent = 0.8f;
-    for (const float gap : {0.0f, 0.02f, 0.3f}) {
+    for (const float gap : {-0.15f, 0.0f, 0.02f, 0.3f}) {  // the first within the slab
         const RenderResult result =
             render(slab_before_a_plane(gap), parallel_camera(kAngle, kExtent), settings_for(kSize));
         int edge = -1;
@@ -216,11 +216,13 @@ TEST_F(Wyman2005, APlaneBehindASlabIsSeenAtTheRightPlace) {
             const auto& path = result.paths[std::size_t(kSize / 2 * kSize + x)];
             const auto& before = result.paths[std::size_t(kSize / 2 * kSize + x - 1)];
             EXPECT_GE(path.object, 1) << gap << " " << x;
+            EXPECT_EQ(path.events, gap <= 0.0f ? 1 : 2) << gap << " " << x;
             if (before.object == 1 && path.object == 2) edge = x;
         }
         // The ray that reaches x = 0 on the plane enters the slab at this x.
         const double tan_i = std::tan(double(kAngle)), sin_t = std::sin(double(kAngle)) / kIor;
-        const double entry = 0.3 * sin_t / std::sqrt(1.0 - sin_t * sin_t) + double(gap) * tan_i;
+        const double inside = 0.3 + std::min(double(gap), 0.0), outside = std::max(double(gap), 0.0);
+        const double entry = inside * sin_t / std::sqrt(1.0 - sin_t * sin_t) + outside * tan_i;
         // The camera's right axis is (cos, 0, -sin); the entry lies on the plane z = 0.15.
         const double right = entry * std::cos(double(kAngle)) - 0.15 * std::sin(double(kAngle));
         const double pixel = right / (kExtent / kSize) + 0.5 * kSize;

@@ -58,6 +58,37 @@ TEST(Bake, ATriangleBesideTheVertexIsNotMet) {
     for (const float distance : bake::inward_distances(thin)) EXPECT_NEAR(distance, 1e-6f, 1e-9f);
 }
 
+/// A prism around an L: a square of side 4 about the Z axis without its quarter at +X, +Y. Vertex 9 is in the middle of
+/// the edge that runs inwards, which lies on that axis.
+Mesh l_prism() {
+    Mesh mesh;
+    const glm::vec2 outline[] = {{-2, -2}, {2, -2}, {2, 0}, {0, 0}, {0, 2}, {-2, 2}};
+    for (const float z : {-1.0f, 0.0f, 1.0f}) {
+        for (const glm::vec2 p : outline) mesh.positions.emplace_back(p, z);
+    }
+    mesh.normals.assign(mesh.positions.size(), glm::vec3(1, 0, 0));
+    for (unsigned ring = 0; ring < 2; ++ring) {
+        for (unsigned i = 0; i < 6; ++i) {
+            const unsigned a = 6 * ring + i, b = 6 * ring + (i + 1) % 6;
+            mesh.triangles.emplace_back(a, b, b + 6);
+            mesh.triangles.emplace_back(a, b + 6, a + 6);
+        }
+    }
+    for (const unsigned i : {4u, 5u, 0u, 1u}) {
+        const unsigned next = (i + 1) % 6;
+        mesh.triangles.emplace_back(3, next, i);
+        mesh.triangles.emplace_back(3 + 12, i + 12, next + 12);
+    }
+    return mesh;
+}
+
+// Seen along this ray the face at y = 0 is left at the vertex itself, although the ray runs on inside.
+TEST(Bake, AnEdgeThatRunsInwardsIsNotMet) {
+    Mesh mesh = l_prism();
+    mesh.normals[9] = glm::normalize(glm::vec3(1.0f, -0.2f, 0.0f));
+    EXPECT_NEAR(bake::inward_distances(mesh)[9], std::sqrt(4.0f + 0.16f), 1e-5f);
+}
+
 TEST(Bake, VerticesThatAreSplitCountAsOnePlace) {
     Mesh mesh = shape("sphere,segments=16");
     const Mesh split = unwelded(mesh);
