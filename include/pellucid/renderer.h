@@ -102,6 +102,14 @@ public:
     /// Uploads, and keeps a copy for techniques that trace on the CPU; `scene` may go afterwards. Throws
     /// Error if the device cannot hold it.
     void set_scene(const Scene& scene);
+    /// Moves vertices of meshes of the scene that was set, in every object that shows them; the next render() draws
+    /// them. Positions and normals (unit) are in the mesh's own frame, as many as it has, and are copied. Throws
+    /// Error, and moves nothing, if a mesh does not exist, a count differs or a number is not finite.
+    ///
+    /// Costs one upload of these vertices (24 bytes each) and one pass over the scene's for its bounds. Layers are
+    /// drawn anew in every frame anyway; hierarchies of techniques that trace rays are brought up to date when one
+    /// of them is next asked for. A camera that was not set keeps framing what there is.
+    void set_positions(const std::vector<MovedMesh>& moved);
     void set_environment(const Environment& environment);
     /// Default: the scene's first camera, or one that frames the scene (azimuth 0, elevation 15
     /// degrees, 30 degrees of field, the bounding sphere filling 70% of the height).
@@ -114,7 +122,8 @@ public:
     /// Throws what render() would throw at once for these settings.
     void check(const RenderSettings& settings) const;
 
-    /// The exact tracer of the scene that was set, built on first use; valid until the next set_scene().
+    /// The exact tracer of the scene that was set, built on first use; valid until the next
+    /// set_scene() or set_positions().
     const Tracer& tracer();
 
     const DeviceInfo& device() const;

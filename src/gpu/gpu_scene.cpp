@@ -93,6 +93,12 @@ gpu::MaterialRecord material_record(const Material& material, TextureTable& text
     return record;
 }
 
+std::vector<Vertex> vertices_of(const Mesh& mesh) {
+    std::vector<Vertex> vertices(mesh.positions.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = {mesh.positions[v], mesh.normals[v]};
+    return vertices;
+}
+
 void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, std::vector<glm::vec3>& corners) {
     glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
     for (const glm::vec3& p : mesh.positions) {
@@ -105,9 +111,19 @@ void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, st
     }
 }
 
+std::vector<glm::vec3> refractive_box_corners(const Scene& scene) {
+    std::vector<glm::vec3> corners;
+    for (const Object& object : scene.objects) {
+        if (!scene.materials[std::size_t(object.material)].refractive()) continue;
+        append_box_corners(scene.meshes[std::size_t(object.mesh)], object.world_from_object, corners);
+    }
+    return corners;
+}
+
 }  // namespace
 
-GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_bounds(scene)) {
+GpuScene::GpuScene(const Device& device, const Scene& scene)
+    : bounds(scene_bounds(scene)), refractive_corners(refractive_box_corners(scene)) {
     const Geometry geometry = join_meshes(scene);
     TextureTable texture_table(scene);
     std::vector<gpu::MaterialRecord> material_records;
@@ -133,7 +149,6 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
         auto& list = material.refractive() ? refractive : material.transmissive() ? thin_walled : opaque;
         list.push_back(call);
         if (material.refractive()) {
-            append_box_corners(mesh, object.world_from_object, refractive_corners);
             const bool textured = material.base_color_texture.image >= 0 || material.transmission_texture.image >= 0;
             if (textured || !mesh.colors.empty()) textured_refractive.push_back(call);
         }
@@ -158,6 +173,19 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) : bounds(scene_boun
     materials = upload_buffer(device, "the scene's materials", material_records, Usage::eStorageBuffer);
     texture_pages = texture_table.upload_pages(device);
     textures = upload_buffer(device, "the scene's textures", texture_table.records(), Usage::eStorageBuffer);
+}
+
+void GpuScene::move_vertices(const Device& device, const Scene& scene, std::span<const int> moved) {
+    for (const int mesh : moved) {
+        std::size_t first = 0;  // vertices of the meshes before
+        for (int m = 0; m < mesh; ++m) first += scene.meshes[std::size_t(m)].positions.size();
+        const std::vector<Vertex> data = vertices_of(scene.meshes[std::size_t(mesh)]);
+        upload(device, vertices, std::as_bytes(std::span(data)), first * sizeof(Vertex));
+    }
+    bounds = scene_bounds(scene);
+    refractive_corners = refractive_box_corners(scene);
+    prepared.clear();
+    ++moves;
 }
 
 }  // namespace pellucid

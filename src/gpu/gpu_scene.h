@@ -7,6 +7,7 @@
 #include <pellucid/scene.h>
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ namespace pellucid {
 struct GpuScene {
     GpuScene(const Device& device, const Scene& scene);
 
+    /// Uploads the vertices of the `moved` meshes as `scene` has them now; all else of it is as it was. No frame may
+    /// be in flight.
+    void move_vertices(const Device& device, const Scene& scene, std::span<const int> moved);
+
     Buffer indices;     ///< per triangle corner, the vertex; meshes one after the other
     Buffer vertices;    ///< per vertex: position, normal (6 floats, in the frame of its mesh)
     Buffer appearance;  ///< per vertex: texcoord 0, texcoord 1 (4 floats), colour (RGBA8)
@@ -31,6 +36,7 @@ struct GpuScene {
     std::uint32_t object_count = 0;
     std::uint64_t triangle_count = 0;
     std::uint32_t vertex_count = 0;
+    std::uint64_t moves = 0;  ///< how often vertices have moved; what is derived from them is as old as its count
     std::vector<std::uint32_t> first_triangles;  ///< per object; ascending
     std::vector<glm::mat4> world_from_object;    ///< per object
     std::vector<DrawCall> refractive;            ///< solids of glass

@@ -183,14 +183,14 @@ GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk
     });
 }
 
-void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data) {
+void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize offset) {
     if (data.empty()) return;
     const Buffer staging = staging_buffer(device, std::min<vk::DeviceSize>(kStagingSize, data.size()));
-    for (vk::DeviceSize offset = 0; offset < data.size(); offset += staging.size()) {
-        const vk::DeviceSize bytes = std::min<vk::DeviceSize>(staging.size(), data.size() - offset);
-        std::memcpy(staging.mapped(), data.data() + offset, bytes);
+    for (vk::DeviceSize done = 0; done < data.size(); done += staging.size()) {
+        const vk::DeviceSize bytes = std::min<vk::DeviceSize>(staging.size(), data.size() - done);
+        std::memcpy(staging.mapped(), data.data() + done, bytes);
         submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
-            commands.copyBuffer(staging.handle(), buffer.handle(), vk::BufferCopy{.dstOffset = offset, .size = bytes});
+            commands.copyBuffer(staging.handle(), buffer.handle(), vk::BufferCopy{.dstOffset = offset + done, .size = bytes});
         });
     }
 }

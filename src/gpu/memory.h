@@ -70,8 +70,8 @@ private:
 /// Bytes per texel of the formats Pellucid uses.
 std::uint32_t texel_size(vk::Format format);
 
-/// Fills a device buffer or one layer of an image from host memory, and waits for it.
-void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data);
+/// Fills a device buffer (from byte `offset` on) or one layer of an image from host memory, and waits for it.
+void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize offset = 0);
 void upload(const Device& device, const GpuImage& image, std::uint32_t layer, std::span<const std::byte> data);
 
 /// One layer of an image, tightly packed rows from the top, after all submitted work.

@@ -27,7 +27,7 @@ vk::TransformMatrixKHR transform_rows(const glm::mat4& m) {
 }  // namespace
 
 SceneHierarchy::SceneHierarchy(const Device& device, const GpuScene& scene, StructureUse use)
-    : use_(use), vertices_(scene.vertices.id()) {
+    : use_(use), vertices_(scene.vertices.id()), moves_(scene.moves) {
     if (scene.object_count > kMaxCustomIndex) {
         throw Error(fmt::format("{} objects: ray tracing numbers at most {}", scene.object_count, kMaxCustomIndex));
     }
@@ -67,7 +67,8 @@ SceneHierarchy::SceneHierarchy(const Device& device, const GpuScene& scene, Stru
 }
 
 bool SceneHierarchy::is_of(const GpuScene& scene, StructureUse use) const {
-    return scene.vertices.id() == vertices_ && use == use_;
+    const bool follows = use_ != StructureUse::kStatic || moves_ == scene.moves;
+    return scene.vertices.id() == vertices_ && use == use_ && follows;
 }
 
 void SceneHierarchy::update(Recorder& recorder) {

@@ -18,7 +18,8 @@ public:
     SceneHierarchy(const SceneHierarchy&) = delete;
     SceneHierarchy& operator=(const SceneHierarchy&) = delete;
 
-    /// True if it is the hierarchy of `scene` made for `use`.
+    /// True if it is the hierarchy of `scene` made for `use`, or becomes that in update(): a static one does not
+    /// follow vertices that move.
     bool is_of(const GpuScene& scene, StructureUse use) const;
 
     /// Records, in a scope of its own, what a frame needs before it can trace: the first time the build
@@ -32,6 +33,7 @@ private:
 
     StructureUse use_;
     ResourceId vertices_;
+    std::uint64_t moves_;  ///< GpuScene::moves when it was made
     std::vector<AccelerationStructure> meshes_;
     Buffer instances_;
     std::optional<AccelerationStructure> top_;

@@ -1,12 +1,52 @@
 #include "render/cpu_tracing.h"
 
+#include <pellucid/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pellucid {
+namespace {
+
+bool all_finite(std::span<const glm::vec3> values) {
+    return std::all_of(values.begin(), values.end(), [](const glm::vec3& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    });
+}
+
+void check_moved(const Scene& scene, const MovedMesh& moved) {
+    if (moved.mesh < 0 || std::size_t(moved.mesh) >= scene.meshes.size()) {
+        throw Error(fmt::format("there is no mesh {} to move; the scene has {}", moved.mesh, scene.meshes.size()));
+    }
+    const Mesh& mesh = scene.meshes[std::size_t(moved.mesh)];
+    const std::string what = fmt::format("mesh {} '{}'", moved.mesh, mesh.name);
+    if (moved.positions.size() != mesh.positions.size() || moved.normals.size() != mesh.normals.size()) {
+        throw Error(fmt::format("{} has {} positions and {} normals, but was given {} and {}", what,
+                                mesh.positions.size(), mesh.normals.size(), moved.positions.size(),
+                                moved.normals.size()));
+    }
+    if (!all_finite(moved.positions)) throw Error(fmt::format("{}: a position is not finite", what));
+    if (!all_finite(moved.normals)) throw Error(fmt::format("{}: a normal is not finite", what));
+}
+
+}  // namespace
 
 void CpuTracing::set_scene(Scene scene) {
     tracer_.reset();
     scene_ = std::move(scene);
+}
+
+void CpuTracing::set_positions(const std::vector<MovedMesh>& moved) {
+    for (const MovedMesh& each : moved) check_moved(scene_, each);
+    tracer_.reset();
+    for (const MovedMesh& each : moved) {
+        Mesh& mesh = scene_.meshes[std::size_t(each.mesh)];
+        std::copy(each.positions.begin(), each.positions.end(), mesh.positions.begin());
+        std::copy(each.normals.begin(), each.normals.end(), mesh.normals.begin());
+    }
 }
 
 const Tracer& CpuTracing::tracer() {

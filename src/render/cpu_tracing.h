@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace pellucid {
 
@@ -15,6 +16,9 @@ public:
     CpuTracing& operator=(const CpuTracing&) = delete;
 
     void set_scene(Scene scene);
+    /// Throws Error, and moves nothing, if a mesh does not exist, the counts differ, or a number is not finite. The
+    /// hierarchy is built anew when it is next asked for.
+    void set_positions(const std::vector<MovedMesh>& moved);
     const Scene& scene() const { return scene_; }
     const Tracer& tracer();
 

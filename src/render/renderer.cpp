@@ -176,7 +176,10 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
 void Renderer::Impl::prepare(const FrameSettings& chosen, const Progress& progress,
                              std::vector<std::string>& warnings) {
     if (chosen.technique.prepare == nullptr) return;
-    chosen.technique.prepare({device, cpu.scene(), *scene, bake_cache, threads, progress, warnings}, chosen.parameters);
+    // Shapes that a deforming mesh passes through are not worth a file each.
+    bake::BakeCache passing{std::filesystem::path()};
+    bake::BakeCache& cache = scene->moves > 0 ? passing : bake_cache;
+    chosen.technique.prepare({device, cpu.scene(), *scene, cache, threads, progress, warnings}, chosen.parameters);
 }
 
 void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jitter) {
@@ -276,6 +279,13 @@ void Renderer::set_scene(const Scene& scene) {
     }
     impl_->cpu.set_scene(std::move(copy));
     impl_->scene_camera = scene.cameras.empty() ? std::nullopt : std::optional(scene.cameras.front());
+}
+
+void Renderer::set_positions(const std::vector<MovedMesh>& moved) {
+    impl_->cpu.set_positions(moved);  // checks them, and changes nothing if they are wrong
+    std::vector<int> meshes;
+    for (const MovedMesh& each : moved) meshes.push_back(each.mesh);
+    impl_->scene->move_vertices(impl_->device, impl_->cpu.scene(), meshes);
 }
 
 void Renderer::set_environment(const Environment& environment) {
