@@ -61,7 +61,7 @@ void expect_same(const RenderResult& a, const RenderResult& b, const std::string
 class Deforming : public RendererTest {
 protected:
     std::vector<std::string> drawn() {
-        std::vector<std::string> names = {"one-interface", "oliveira-brauwers-2007", "wang-2014", "reference"};
+        std::vector<std::string> names = {"one-interface", "wyman-2005", "oliveira-brauwers-2007", "wang-2014", "reference"};
         if (renderer().lacking(find_technique("ray-tracing")).empty()) names.emplace_back("ray-tracing");
         return names;
     }
