@@ -17,14 +17,14 @@ layout(std430, set = 0, binding = 17) buffer Inside {
 bool meet_surface_ahead(inout Path path) {
     if (path.status != kStatusOk) return false;  // it was lost before
     // It stands on the layer that it searches if it has left this object.
-    Hit hit = search(path.position, path.direction, layer, layer > 0u, layer == 0u);
+    Hit hit = search(path.position, path.direction, layer > 0u, layer == 0u);
     if (hit.distance < 0.0) {
         // Most paths meet no further glass. Over glass at the edge of the picture nobody knows.
         if (hit.status == kStatusLeftScreen) path.status = hit.status;
         return false;
     }
     path.position += hit.distance * path.direction;
-    return cross_interface(path, normal_at(world_pixel(path.position), layer), false, object_material().ior);
+    return cross_interface(path, normal_at(world_pixel(path.position)), false, object_material().ior);
 }
 
 void append(ivec2 texel) {

@@ -29,7 +29,7 @@ void main() {
     }
     // A ray that was reflected stands on the layer that it searches, one that has come in does not.
     bool reflected = path.status == kStatusEventLimit;
-    Hit hit = search(path.position, path.direction, layer, reflected, false);
+    Hit hit = search(path.position, path.direction, reflected, false);
     if (hit.distance < 0.0) {
         path.status = hit.status;
         store_world_refraction(texel, path);
@@ -37,7 +37,7 @@ void main() {
     }
     MaterialRecord material = object_material();
     travel(path, hit.distance, material.sigma_a.rgb);
-    bool leaves = cross_interface(path, normal_at(world_pixel(path.position), layer), true, material.ior);
+    bool leaves = cross_interface(path, normal_at(world_pixel(path.position)), true, material.ior);
     path.status = leaves ? kStatusOk : kStatusEventLimit;  // which a further search may still resolve
     store_world_refraction(texel, path);
 

@@ -1,19 +1,17 @@
 #ifndef PELLUCID_TECHNIQUES_WANG_2014_MERGED_LAYERS_GLSL
 #define PELLUCID_TECHNIQUES_WANG_2014_MERGED_LAYERS_GLSL
 
-// Reading the layers that merge_layers.comp has merged: depths and normals under a pixel coordinate.
+// Reading the layer that is searched, as merge_layers.comp has left it: depths and normals under a pixel coordinate.
 // Needs: technique_bindings.glsl, fault_size().
 
-layout(set = 0, binding = 10, r32f) readonly uniform image2DArray merged_depth;
+layout(set = 0, binding = 10, r32f) readonly uniform image2D merged_depth;
 layout(std430, set = 0, binding = 13) readonly buffer EntryLimit { uint farthest_entry; };  // depth, as bits
-layout(set = 0, binding = 11, r32ui) readonly uniform uimage2DArray merged_normal;  // world, octahedral
+layout(set = 0, binding = 11, r32ui) readonly uniform uimage2D merged_normal;  // world, octahedral
 
-float texel_depth(ivec2 texel, uint layer) {
-    return imageLoad(merged_depth, ivec3(texel, layer)).r;
-}
+float texel_depth(ivec2 texel) { return imageLoad(merged_depth, texel).r; }
 
-float stored_depth(vec2 pixel, uint layer) {
-    return texel_depth(clamp(ivec2(pixel), ivec2(0), ivec2(frame.width, frame.height) - 1), layer);
+float stored_depth(vec2 pixel) {
+    return texel_depth(clamp(ivec2(pixel), ivec2(0), ivec2(frame.width, frame.height) - 1));
 }
 
 // The four texels around a pixel coordinate with their bilinear weights (low x first, then low y), and the
@@ -25,14 +23,14 @@ struct Footprint {
     float depth;
 };
 
-Footprint footprint(vec2 pixel, uint layer) {
+Footprint footprint(vec2 pixel) {
     ivec2 last = ivec2(frame.width, frame.height) - 1;
     vec2 point = clamp(pixel - 0.5, vec2(0.0), vec2(last));
     ivec2 low = ivec2(point), high = min(low + 1, last);
     vec2 share = point - vec2(low), rest = 1.0 - share;
 
-    vec4 depths = vec4(texel_depth(low, layer), texel_depth(ivec2(high.x, low.y), layer),
-                       texel_depth(ivec2(low.x, high.y), layer), texel_depth(high, layer));
+    vec4 depths = vec4(texel_depth(low), texel_depth(ivec2(high.x, low.y)),
+                       texel_depth(ivec2(low.x, high.y)), texel_depth(high));
     vec2 nearest_row = share.y < 0.5 ? depths.xy : depths.zw;
     float nearest = share.x < 0.5 ? nearest_row.x : nearest_row.y;
     vec4 weights = vec4(rest.x, share.x, rest.x, share.x) * vec4(rest.yy, share.yy);
@@ -41,19 +39,19 @@ Footprint footprint(vec2 pixel, uint layer) {
     return Footprint(low, high, weights, dot(weights, depths));
 }
 
-vec3 texel_normal(ivec2 texel, uint layer) {
-    return unpack_unit_vector(imageLoad(merged_normal, ivec3(texel, layer)).r);
+vec3 texel_normal(ivec2 texel) {
+    return unpack_unit_vector(imageLoad(merged_normal, texel).r);
 }
 
 // In world space.
-vec3 normal_at(vec2 pixel, uint layer) {
-    Footprint around = footprint(pixel, layer);
-    vec3 sum = around.weights.x * texel_normal(around.low, layer) +
-               around.weights.y * texel_normal(ivec2(around.high.x, around.low.y), layer) +
-               around.weights.z * texel_normal(ivec2(around.low.x, around.high.y), layer) +
-               around.weights.w * texel_normal(around.high, layer);
+vec3 normal_at(vec2 pixel) {
+    Footprint around = footprint(pixel);
+    vec3 sum = around.weights.x * texel_normal(around.low) +
+               around.weights.y * texel_normal(ivec2(around.high.x, around.low.y)) +
+               around.weights.z * texel_normal(ivec2(around.low.x, around.high.y)) +
+               around.weights.w * texel_normal(around.high);
     // Opposite normals may cancel out; then any of them will do.
-    return dot(sum, sum) > 1e-12 ? normalize(sum) : texel_normal(around.low, layer);
+    return dot(sum, sum) > 1e-12 ? normalize(sum) : texel_normal(around.low);
 }
 
 #endif

@@ -67,12 +67,12 @@ struct Hit {
 
 // Narrows the way between a point in front of the layer and one behind it; returns the last distance in front.
 // `jump` is how far apart the layer's depths on the two sides lie.
-float binary_search(ScreenRay ray, uint layer, float before, float after, out float jump) {
-    float depth_before = footprint(pixel_at(ray, before), layer).depth;
-    float depth_after = footprint(pixel_at(ray, after), layer).depth;
+float binary_search(ScreenRay ray, float before, float after, out float jump) {
+    float depth_before = footprint(pixel_at(ray, before)).depth;
+    float depth_after = footprint(pixel_at(ray, after)).depth;
     for (uint i = 0u; i < binary_steps; ++i) {
         float middle = 0.5 * (before + after);
-        float depth = footprint(pixel_at(ray, middle), layer).depth;
+        float depth = footprint(pixel_at(ray, middle)).depth;
         if (depth_at(ray, middle) > depth) {
             after = middle;
             depth_after = depth;
@@ -88,10 +88,10 @@ float binary_search(ScreenRay ray, uint layer, float before, float after, out fl
 // The pixel coordinate under a point of the world.
 vec2 world_pixel(vec3 position) { return project((frame.view_from_world * vec4(position, 1.0)).xyz); }
 
-// Searches `layer` along a ray of world space, first in linear, then in binary steps (3.3, 3.5). Entries and exits
+// Searches the layer along a ray of world space, first in linear, then in binary steps (3.3, 3.5). Entries and exits
 // alike are met from in front: a ray that comes up from behind comes out from below a fault zone.
 // `on_layer`: it starts on the searched layer; `from_afar`: it starts anywhere; neither: in front of it.
-Hit search(vec3 world_origin, vec3 world_direction, uint layer, bool on_layer, bool from_afar) {
+Hit search(vec3 world_origin, vec3 world_direction, bool on_layer, bool from_afar) {
     vec3 origin = (frame.view_from_world * vec4(world_origin, 1.0)).xyz;
     vec3 direction = mat3(frame.view_from_world) * world_direction;
     ScreenRay ray = screen_ray(origin, direction);
@@ -108,7 +108,7 @@ Hit search(vec3 world_origin, vec3 world_direction, uint layer, bool on_layer, b
     // Which side of the layer the ray is on; "-" of the thesis is true. A ray that starts on layer 1
     // is in front of layer 2. A ray that starts on the searched layer takes a small step first.
     float before = on_layer ? kFirstStep * step_length : start;
-    bool behind = (on_layer || from_afar) && depth_at(ray, before) > stored_depth(pixel_at(ray, before), layer);
+    bool behind = (on_layer || from_afar) && depth_at(ray, before) > stored_depth(pixel_at(ray, before));
 
     // The binary search stands beside the linear one, not in it: on some drivers what stands in a loop costs its
     // time at every turn, taken or not.
@@ -118,17 +118,17 @@ Hit search(vec3 world_origin, vec3 world_direction, uint layer, bool on_layer, b
         for (; !passed && after < end; ++i) {
             before = after;
             after = min(start + float(i) * step_length, end);
-            bool now_behind = depth_at(ray, after) > stored_depth(pixel_at(ray, after), layer);
+            bool now_behind = depth_at(ray, after) > stored_depth(pixel_at(ray, after));
             passed = now_behind && !behind;
             behind = now_behind;  // false: out from under a fault zone, if it was below one
         }
         if (!passed) break;
         float jump;
-        float hit = binary_search(ray, layer, before, after, jump);
+        float hit = binary_search(ray, before, after, jump);
         if (jump <= fault_size()) return Hit(hit, kStatusOk);  // case 3; case 2: below the fault
     }
     // Beside the object nothing is missing from the picture: the ray has left unseen.
-    bool over_glass = abs(stored_depth(pixel_at(ray, last), layer)) < PELLUCID_EMPTY_DEPTH;
+    bool over_glass = abs(stored_depth(pixel_at(ray, last))) < PELLUCID_EMPTY_DEPTH;
     return Hit(-1.0, to_screen_edge <= last && over_glass ? kStatusLeftScreen : kStatusMissingLayer);
 }
 
