@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shade/surface_fragment.glsl"
-#include "shade/diffuse.glsl"
+#include "gpu/diffuse.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 #include "layers/objects.glsl"
 

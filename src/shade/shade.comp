@@ -22,7 +22,7 @@ layout(set = 0, binding = 12, r32ui) readonly uniform uimage2DArray path_events;
 layout(set = 0, binding = 13, rgba32f) readonly uniform image2DArray path_radiance;
 
 #include "layers/objects.glsl"
-#include "shade/diffuse.glsl"
+#include "gpu/diffuse.glsl"
 
 // What comes through the glass: the end of the refracted path, and what it picked up on the way.
 vec3 transmitted_radiance(ivec3 at) {

@@ -3,7 +3,7 @@
 #include "shade/thin_fragment.glsl"
 
 layout(set = 0, binding = 7) uniform texture2D environment_map;
-#include "shade/diffuse.glsl"
+#include "gpu/diffuse.glsl"
 #include "shade/environment_lookup.glsl"
 
 layout(location = 0) out vec4 out_radiance;

@@ -1,3 +1,4 @@
+#include "techniques/kay_greenberg_1979/kay_greenberg_1979.h"
 #include "techniques/oliveira_brauwers_2007/oliveira_brauwers_2007.h"
 #include "techniques/one_interface/one_interface.h"
 #include "techniques/path/path.h"
@@ -20,7 +21,8 @@ namespace {
 
 // Every technique, one line each.
 constexpr std::array kTechniques = {
-    &kOneInterface, &kWyman2005, &kOliveiraBrauwers2007, &kWang2014, &kRayTracing, &kPath, &kReference,
+    &kOneInterface, &kKayGreenberg1979, &kWyman2005, &kOliveiraBrauwers2007,
+    &kWang2014,     &kRayTracing,       &kPath,      &kReference,
 };
 
 constexpr auto kInfos = [] {

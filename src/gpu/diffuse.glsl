@@ -1,8 +1,8 @@
-#ifndef PELLUCID_SHADE_DIFFUSE_GLSL
-#define PELLUCID_SHADE_DIFFUSE_GLSL
+#ifndef PELLUCID_GPU_DIFFUSE_GLSL
+#define PELLUCID_GPU_DIFFUSE_GLSL
 
 // Light of the environment that a diffuse surface scatters. Needs: frame (FrameConstants).
-#include "shade/environment.glsl"
+#include "scene/irradiance.glsl"
 
 vec3 diffuse_radiance(vec3 albedo, vec3 normal) {
     vec3 coefficients[9];

@@ -1,0 +1,139 @@
+#version 460
+// Kay & Greenberg, "Transparency for Computer Synthesized Images", SIGGRAPH 1979: surfaces are laid over a
+// background image from back to front, FINAL = OLD t + NEW (1 - t). Section numbers are the paper's.
+//
+// The paper rewrites the whole image once per surface: the r-th pass lays each pixel's r-th surface from the back
+// over the image that the passes before have left, read at a displaced pixel. Following one pixel through the
+// passes from the last to the first gives the same sum, and needs no images in between.
+#extension GL_GOOGLE_include_directive : require
+#include "techniques/technique_bindings.glsl"
+
+#include "gpu/diffuse.glsl"
+#include "layers/pixel_list.glsl"
+
+layout(local_size_x = PELLUCID_LIST_GROUP) in;
+
+const uint kLinear = 0u;
+const uint kNonLinear = 1u;
+
+layout(set = 0, binding = 10, r32f) readonly uniform image2DArray opaque_depth;
+layout(set = 0, binding = 11, rgba32f) readonly uniform image2DArray opaque_radiance;
+layout(set = 0, binding = 12, r32ui) readonly uniform uimage2DArray opaque_object;
+layout(set = 0, binding = 13, rgba32f) writeonly uniform image2DArray path_radiance;
+
+layout(push_constant) uniform Push {
+    uint mode;
+    uint surfaces;        // that are looked at; there is one layer more, to tell whether they are all
+    float power;          // p
+    float min_transparency;
+    float max_transparency;
+    float thickness;      // h, metres
+    float log_transmission;  // of T1 per metre, <= 0
+};
+
+// A pixel's way through the images, last first.
+struct View {
+    vec2 pixel;  // where the image is read; centres at +0.5
+    vec3 transmittance;
+    vec3 radiance;  // NEW terms
+    float length_inside;
+    float depth;  // of the last surface
+    uint events;
+    uint status;
+};
+
+ivec2 texel_at(vec2 pixel) {
+    return clamp(ivec2(floor(pixel)), ivec2(0), ivec2(frame.width, frame.height) - 1);
+}
+
+bool in_picture(vec2 pixel) {
+    return all(greaterThanEqual(pixel, vec2(0.0))) && all(lessThan(pixel, vec2(frame.width, frame.height)));
+}
+
+// Surfaces of a pixel in front of what is opaque, up to one more than are looked at.
+uint count_surfaces(ivec2 texel) {
+    float end = imageLoad(opaque_depth, ivec3(texel, 0)).r;
+    uint count = 0u;
+    while (count <= surfaces && imageLoad(layer_depth, ivec3(texel, count)).r < end) ++count;
+    return count;
+}
+
+// NEW: the surface as if it were opaque. Shading multiplies all that comes through glass by the first surface's
+// colour (`tint`), which is taken out here.
+vec3 own_radiance(MaterialRecord material, vec3 tint, vec3 facing) {
+    vec3 albedo = material.base_color.rgb / max(tint, vec3(1e-4));
+    return diffuse_radiance(albedo, mat3(frame.world_from_view) * facing);
+}
+
+// Section 4.2, A and B: outside media rays run along -Z of the view; the surface is a slab of thickness h. Moves
+// to the pixel behind it and returns t.
+vec3 cross_slab(inout View view, MaterialRecord material, vec3 facing, float depth) {
+    vec3 inside;
+    refract_direction(vec3(0.0, 0.0, -1.0), facing, 1.0 / material.ior, inside);
+    float distance = thickness / max(-dot(facing, inside), 1e-4);
+    vec2 metres_per_pixel = frame.film.zw * (frame.orthographic != 0u ? 1.0 : depth);
+    view.pixel += distance * vec2(inside.x, -inside.y) / metres_per_pixel;
+    view.length_inside += distance;
+    return exp(log_transmission * distance) * beer_lambert(material.sigma_a.rgb, distance);
+}
+
+void cross_surface(inout View view, ivec2 texel, uint layer, vec3 tint) {
+    Fragment fragment = load_fragment(texel, layer);
+    MaterialRecord material = material_of(fragment);
+    vec3 normal = view_normal(texel, layer);
+    vec3 facing = normal.z < 0.0 ? -normal : normal;
+    vec3 t = vec3(max_transparency);
+    if (mode == kNonLinear) {  // section 2.2
+        float grazing = 1.0 - min(facing.z, 1.0);
+        t = vec3(mix(min_transparency, max_transparency, 1.0 - pow(grazing, power)));
+    } else if (mode != kLinear) {
+        t = cross_slab(view, material, facing, fragment.depth);
+    }
+    view.radiance += view.transmittance * (1.0 - t) * own_radiance(material, tint, facing);
+    view.transmittance *= t;
+    view.depth = fragment.depth;
+    ++view.events;
+}
+
+// The background image under the view's pixel: what is opaque there, or the environment along its view ray.
+void store(ivec2 texel, View view) {
+    ivec2 behind = texel_at(view.pixel);
+    float opaque = imageLoad(opaque_depth, ivec3(behind, 0)).r;
+    bool hidden = opaque < PELLUCID_EMPTY_DEPTH;
+    if (hidden) view.radiance += view.transmittance * imageLoad(opaque_radiance, ivec3(behind, 0)).rgb;
+    vec3 end = view_position(view.pixel, hidden ? opaque : view.depth);
+    Path path = Path(end, camera_ray(view.pixel).direction, view.transmittance, view.length_inside, view.events, 0u,
+                     view.status, false);
+    store_refraction(texel, path);
+    ivec3 at = ivec3(texel, 0);
+    if (hidden) {
+        vec3 world = (frame.world_from_view * vec4(end, 1.0)).xyz;
+        imageStore(exit_position, at, vec4(world, float(imageLoad(opaque_object, ivec3(behind, 0)).r)));
+    }
+    imageStore(path_radiance, at, vec4(view.radiance, hidden ? 1.0 : 0.0));
+}
+
+void main() {
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
+
+    uint count = count_surfaces(texel);
+    View view = View(vec2(texel) + 0.5, vec3(1.0), vec3(0.0), 0.0, 0.0, 0u, kStatusOk);
+    // What is opaque may stand inside the glass; without it an odd count is an open mesh.
+    bool cut = imageLoad(opaque_depth, ivec3(texel, 0)).r < PELLUCID_EMPTY_DEPTH;
+    if (count > surfaces) view.status = kStatusEventLimit;
+    else if ((count & 1u) != 0u && !cut) view.status = kStatusMissingLayer;
+    vec3 tint = material_of(load_fragment(texel, 0u)).base_color.rgb;
+
+    // Surface r from the back; where the pixel has fewer, the pass left it as it was.
+    for (uint r = min(count, surfaces); r > 0u; --r) {
+        if (!in_picture(view.pixel)) {
+            view.status = kStatusLeftScreen;
+            break;
+        }
+        ivec2 at = texel_at(view.pixel);
+        uint here = min(count_surfaces(at), surfaces);
+        if (r <= here) cross_surface(view, at, here - r, tint);
+    }
+    store(texel, view);
+}
