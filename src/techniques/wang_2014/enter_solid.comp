@@ -7,6 +7,8 @@
 
 #include "techniques/wang_2014/first_surface.glsl"
 
+layout(constant_id = 0) const bool kNextObject = false;  // layer 1 of an object is searched, not a deeper entry
+
 layout(std430, set = 0, binding = 17) buffer Inside {
     uint inside_groups[3];
     uint inside_length;
@@ -17,7 +19,7 @@ layout(std430, set = 0, binding = 17) buffer Inside {
 bool meet_surface_ahead(inout Path path) {
     if (path.status != kStatusOk) return false;  // it was lost before
     // It stands on the layer that it searches if it has left this object.
-    Hit hit = search(path.position, path.direction, layer > 0u, layer == 0u);
+    Hit hit = search(path.position, path.direction, !kNextObject, kNextObject);
     if (hit.distance < 0.0) {
         // Most paths meet no further glass. Over glass at the edge of the picture nobody knows.
         if (hit.status == kStatusLeftScreen) path.status = hit.status;
@@ -39,7 +41,7 @@ void main() {
 
     Path path;
     bool meets;
-    if (layer == 0u && imageLoad(path_events, ivec3(texel, 0)).r == 0u) {
+    if (kNextObject && imageLoad(path_events, ivec3(texel, 0)).r == 0u) {
         if (!sees_object(texel)) return;
         path = pass_first_surface(texel);  // case 1 of 3.7
         meets = path.status == kStatusOk;

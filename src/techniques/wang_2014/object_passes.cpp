@@ -49,7 +49,7 @@ const Buffer& ObjectPasses::enter(const Buffer& pixels, std::uint32_t layer) {
     const Buffer& inside = start_pixel_list(recorder_, frame_, "rays inside");
     search_.layer = layer;
     recorder_.compute_indirect(
-        frame_.workspace.compute({"enter_solid.comp", kEnterSolid}),
+        frame_.workspace.compute({"enter_solid.comp", kEnterSolid}, {layer == 0 ? 1u : 0u}),
         {reads("Frame", frame_.constants), reads("Objects", frame_.scene.objects),
          reads("Materials", frame_.scene.materials), reads("layer_depth", layers_.depth),
          reads("layer_triangle", layers_.triangle), reads("layer_normal", layers_.normal),
