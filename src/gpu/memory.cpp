@@ -190,7 +190,8 @@ void upload(const Device& device, const Buffer& buffer, std::span<const std::byt
         const vk::DeviceSize bytes = std::min<vk::DeviceSize>(staging.size(), data.size() - done);
         std::memcpy(staging.mapped(), data.data() + done, bytes);
         submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
-            commands.copyBuffer(staging.handle(), buffer.handle(), vk::BufferCopy{.dstOffset = offset + done, .size = bytes});
+            commands.copyBuffer(staging.handle(), buffer.handle(),
+                                vk::BufferCopy{.dstOffset = offset + done, .size = bytes});
         });
     }
 }

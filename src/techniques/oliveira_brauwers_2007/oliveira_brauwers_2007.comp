@@ -29,6 +29,8 @@ float binary_search(vec3 origin, vec3 direction, float front, float behind) {
     return front;
 }
 
+bool is_behind(vec3 position) { return -position.z > stored_depth(position); }
+
 struct Hit {
     float distance;  // negative: none
     uint status;     // why there is none
@@ -40,13 +42,12 @@ Hit search(vec3 origin, vec3 direction) {
     // A step to spare, so that what lies at the end of the range is passed.
     float end = min(to_screen_edge, distance_to_depth_edge(origin, direction, largest_step()));
     float step_length = end / float(linear_steps);
-    for (uint i = 1u; i <= linear_steps; ++i) {
-        vec3 position = origin + float(i) * step_length * direction;
-        if (-position.z <= stored_depth(position)) continue;
+    uint i = 1u;
+    while (i <= linear_steps && !is_behind(origin + float(i) * step_length * direction)) ++i;
+    if (i <= linear_steps) {
         float hit = binary_search(origin, direction, float(i - 1u) * step_length, float(i) * step_length);
         // An open object may have no back face anywhere near.
-        if (stored_depth(origin + hit * direction) < -0.5 * PELLUCID_EMPTY_DEPTH) break;
-        return Hit(hit, kStatusOk);
+        if (stored_depth(origin + hit * direction) >= -0.5 * PELLUCID_EMPTY_DEPTH) return Hit(hit, kStatusOk);
     }
     bool over_glass = abs(stored_depth(origin + end * direction)) < PELLUCID_EMPTY_DEPTH;
     return Hit(-1.0, to_screen_edge <= end && over_glass ? kStatusLeftScreen : kStatusMissingLayer);
