@@ -139,7 +139,9 @@ TEST_F(ManyObjects, OverlapAndEqualDepthsBehave) {
         EXPECT_TRUE(all_finite(result.radiance)) << i;
         EXPECT_GT(result.covered, 1000u) << i;
         EXPECT_TRUE(same(result.paths, render(scene, camera).paths)) << i;
-        EXPECT_TRUE(same(result.paths, render(scene, camera, "wang-2014", LayerBuilder::kDepthPeeling).paths)) << i;
+        for (const LayerBuilder builder : {LayerBuilder::kDepthPeeling, LayerBuilder::kDualDepthPeeling}) {
+            EXPECT_TRUE(same(result.paths, render(scene, camera, "wang-2014", builder).paths)) << i;
+        }
         for (const RefractedPath& path : result.paths) {
             ASSERT_NEAR(glm::length(path.direction), 1.0f, 1e-4f) << i;
         }
