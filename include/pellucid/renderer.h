@@ -108,7 +108,8 @@ public:
     ///
     /// Costs one upload of these vertices (24 bytes each) and one pass over the scene's for its bounds. Layers are
     /// drawn anew in every frame anyway; hierarchies of techniques that trace rays are brought up to date when one
-    /// of them is next asked for. A camera that was not set keeps framing what there is.
+    /// of them is next asked for, and techniques that bake (TechniqueInfo::bakes) do so again if glass has moved. If
+    /// the device fails in between, the shape is undefined until the next call. A camera that was not set keeps framing what there is.
     void set_positions(const std::vector<MovedMesh>& moved);
     void set_environment(const Environment& environment);
     /// Default: the scene's first camera, or one that frames the scene (azimuth 0, elevation 15

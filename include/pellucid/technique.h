@@ -42,7 +42,8 @@ struct TechniqueInfo {
     /// Gives each of several refracting objects its own medium; otherwise they count as one solid behind
     /// the first surface.
     bool many_media = false;
-    /// Computes from the scene, once, what its frames then use: that takes time, and progress is reported.
+    /// Computes from the scene, once for each shape of it, what its frames then use: that takes time, and progress is
+    /// reported.
     bool bakes = false;
     /// Refracted rays see the opaque objects that the picture shows; otherwise the environment only.
     bool opaque_behind = false;

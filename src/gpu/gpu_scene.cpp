@@ -176,16 +176,22 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
 }
 
 void GpuScene::move_vertices(const Device& device, const Scene& scene, std::span<const int> moved) {
+    if (moved.empty()) return;
+    // First, so that nothing derived from the old shape passes for current if an upload fails.
+    ++moves;
+    bounds = scene_bounds(scene);
+    refractive_corners = refractive_box_corners(scene);
+    const bool glass = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        return scene.materials[std::size_t(object.material)].refractive() &&
+               std::find(moved.begin(), moved.end(), object.mesh) != moved.end();
+    });
+    if (glass) prepared.clear();
     for (const int mesh : moved) {
         std::size_t first = 0;  // vertices of the meshes before
         for (int m = 0; m < mesh; ++m) first += scene.meshes[std::size_t(m)].positions.size();
         const std::vector<Vertex> data = vertices_of(scene.meshes[std::size_t(mesh)]);
         upload(device, vertices, std::as_bytes(std::span(data)), first * sizeof(Vertex));
     }
-    bounds = scene_bounds(scene);
-    refractive_corners = refractive_box_corners(scene);
-    prepared.clear();
-    ++moves;
 }
 
 }  // namespace pellucid

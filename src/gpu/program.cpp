@@ -131,15 +131,15 @@ Program Program::graphics(const Device& device, const Graphics& state) {
     const vk::PipelineDepthStencilStateCreateInfo depth{
         .depthTestEnable = state.depth, .depthWriteEnable = state.depth, .depthCompareOp = vk::CompareOp::eLess};
     using Component = vk::ColorComponentFlagBits;
-    const bool keeps_maximum = state.blend == Blend::kMax || state.blend == Blend::kMaxAddAlpha;
+    const bool keeps_maximum = state.blend == Blend::kMaxAddAlpha;
     const vk::PipelineColorBlendAttachmentState blend{
         .blendEnable = state.blend != Blend::kReplace,
         .srcColorBlendFactor = state.blend == Blend::kMultiply ? vk::BlendFactor::eDstColor : vk::BlendFactor::eOne,
         .dstColorBlendFactor = state.blend == Blend::kAdd ? vk::BlendFactor::eOne : vk::BlendFactor::eZero,
         .colorBlendOp = keeps_maximum ? vk::BlendOp::eMax : vk::BlendOp::eAdd,
         .srcAlphaBlendFactor = vk::BlendFactor::eOne,
-        .dstAlphaBlendFactor = state.blend == Blend::kMaxAddAlpha ? vk::BlendFactor::eOne : vk::BlendFactor::eZero,
-        .alphaBlendOp = state.blend == Blend::kMax ? vk::BlendOp::eMax : vk::BlendOp::eAdd,
+        .dstAlphaBlendFactor = keeps_maximum ? vk::BlendFactor::eOne : vk::BlendFactor::eZero,
+        .alphaBlendOp = vk::BlendOp::eAdd,
         .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA};
     const std::vector<vk::PipelineColorBlendAttachmentState> blends(state.colors.size(), blend);
     const vk::PipelineColorBlendStateCreateInfo color{.attachmentCount = std::uint32_t(blends.size()),

@@ -28,7 +28,7 @@ struct BindingSlot {
 
 /// How a fragment's colour joins what the target holds; kMaxAddAlpha: the maximum of red, green and blue, the sum of
 /// alpha.
-enum class Blend { kReplace, kMultiply, kAdd, kMax, kMaxAddAlpha };
+enum class Blend { kReplace, kMultiply, kAdd, kMaxAddAlpha };
 
 /// Shader stages of a ray-tracing program.
 inline constexpr vk::ShaderStageFlags kRayTracingStages =

@@ -55,7 +55,8 @@ struct FragmentPool {
     std::uint32_t bands = 1;     ///< the picture is done in this many horizontal bands
 };
 
-/// What dual depth peeling learnt of a scene: measured in one frame, used in the next.
+/// What dual depth peeling learnt of a scene: measured in one frame, used in the next. It is kept until another scene
+/// or picture size is set, so a single crowded pixel in one view makes later views peel one by one.
 struct DualPeeling {
     std::uint32_t extra_peels = 0;  ///< beyond half the layers: view rays cross more surfaces than there are layers
     bool measuring = false;         ///< the frame makes all the passes that can be needed, to count those that are

@@ -1,16 +1,13 @@
 #version 460
 // Lists the pixels of an image that are not empty.
 #extension GL_GOOGLE_include_directive : require
+#define PELLUCID_MAKES_LISTS_ONLY
+#include "layers/pixel_list.glsl"
+
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#define PELLUCID_LIST_GROUP 64  // as in pixel_list.glsl, which declares the list for readers
-
 layout(set = 0, binding = 0, r32ui) readonly uniform uimage2DArray marks;
-layout(std430, set = 0, binding = 1) buffer PixelList {
-    uint list_groups[3];
-    uint list_length;
-    uint list_pixels[];
-};
+PELLUCID_APPENDED_LIST(PixelList, 1, list_groups, list_length, list_pixels, append)
 layout(push_constant) uniform Push {
     uint empty;
     uint first_row;
@@ -18,10 +15,7 @@ layout(push_constant) uniform Push {
 };
 
 void main() {
-    uvec2 texel = gl_GlobalInvocationID.xy + uvec2(0u, first_row);
-    if (texel.x >= uint(imageSize(marks).x) || texel.y >= row_end) return;
-    if (imageLoad(marks, ivec3(texel, 0)).r == empty) return;
-    uint i = atomicAdd(list_length, 1u);
-    if (i % PELLUCID_LIST_GROUP == 0u) atomicAdd(list_groups[0], 1u);
-    list_pixels[i] = texel.x | texel.y << 16;
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, first_row);
+    if (texel.x >= imageSize(marks).x || texel.y >= int(row_end)) return;
+    if (imageLoad(marks, ivec3(texel, 0)).r != empty) append(texel);
 }

@@ -13,13 +13,16 @@ constexpr std::uint32_t kStartList[] = {
 };
 
 constexpr vk::DeviceSize kHeaderWords = 4;  // arguments of the dispatch, and the length
+constexpr std::uint32_t kListGroup = 64;    // PELLUCID_LIST_GROUP of pixel_list.glsl
 
 }  // namespace
 
 const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::string_view name) {
     const vk::DeviceSize pixels = vk::DeviceSize(frame.extent.width) * frame.extent.height;
     const Buffer& list = frame.workspace.buffer(name, (kHeaderWords + pixels) * sizeof(std::uint32_t));
-    recorder.compute(frame.workspace.compute({"start_list.comp", kStartList}), {writes("PixelList", list)}, {1, 1});
+    const vk::DeviceSize row = vk::DeviceSize(kListGroup) * recorder.device().limits().maxComputeWorkGroupCount[0];
+    recorder.compute(frame.workspace.compute({"start_list.comp", kStartList}), {writes("PixelList", list)},
+                     std::uint32_t((pixels + row - 1) / row), {1, 1});
     return list;
 }
 

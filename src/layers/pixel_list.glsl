@@ -1,22 +1,42 @@
 #ifndef PELLUCID_LAYERS_PIXEL_LIST_GLSL
 #define PELLUCID_LAYERS_PIXEL_LIST_GLSL
 
-// A list of pixels that a dispatch of one invocation each goes through; made by list_pixels.comp. Its first words
-// are the arguments of that dispatch. Includers have `layout(local_size_x = PELLUCID_LIST_GROUP) in;`.
+// Lists of pixels (pixel_list.h): the arguments of a dispatch of one invocation per pixel in workgroups of
+// PELLUCID_LIST_GROUP, how many pixels there are, and the pixels, x | y << 16. A device need not dispatch more than
+// 65,535 workgroups in a row, so there are as many rows of them as the largest list of the picture needs.
 #define PELLUCID_LIST_GROUP 64
 
+uint list_word(ivec2 texel) { return uint(texel.x) | uint(texel.y) << 16; }
+
+// The list that a shader with `layout(local_size_x = PELLUCID_LIST_GROUP) in;` goes through.
+#ifndef PELLUCID_MAKES_LISTS_ONLY
 layout(std430, set = 0, binding = 19) readonly buffer PixelList {
     uint list_groups[3];
     uint list_length;
-    uint list_pixels[];  // x | y << 16
+    uint list_pixels[];
 };
 
 // False: there is no pixel for this invocation.
 bool listed_pixel(out ivec2 texel) {
-    uint i = gl_GlobalInvocationID.x;
+    uint group = gl_WorkGroupID.x * list_groups[1] + gl_WorkGroupID.y;
+    uint i = group * PELLUCID_LIST_GROUP + gl_LocalInvocationID.x;
     if (i >= list_length) return false;
     texel = ivec2(list_pixels[i] & 0xffffu, list_pixels[i] >> 16);
     return true;
 }
+#endif
+
+// Declares a list, begun by start_list.comp, and the function that appends a pixel to it.
+#define PELLUCID_APPENDED_LIST(Block, block_binding, groups, length_, pixels, append) \
+    layout(std430, set = 0, binding = block_binding) buffer Block {                 \
+        uint groups[3];                                                             \
+        uint length_;                                                               \
+        uint pixels[];                                                              \
+    };                                                                              \
+    void append(ivec2 texel) {                                                      \
+        uint i = atomicAdd(length_, 1u);                                            \
+        if (i % (PELLUCID_LIST_GROUP * groups[1]) == 0u) atomicAdd(groups[0], 1u);  \
+        pixels[i] = list_word(texel);                                               \
+    }
 
 #endif

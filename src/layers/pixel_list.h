@@ -11,7 +11,7 @@ namespace pellucid {
 const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage& marks, std::uint32_t empty,
                           std::string_view name, std::uint32_t first_row, std::uint32_t row_end);
 
-/// An empty list for a shader to append to: a pixel that comes as number i of 64 counts one more workgroup.
+/// An empty list for a shader to append to (PELLUCID_APPENDED_LIST).
 const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::string_view name);
 
 }  // namespace pellucid

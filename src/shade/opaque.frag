@@ -20,7 +20,7 @@ void main() {
         radiance = diffuse_radiance(base.rgb, facing_normal(world_view_direction())) + emission;
     }
     out_radiance = vec4(radiance, 1.0);
-    out_depth = eye_depth;
+    out_depth = eye_depth();
     out_object = find_object(triangle);
-    gl_FragDepth = eye_depth * frame.depth_scale;
+    gl_FragDepth = out_depth * frame.depth_scale;
 }

@@ -12,9 +12,8 @@ layout(push_constant) uniform Push { uint drawn_object; };  // set by Recorder::
 layout(location = 0) out vec3 world_normal;
 layout(location = 1) out vec4 texcoords;  // first set, second set
 layout(location = 2) out vec4 vertex_color;
-layout(location = 3) out float eye_depth;
-layout(location = 4) flat out uint material_index;
-layout(location = 5) flat out uint triangle;
+layout(location = 3) flat out uint material_index;
+layout(location = 4) flat out uint triangle;
 
 invariant gl_Position;
 
@@ -27,7 +26,6 @@ void main() {
     uint look = 5u * vertex;
     texcoords = uintBitsToFloat(uvec4(appearance[look], appearance[look + 1u], appearance[look + 2u], appearance[look + 3u]));
     vertex_color = unpackUnorm4x8(appearance[look + 4u]);
-    eye_depth = -view.z;
     material_index = object.material;
     triangle = object.first_triangle + (uint(gl_VertexIndex) - object.first_corner) / 3u;
 }

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/frame.glsl"
+#include "gpu/fragment_depth.glsl"
 layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Textures { TextureRecord textures[]; };
 layout(set = 0, binding = 4) uniform texture2DArray texture_pages;
@@ -13,9 +14,8 @@ layout(set = 0, binding = 4) uniform texture2DArray texture_pages;
 layout(location = 0) in vec3 world_normal;
 layout(location = 1) in vec4 texcoords;
 layout(location = 2) in vec4 vertex_color;
-layout(location = 3) in float eye_depth;
-layout(location = 4) flat in uint material_index;
-layout(location = 5) flat in uint triangle;
+layout(location = 3) flat in uint material_index;
+layout(location = 4) flat in uint triangle;
 
 vec4 base_color(MaterialRecord material) {
     return material.base_color * vertex_color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);

@@ -11,7 +11,7 @@ layout(set = 0, binding = 6, r32f) readonly uniform image2DArray layer_depth;
 
 bool hidden() {
     ivec3 at = ivec3(gl_FragCoord.xy, 0);
-    return eye_depth >= min(imageLoad(opaque_depth, at).r, imageLoad(layer_depth, at).r);
+    return eye_depth() >= min(imageLoad(opaque_depth, at).r, imageLoad(layer_depth, at).r);
 }
 
 // Both faces of the pane, all reflections between them: 2 R / (1 + R).

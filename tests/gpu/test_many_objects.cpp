@@ -152,5 +152,26 @@ TEST_F(ManyObjects, OverlapAndEqualDepthsBehave) {
     EXPECT_GT(agreement(render(scene, camera).paths, render(scene, camera, "reference").paths), 0.5);
 }
 
+// A pole before the glass hides surfaces from the eye, not from rays that have come in beside it.
+TEST_F(ManyObjects, WhatIsHiddenFromTheEyeIsNotHiddenFromRays) {
+    Scene scene = scene_of({{"shape:sphere", {0, 0, 0}}});
+    const Camera camera = front_camera(scene);
+    const std::vector<RefractedPath> alone = render(scene, camera).paths;
+    Scene with_pole =
+        scene_of({{"shape:sphere", {0, 0, 0}}, {"shape:slab,width=0.3,height=4,thickness=0.1", {0, 0, 2}}});
+    with_pole.materials.emplace_back();  // opaque
+    with_pole.objects[1].material = 1;
+    const std::vector<RefractedPath> beside = render(with_pole, camera).paths;
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        if (beside[i].events == 0) continue;
+        ++seen;
+        ASSERT_EQ(beside[i].status, alone[i].status) << i;
+        ASSERT_EQ(beside[i].events, alone[i].events) << i;
+        ASSERT_LT(angle_deg(beside[i].direction, alone[i].direction), 0.01) << i;
+    }
+    EXPECT_GT(seen, 1000u);
+}
+
 }  // namespace
 }  // namespace pellucid::test

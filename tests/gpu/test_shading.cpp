@@ -149,6 +149,15 @@ TEST_F(Shading, OpaqueSurfacesHideGlassAndGlassHidesThem) {
     EXPECT_GT(result.covered, 100u);
 }
 
+// Both are rasterised from the same triangles; their depths must not differ by rounding.
+TEST_F(Shading, OpaqueSurfaceInTheSamePlaceHidesGlass) {
+    Scene scene = load_scene("shape:torus");
+    scene.materials.push_back(painted({1, 0, 0}, true));
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects[1].material = 1;
+    EXPECT_EQ(render(scene).covered, 0u);
+}
+
 // 2 R / (1 + R) of normal incidence is reflected, the rest goes straight on with the pane's colour.
 TEST_F(Shading, ThinWalledPaneTintsAndReflects) {
     Scene scene;

@@ -80,7 +80,8 @@ constexpr Technique kKayGreenberg1979{
              .summary = "surfaces laid over a background image: transparency, and refraction by slabs",
              .source = {"Douglas Scott Kay, Donald Greenberg", "Transparency for Computer Synthesized Images",
                         "SIGGRAPH '79, Computer Graphics 13(2)", 1979, "2 and 4"},
-             .parameters = kParameters},
+             .parameters = kParameters,
+             .opaque_behind = true},
     // One more tells whether there are surfaces that are not looked at.
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers") + 1u; },
     .record = record,

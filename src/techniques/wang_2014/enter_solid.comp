@@ -9,13 +9,9 @@
 
 layout(constant_id = 0) const bool kNextObject = false;  // layer 1 of an object is searched, not a deeper entry
 
-layout(std430, set = 0, binding = 17) buffer Inside {
-    uint inside_groups[3];
-    uint inside_length;
-    uint inside_pixels[];
-};
+PELLUCID_APPENDED_LIST(Inside, 17, inside_groups, inside_length, inside_pixels, append_inside)
 
-// A ray that has left a solid goes on to this one; false if it misses it.
+// A ray that has left a solid goes on to this one; true if it is inside now.
 bool meet_surface_ahead(inout Path path) {
     if (path.status != kStatusOk) return false;  // it was lost before
     // It stands on the layer that it searches if it has left this object.
@@ -27,12 +23,6 @@ bool meet_surface_ahead(inout Path path) {
     }
     path.position += hit.distance * path.direction;
     return cross_interface(path, normal_at(world_pixel(path.position)), false, object_material().ior);
-}
-
-void append(ivec2 texel) {
-    uint i = atomicAdd(inside_length, 1u);
-    if (i % PELLUCID_LIST_GROUP == 0u) atomicAdd(inside_groups[0], 1u);
-    inside_pixels[i] = uint(texel.x) | uint(texel.y) << 16;
 }
 
 void main() {
@@ -47,10 +37,10 @@ void main() {
         meets = path.status == kStatusOk;
     } else {
         path = load_path(texel);
-        uint status = path.status;
-        meets = meet_surface_ahead(path);             // case 3
-        if (!meets && path.status == status) return;  // case 2
+        uint status = path.status, events = path.events;
+        meets = meet_surface_ahead(path);                                      // case 3
+        if (path.events == events && path.status == status) return;  // case 2
     }
     store_world_refraction(texel, path);
-    if (meets) append(texel);
+    if (meets) append_inside(texel);
 }

@@ -7,16 +7,8 @@
 
 layout(constant_id = 0) const bool kFromEye = false;  // the rays are view rays that have yet to come in
 
-layout(std430, set = 0, binding = 17) buffer Outside {
-    uint outside_groups[3];
-    uint outside_length;
-    uint outside_pixels[];
-};
-layout(std430, set = 0, binding = 18) buffer Reflected {
-    uint reflected_groups[3];
-    uint reflected_length;
-    uint reflected_pixels[];
-};
+PELLUCID_APPENDED_LIST(Outside, 17, outside_groups, outside_length, outside_pixels, append_outside)
+PELLUCID_APPENDED_LIST(Reflected, 18, reflected_groups, reflected_length, reflected_pixels, append_reflected)
 
 void main() {
     ivec2 texel;
@@ -41,14 +33,6 @@ void main() {
     path.status = leaves ? kStatusOk : kStatusEventLimit;  // which a further search may still resolve
     store_world_refraction(texel, path);
 
-    uint word = uint(texel.x) | uint(texel.y) << 16;
-    if (leaves) {
-        uint i = atomicAdd(outside_length, 1u);
-        if (i % PELLUCID_LIST_GROUP == 0u) atomicAdd(outside_groups[0], 1u);
-        outside_pixels[i] = word;
-    } else if (last_reflection == 0u) {
-        uint i = atomicAdd(reflected_length, 1u);
-        if (i % PELLUCID_LIST_GROUP == 0u) atomicAdd(reflected_groups[0], 1u);
-        reflected_pixels[i] = word;
-    }
+    if (leaves) append_outside(texel);
+    else if (last_reflection == 0u) append_reflected(texel);
 }

@@ -26,7 +26,7 @@ struct Footprint {
 Footprint footprint(vec2 pixel) {
     ivec2 last = ivec2(frame.width, frame.height) - 1;
     vec2 point = clamp(pixel - 0.5, vec2(0.0), vec2(last));
-    ivec2 low = ivec2(point), high = min(low + 1, last);
+    ivec2 low = clamp(ivec2(point), ivec2(0), last), high = min(low + 1, last);
     vec2 share = point - vec2(low), rest = 1.0 - share;
 
     vec4 depths = vec4(texel_depth(low), texel_depth(ivec2(high.x, low.y)),

@@ -8,6 +8,7 @@
 // texel to texel, or between the two ends of a binary search.
 float fault_size() { return (box_high.z - box_low.z) / float(linear_steps); }
 
+#include "techniques/ray_range.glsl"
 #include "techniques/wang_2014/merged_layers.glsl"
 
 // How much of a linear step a ray takes first, to get clear of the surface it starts from (3.6).
@@ -36,26 +37,15 @@ vec2 pixel_at(ScreenRay ray, float distance) {
 
 float depth_at(ScreenRay ray, float distance) { return ray.depth + distance * ray.depth_rate; }
 
-// Distance to where a quantity that starts at `value` and changes at `rate` per metre reaches zero.
-float reach_zero(float value, float rate) {
-    return rate < 0.0 ? max(value, 0.0) / -rate : PELLUCID_EMPTY_DEPTH;
-}
-
-// How far the ray stays within the picture.
-float distance_to_screen_edge(ScreenRay ray) {
-    vec2 size = vec2(frame.width, frame.height);
-    vec2 rest = size * ray.pixel.z - ray.pixel.xy, rest_rate = size * ray.pixel_rate.z - ray.pixel_rate.xy;
-    return min(min(reach_zero(ray.pixel.x, ray.pixel_rate.x), reach_zero(ray.pixel.y, ray.pixel_rate.y)),
-               min(reach_zero(rest.x, rest_rate.x), reach_zero(rest.y, rest_rate.y)));
-}
-
 // Where the ray is within the object's box, with a step to spare all around; x >= 0, and x > y where it never is.
 vec2 distances_in_box(vec3 origin, vec3 direction) {
     origin.z = -origin.z;
     direction.z = -direction.z;
     vec3 margin = vec3(fault_size());
     vec3 inverse = 1.0 / mix(direction, vec3(1e-12), lessThan(abs(direction), vec3(1e-12)));
-    vec3 a = (box_low.xyz - margin - origin) * inverse, b = (box_high.xyz + margin - origin) * inverse;
+    vec3 low = box_low.xyz - margin;
+    if (frame.orthographic == 0u) low.z = max(low.z, frame.near_plane);
+    vec3 a = (low - origin) * inverse, b = (box_high.xyz + margin - origin) * inverse;
     vec3 near = min(a, b), far = max(a, b);
     return vec2(max(max(near.x, near.y), max(near.z, 0.0)), min(min(far.x, far.y), far.z));
 }
@@ -95,7 +85,7 @@ Hit search(vec3 world_origin, vec3 world_direction, bool on_layer, bool from_afa
     vec3 origin = (frame.view_from_world * vec4(world_origin, 1.0)).xyz;
     vec3 direction = mat3(frame.view_from_world) * world_direction;
     ScreenRay ray = screen_ray(origin, direction);
-    float to_screen_edge = distance_to_screen_edge(ray);
+    float to_screen_edge = distance_to_screen_edge(origin, direction);
     vec2 in_box = distances_in_box(origin, direction);
     float start = from_afar ? in_box.x : 0.0;
     float last = min(to_screen_edge, in_box.y);

@@ -67,10 +67,11 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     gpu::FrameConstants view{};
     std::memcpy(&view, frame.constants.mapped(), sizeof(view));
     const GpuScene& scene = frame.scene;
-    const bool alone = scene.refractive.size() == 1;
+    // Layers of all solids are those of the only one, unless something opaque hides a part of them.
+    const bool alone = scene.refractive.size() == 1 && scene.opaque.empty();
     for (const SortedSolid& solid : sort_solids(scene, view)) {
         const DrawCall& call = scene.refractive[solid.number];
-        // Seen through another object, a surface may lie where an opaque one hides it from the eye.
+        // Seen through glass, a surface may lie where something opaque hides it from the eye.
         const Layers own = alone ? layers
                                  : layers.source.build(recorder, frame, layers.opaque,
                                                        {.solids = std::span(&call, 1),
