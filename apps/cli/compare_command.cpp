@@ -193,13 +193,6 @@ void compare_scene(Comparison& comparison, const std::string& name) {
     write_json(comparison);  // after every scene, so that a bad one later loses nothing
 }
 
-bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path& folder) {
-    std::error_code error;
-    const auto relative = std::filesystem::weakly_canonical(file, error)
-                              .lexically_relative(std::filesystem::weakly_canonical(folder, error));
-    return !relative.empty() && *relative.begin() != "..";
-}
-
 void check_arguments(const CompareArguments& arguments) {
     if (arguments.views < 1 || arguments.views > 360)
         throw Error(fmt::format("--views must be 1 to 360, not {}", arguments.views));

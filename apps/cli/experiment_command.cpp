@@ -54,7 +54,22 @@ void check_arguments(const ExperimentArguments& arguments) {
     if (arguments.frames < 1) throw Error(fmt::format("--frames must be at least 1, not {}", arguments.frames));
     if (arguments.models && !std::filesystem::is_directory(*arguments.models))
         throw Error(fmt::format("--models: {}: no such folder", *arguments.models));
-    if (arguments.json) check_outputs({*arguments.json}, {});
+}
+
+/// The JSON may not take the place of a model, nor of a page.
+void check_json(const ExperimentArguments& arguments, const std::vector<const ExperimentSpec*>& chosen) {
+    if (!arguments.json) return;
+    std::vector<std::string> missing, sources;
+    ModelFolder models(arguments.models.value_or(""), missing);
+    for (const ExperimentSpec* spec : chosen) {
+        for (const ExperimentScene& scene : spec->scenes(models)) {
+            if (!scene.how.source.empty()) sources.push_back(scene.how.source);
+        }
+    }
+    check_outputs({*arguments.json}, sources);
+    if (is_in_folder(*arguments.json, arguments.report))
+        throw Error(
+            fmt::format("--json: {} lies in the folder of --report, which pages are written to", *arguments.json));
 }
 
 /// Runs one experiment and writes its page; what it measured, for the JSON.
@@ -73,11 +88,14 @@ nlohmann::ordered_json run_one(const ExperimentArguments& arguments, const Exper
     const std::vector<Variant> variants = available_variants(spec, run);
     const std::string command = fmt::format("pellucid experiment {}{}", spec.name, arguments.options);
     std::vector<std::string> warnings;
+    const std::filesystem::path folder = std::filesystem::path(arguments.report) / spec.name;
     if (scenes.empty() || variants.empty()) {
+        if (std::filesystem::is_directory(folder))
+            ExperimentPage(folder, spec);  // an older page would pass for this one
         warnings.assign(run.warnings.begin(), run.warnings.end());
         warnings.push_back("nothing is left to measure");
     } else {
-        ExperimentPage page(std::filesystem::path(arguments.report) / spec.name, spec);
+        ExperimentPage page(folder, spec);
         run_experiment(run, spec, scenes, variants, page);
         warnings.assign(run.warnings.begin(), run.warnings.end());
         const DeviceInfo& device = renderer.device();
@@ -99,9 +117,10 @@ nlohmann::ordered_json run_one(const ExperimentArguments& arguments, const Exper
 }
 
 void run_experiments(const ExperimentArguments& arguments) {
-    if (arguments.list || arguments.names.empty()) return print_list();
     const std::vector<const ExperimentSpec*> chosen = chosen_experiments(arguments.names);
+    if (arguments.list || arguments.names.empty()) return print_list();
     check_arguments(arguments);
+    check_json(arguments, chosen);
     Renderer renderer(device_options(arguments.device));
     for (const ExperimentSpec* spec : chosen) {
         RenderSettings settings;
@@ -109,6 +128,7 @@ void run_experiments(const ExperimentArguments& arguments) {
         std::tie(settings.width, settings.height) = arguments.size ? parse_size(*arguments.size) : spec->size;
         renderer.check(settings);
     }
+    write_experiment_index(arguments.report);  // before anything is measured: the folder may be another's
     const DeviceInfo& device = renderer.device();
     nlohmann::ordered_json json{{"device", device.name},
                                 {"driver", device.driver},
@@ -118,11 +138,11 @@ void run_experiments(const ExperimentArguments& arguments) {
                                 {"experiments", nlohmann::ordered_json::array()}};
     for (const ExperimentSpec* spec : chosen) {
         json["experiments"].push_back(run_one(arguments, *spec, renderer));
-        const std::filesystem::path index = write_experiment_index(arguments.report);
-        if (spec == chosen.back()) fmt::print("Report: {}\n", index.string());
         // After every experiment, so that what fails later loses nothing. Names in files need not be UTF-8, as JSON must.
         if (arguments.json)
             write_text_file(*arguments.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        const std::filesystem::path index = write_experiment_index(arguments.report);
+        if (spec == chosen.back()) fmt::print("Report: {}\n", index.string());
     }
     check_validation(renderer);
 }

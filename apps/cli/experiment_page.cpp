@@ -4,9 +4,12 @@
 
 #include "core/file.h"
 
+#include <pellucid/error.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 namespace pellucid::cli {
 namespace {
@@ -115,6 +118,19 @@ std::string varied_of(const ExperimentSpec& spec) {
     return fmt::format("Varied: {}. Pictures are held against: {}.", spec.varied, spec.truth.label);
 }
 
+/// Throws Error if the folder holds another report than an index of experiments, which the index would replace.
+void check_index_folder(const fs::path& folder) {
+    std::ifstream list(folder / ReportFolder::kList);
+    std::string line;
+    std::getline(list, line);
+    while (std::getline(list, line)) {
+        if (line != kPage) {
+            throw Error(fmt::format("{}: holds another report, of which '{}' is a part; choose another --report",
+                                    folder.string(), line));
+        }
+    }
+}
+
 }  // namespace
 
 ExperimentPage::ExperimentPage(const fs::path& folder, const ExperimentSpec& spec) : spec_(spec), folder_(folder) {
@@ -144,7 +160,7 @@ fs::path ExperimentPage::finish(const ExperimentHeader& header, const ordered_js
     std::string remarks = *spec_.remark == '\0' ? "" : fmt::format("{}\n\n", spec_.remark);
     std::string markdown_warnings, html_warnings;
     for (const std::string& warning : warnings) {
-        markdown_warnings += fmt::format("- {}\n", warning);
+        markdown_warnings += fmt::format("- {}\n", escaped(warning));
         html_warnings += fmt::format("<li>{}</li>\n", escaped(warning));
     }
     if (!warnings.empty()) {
@@ -156,8 +172,8 @@ fs::path ExperimentPage::finish(const ExperimentHeader& header, const ordered_js
                                 markdown(table), remarks.empty() ? "" : remarks, plot_links, grid_markdown(pictures_),
                                 markdown_warnings, header.command, machine_of(header)));
     std::string page = page_head(spec_.name);
-    page += fmt::format("<p>{}.</p>\n<p class='soft'>{}</p>\n<div class='wide'>{}</div>\n<p>{}</p>\n", spec_.source,
-                        escaped(varied_of(spec_)), html(table), escaped(spec_.remark));
+    page += fmt::format("<p>{}.</p>\n<p class='soft'>{}</p>\n<div class='wide'>{}</div>\n<p>{}</p>\n",
+                        escaped(spec_.source), escaped(varied_of(spec_)), html(table), escaped(spec_.remark));
     page += plots + grid_html(pictures_) + html_warnings;
     page += fmt::format("<p class='soft'><code>{}</code><br>{}<br><a href='../{}'>All experiments</a></p>\n</html>\n",
                         escaped(header.command), escaped(machine_of(header)), kPage);
@@ -166,6 +182,7 @@ fs::path ExperimentPage::finish(const ExperimentHeader& header, const ordered_js
 }
 
 fs::path write_experiment_index(const fs::path& folder) {
+    check_index_folder(folder);
     ReportFolder report(folder);
     const fs::path file = report.claim(kPage);
     std::string page = page_head("Experiments");

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 
 namespace pellucid::cli {
 namespace {
 
 constexpr Model kDragon{"dragon", {"photon_dragon.obj", nullptr}};
 constexpr Model kHead{"head", {"suzanne.obj", nullptr}};
-constexpr Model kFiftyThousand{"buddha's like", {"dragon_vrip_res3.ply", nullptr}};
+constexpr Model kFiftyThousand{"stand-in for the buddha", {"dragon_vrip_res3.ply", nullptr}};
 constexpr Model kPlane{"F-16", {"f16.ply", nullptr}};
 constexpr Model kSphere1600{"sphere of 1,600 triangles", {"gen_sphere_1600.obj", nullptr}};
 constexpr Model kTeapot{"teapot", {"teapot.obj", nullptr}};
@@ -108,9 +109,10 @@ std::vector<ExperimentScene> table_4_1(ModelFolder& models) {
     std::vector<ExperimentScene> scenes;
     const std::vector<BenchCase> cases = suite_cases("thesis", models);
     for (const BenchCase& each : cases) {
-        const ThesisRow& theirs = *std::find_if(std::begin(kTable41), std::end(kTable41), [&](const ThesisRow& row) {
-            return each.scene.starts_with(row.scene);
-        });
+        const auto found = std::find_if(std::begin(kTable41), std::end(kTable41),
+                                        [&](const ThesisRow& row) { return each.scene.starts_with(row.scene); });
+        if (found == std::end(kTable41)) throw std::logic_error(each.scene + " is not in table 4.1");
+        const ThesisRow& theirs = *found;
         const bool far = each.distance == cases.front().distance;
         const double ray_tracing_fps = far ? theirs.far_fps : theirs.near_fps;
         scenes.push_back(

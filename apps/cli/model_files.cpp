@@ -15,7 +15,7 @@ std::filesystem::path ModelFolder::find(const Model& model) {
     if (model.installed && std::filesystem::is_regular_file(model.installed, ignored)) return model.installed;
     const std::string warning =
         fmt::format("{} is left out: {} has no {}", model.name,
-                    folder_.empty() ? "there is no --models DIR that" : folder_.string(), model.files.front());
+                    folder_.empty() ? "there is no --models DIR that" : "the folder of --models", model.files.front());
     if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
     return {};
 }

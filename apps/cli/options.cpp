@@ -60,7 +60,7 @@ void add_device_options(CLI::App& command, DeviceArguments& arguments) {
     command
         .add_option("--device", arguments.device, "Vulkan device: its number in 'pellucid info' or a part of its name")
         ->type_name("DEVICE");
-    add_number(command, "--threads", arguments.threads, "Threads of the techniques that trace on the CPU; 0: all cores")
+    add_number(command, "--threads", arguments.threads, "Threads of what is traced or baked on the CPU; 0: all cores")
         ->capture_default_str();
     command.add_flag("--validate", arguments.validate, "Run with the Vulkan validation layer; a message is an error");
 }
@@ -107,6 +107,13 @@ void add_environment_option(CLI::App& command, std::string& name_or_file) {
                     "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
         ->capture_default_str()
         ->type_name("NAME|FILE");
+}
+
+bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    std::error_code error;
+    const auto relative = std::filesystem::weakly_canonical(file, error)
+                              .lexically_relative(std::filesystem::weakly_canonical(folder, error));
+    return !relative.empty() && *relative.begin() != "..";
 }
 
 void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,6 +57,8 @@ void add_environment_option(CLI::App& command, std::string& name_or_file);
 /// Says before any work what could not be written after it. Throws Error for a file that cannot be written,
 /// that is one of `inputs`, or that is given for two outputs.
 void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 /// The arguments with which others can repeat a measurement, each after a blank: files by their names, the folder of
 /// models as DIR, without the files that are written, and without the option `left_out`.

@@ -161,7 +161,7 @@ class BenchSuites(CliTest):
     def test_missing_models(self):
         os.mkdir(self.path("empty"))
         result, content = self.suite("thesis", "--models", "empty")
-        self.assertRegex(result.stderr, r"(?m)^pellucid: warning: cow is left out: empty has no cow\.obj$")
+        self.assertRegex(result.stderr, r"(?m)^pellucid: warning: cow is left out: the folder of --models has no cow\.obj$")
         self.assertEqual(sum("cow is left out" in warning for warning in content["warnings"]), 1)
         self.assertEqual([run["scene"] for run in content["runs"] if "cow" in run["scene"]], [])
         self.assertGreaterEqual(len(content["runs"]), 6)

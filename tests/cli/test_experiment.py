@@ -117,6 +117,29 @@ class Experiment(CliTest):
                             "index.html", "in the way")
         self.assertEqual(self.read("pages/wang-many-objects/index.html"), b"mine")
 
+    def test_nothing_else_is_overwritten(self):
+        """Not a model, not a page by the JSON, not another report by the index; and no older page stays as if new."""
+        os.makedirs(self.path("models"))
+        self.write("models/cow.obj", TETRAHEDRON)
+        self.assert_refused(self.run_cli("experiment", "wang-search-step", "--models", "models", "--json", "models/cow.obj"),
+                            "models/cow.obj")
+        self.assertEqual(self.read("models/cow.obj").decode(), TETRAHEDRON)
+        os.makedirs(self.path("pages"))
+        self.assert_refused(self.run_cli("experiment", "wang-layers", "--report", "pages", "--json", "pages/x.json"),
+                            "--json", "--report")
+        self.write("triangle.obj", TETRAHEDRON)
+        compared = self.run_cli("compare", "triangle.obj", "--size", "16x16", "--views", "1", "--techniques",
+                                "one-interface", "--html", "report")
+        self.assertEqual(compared.returncode, 0, compared.stderr)
+        before = self.files()
+        self.assert_refused(self.experiment("wang-search-step", "--report", "report"), "another report")
+        self.assertEqual(self.files(), before)
+        self.measure("wang-search-step", "--models", "models", size="24x24")
+        self.assertTrue(os.path.exists(self.path("out/experiments/wang-search-step/index.html")))
+        self.measure("wang-search-step", size="24x24")
+        self.assertFalse(os.path.exists(self.path("out/experiments/wang-search-step/index.html")))
+        self.check_links("out/experiments/index.html")
+
     def test_environment_maps_converge_to_the_formula(self):
         _, content = self.measure("wang-environment", size="128x128")
         runs = [run for run in content["experiments"][0]["runs"] if run["scene"] == "torus"]

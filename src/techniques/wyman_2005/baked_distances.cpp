@@ -115,13 +115,19 @@ private:
         const bake::Quantity quantity =
             per_vertex ? bake::Quantity{"inward-distances", mesh.positions.size()}
                        : bake::Quantity{"sampled-distances", bake::sampled_distance_count(side_), parameters};
+        const vk::DeviceSize most = preparation_.device.max_storage_binding() / sizeof(float);
+        if (values_.size() + quantity.count > most) {
+            throw Error(
+                fmt::format("wyman-2005: the baked distances of all solids are more than the {} numbers that {} "
+                            "has room for{}",
+                            most, preparation_.device.info().name, per_vertex ? "" : "; give a smaller --table"));
+        }
         const auto compute = [&] {
             return per_vertex ? bake::inward_distances(mesh, threads, progress)
                               : bake::sampled_distances(mesh, side_, threads, progress);
         };
         const auto baked = preparation_.cache.get(mesh, quantity, compute, preparation_.warnings);
         values_.insert(values_.end(), baked->begin(), baked->end());
-        if (values_.size() > 0x7fffffffu) throw Error("the baked distances are more than can be addressed");
     }
 
     void set_record(const Object& object, std::size_t first, const glm::mat4& world_from_baked, float scale,

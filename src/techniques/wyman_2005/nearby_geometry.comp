@@ -62,8 +62,10 @@ bool one_surface(ivec2 front, ivec2 behind) {
     return abs(stored_depth(front) - at_behind) <= 2.0 * slope + 1e-4 * at_behind;
 }
 
-// The part of a stretch that lies over the picture.
+// The part of a stretch, from its beginning, that lies over the picture; negative: it begins beside it, where nothing
+// is known.
 float share_within_picture(Stretch s) {
+    if (any(lessThan(s.from, vec2(0.0))) || any(greaterThanEqual(s.from, vec2(frame.width, frame.height)))) return -1.0;
     vec2 step = s.to - s.from;
     float share = 1.0;
     for (int axis = 0; axis < 2; ++axis) {
@@ -77,8 +79,9 @@ float share_within_picture(Stretch s) {
 // stretch to stretch.
 float search(Stretch s, inout bool behind) {
     float end = share_within_picture(s), before = 0.0;
+    if (end < 0.0) return -1.0;
     for (uint i = 1u; i <= linear_steps; ++i) {
-        float after = end * float(i) / float(linear_steps), last = after;
+        float after = end * float(i) / float(linear_steps);
         if (is_behind(s, after) != behind) {
             float low = before, high = after;
             for (uint k = 0u; k < binary_steps; ++k) {
@@ -89,7 +92,7 @@ float search(Stretch s, inout bool behind) {
             if (!behind && one_surface(texel_at(s, low), texel_at(s, high))) return high;
             behind = !behind;
         }
-        before = last;
+        before = after;
     }
     return -1.0;
 }
@@ -133,8 +136,10 @@ void main() {
     vec3 exit = (frame.view_from_world * vec4(imageLoad(exit_position, at).xyz, 1.0)).xyz;
     if (-exit.z < frame.near_plane) return;  // behind the eye nothing is known
     bool behind = false;  // nothing opaque hides the entry
+    // A path that ends at its first interface has no way inside.
+    bool goes_inside = (imageLoad(path_events, at).r & 0xfffu) > 1u && distance(entry, exit) > 1e-6 * -entry.z;
     Stretch inside = stretch_of(entry, exit);
-    float share = search(inside, behind);
+    float share = goes_inside ? search(inside, behind) : -1.0;
     if (share >= 0.0) {
         vec3 position = position_at(inside, share);
         end_inside(at, texel_at(inside, share), position, entry, normalize(exit - entry));
