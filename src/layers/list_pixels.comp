@@ -4,7 +4,8 @@
 #define PELLUCID_MAKES_LISTS_ONLY
 #include "layers/pixel_list.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+// Narrow, so that the eight neighbours of a list that run together on some drivers are neighbours in both directions.
+layout(local_size_x = 4, local_size_y = 16) in;
 
 layout(set = 0, binding = 0, r32ui) readonly uniform uimage2DArray marks;
 PELLUCID_APPENDED_LIST(PixelList, 1, list_groups, list_length, list_pixels, append)
