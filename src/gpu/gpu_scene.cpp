@@ -44,16 +44,35 @@ struct Geometry {
     std::vector<std::uint32_t> first_corner;  // per mesh, in `indices`
 };
 
+std::vector<Vertex> vertices_of(const Mesh& mesh) {
+    std::vector<Vertex> vertices(mesh.positions.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = {mesh.positions[v], mesh.normals[v]};
+    return vertices;
+}
+
+void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, std::vector<glm::vec3>& corners) {
+    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    for (const glm::vec3& p : mesh.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 corner((i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z);
+        corners.push_back(glm::vec3(world_from_object * glm::vec4(corner, 1.0f)));
+    }
+}
+
 void append(Geometry& geometry, const Mesh& mesh) {
     const auto first_vertex = std::uint32_t(geometry.vertices.size());
     geometry.first_corner.push_back(std::uint32_t(geometry.indices.size()));
+    const std::vector<Vertex> vertices = vertices_of(mesh);
+    geometry.vertices.insert(geometry.vertices.end(), vertices.begin(), vertices.end());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         Appearance look{};
         for (int set = 0; set < 2; ++set) {
             if (!mesh.texcoords[set].empty()) look.texcoord[set] = mesh.texcoords[set][v];
         }
         look.color = mesh.colors.empty() ? ~0u : pack_color(mesh.colors[v]);
-        geometry.vertices.push_back({mesh.positions[v], mesh.normals[v]});
         geometry.appearance.push_back(look);
     }
     for (const glm::uvec3& triangle : mesh.triangles) {
@@ -91,24 +110,6 @@ gpu::MaterialRecord material_record(const Material& material, TextureTable& text
     record.emission_texture = textures.add(material.emission_texture, true);
     record.transmission_texture = textures.add(material.transmission_texture, false);
     return record;
-}
-
-std::vector<Vertex> vertices_of(const Mesh& mesh) {
-    std::vector<Vertex> vertices(mesh.positions.size());
-    for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = {mesh.positions[v], mesh.normals[v]};
-    return vertices;
-}
-
-void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, std::vector<glm::vec3>& corners) {
-    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
-    for (const glm::vec3& p : mesh.positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    for (int i = 0; i < 8; ++i) {
-        const glm::vec3 corner((i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z);
-        corners.push_back(glm::vec3(world_from_object * glm::vec4(corner, 1.0f)));
-    }
 }
 
 std::vector<glm::vec3> refractive_box_corners(const Scene& scene) {

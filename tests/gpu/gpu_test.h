@@ -8,10 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pellucid::test {
 
@@ -54,6 +56,27 @@ inline glm::vec3 rgb(const Image& image, int x, int y) {
 inline double angle_deg(glm::dvec3 a, glm::dvec3 b) {
     if (glm::length(a) == 0.0 || glm::length(b) == 0.0) return 180.0;
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 57.29577951308232;
+}
+
+/// Share of the pixels with glass on which paths that were followed to their end agree with exact ones to a degree.
+inline double within_1deg(const std::vector<RefractedPath>& paths, const std::vector<RefractedPath>& exact) {
+    int covered = 0, right = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        if (exact[i].events == 0) continue;
+        ++covered;
+        const bool done = paths[i].events > 0 && paths[i].status == Status::kOk;
+        right += done && angle_deg(paths[i].direction, exact[i].direction) <= 1.0 ? 1 : 0;
+    }
+    return double(right) / std::max(covered, 1);
+}
+
+/// Bit for bit.
+inline bool same_paths(const std::vector<RefractedPath>& a, const std::vector<RefractedPath>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const RefractedPath& p, const RefractedPath& q) {
+        return p.direction == q.direction && p.position == q.position && p.transmittance == q.transmittance &&
+               p.length_inside == q.length_inside && p.events == q.events && p.reflections == q.reflections &&
+               p.status == q.status && p.object == q.object;
+    });
 }
 
 inline bool all_finite(const Image& image) {

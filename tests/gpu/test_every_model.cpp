@@ -36,14 +36,6 @@ protected:
     }
 };
 
-bool same_paths(const std::vector<RefractedPath>& a, const std::vector<RefractedPath>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const RefractedPath& p, const RefractedPath& q) {
-        return p.direction == q.direction && p.position == q.position && p.transmittance == q.transmittance &&
-               p.length_inside == q.length_inside && p.events == q.events && p.reflections == q.reflections &&
-               p.status == q.status && p.object == q.object;
-    });
-}
-
 void expect_sound(const RenderResult& result) {
     EXPECT_TRUE(all_finite(result.radiance));
     const std::vector<float>& layers = result.aovs.at("layers").pixels;

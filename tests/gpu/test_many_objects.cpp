@@ -50,25 +50,6 @@ Camera front_camera(const Scene& scene) {
     return orbit_camera(scene_bounds(scene), 0.0f, 0.0f, framing_distance(0.5236f, 0.8f), 0.5236f);
 }
 
-/// Share of the pixels with glass on which two sets of paths agree to a degree.
-double agreement(const std::vector<RefractedPath>& paths, const std::vector<RefractedPath>& exact) {
-    int covered = 0, right = 0;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        if (exact[i].events == 0) continue;
-        ++covered;
-        const bool done = paths[i].events > 0 && paths[i].status == Status::kOk;
-        right += done && angle_deg(paths[i].direction, exact[i].direction) <= 1.0 ? 1 : 0;
-    }
-    return double(right) / std::max(covered, 1);
-}
-
-bool same(const std::vector<RefractedPath>& a, const std::vector<RefractedPath>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const RefractedPath& p, const RefractedPath& q) {
-        return p.direction == q.direction && p.position == q.position && p.transmittance == q.transmittance &&
-               p.events == q.events && p.status == q.status && p.length_inside == q.length_inside;
-    });
-}
-
 constexpr const char* kSlab = "shape:slab,width=2,height=2,thickness=0.3";
 
 // Parallel plates bend no ray: after each the direction is the old one, and the glass crossed adds up.
@@ -101,8 +82,8 @@ TEST_F(ManyObjects, SphereBehindSphereIsSeenThroughIt) {
     const auto exact = render(scene, camera, "reference").paths;
     const RenderResult result = render(scene, camera);
     // Four interfaces magnify what the search leaves: the depth between two texels at the second sphere.
-    EXPECT_GE(agreement(result.paths, exact), 0.9);
-    EXPECT_LT(agreement(render(scene, camera, "one-interface").paths, exact), 0.1);
+    EXPECT_GE(within_1deg(result.paths, exact), 0.9);
+    EXPECT_LT(within_1deg(render(scene, camera, "one-interface").paths, exact), 0.1);
     const auto through_both =
         std::count_if(result.paths.begin(), result.paths.end(), [](const auto& p) { return p.events >= 4; });
     EXPECT_GT(through_both, 500);
@@ -118,9 +99,9 @@ TEST_F(ManyObjects, OrderInTheFileDoesNotMatter) {
     const Camera camera = front_camera(scene);
     const auto paths = render(scene, camera).paths;
     const auto exact = render(scene, camera, "reference").paths;
-    EXPECT_GT(agreement(paths, exact), 0.6);
+    EXPECT_GT(within_1deg(paths, exact), 0.6);
     std::reverse(solids.begin(), solids.end());
-    EXPECT_TRUE(same(paths, render(scene_of(solids), camera).paths));
+    EXPECT_TRUE(same_paths(paths, render(scene_of(solids), camera).paths));
 }
 
 TEST_F(ManyObjects, OverlapAndEqualDepthsBehave) {
@@ -138,9 +119,9 @@ TEST_F(ManyObjects, OverlapAndEqualDepthsBehave) {
         const RenderResult result = render(scene, camera);
         EXPECT_TRUE(all_finite(result.radiance)) << i;
         EXPECT_GT(result.covered, 1000u) << i;
-        EXPECT_TRUE(same(result.paths, render(scene, camera).paths)) << i;
+        EXPECT_TRUE(same_paths(result.paths, render(scene, camera).paths)) << i;
         for (const LayerBuilder builder : {LayerBuilder::kDepthPeeling, LayerBuilder::kDualDepthPeeling}) {
-            EXPECT_TRUE(same(result.paths, render(scene, camera, "wang-2014", builder).paths)) << i;
+            EXPECT_TRUE(same_paths(result.paths, render(scene, camera, "wang-2014", builder).paths)) << i;
         }
         for (const RefractedPath& path : result.paths) {
             ASSERT_NEAR(glm::length(path.direction), 1.0f, 1e-4f) << i;
@@ -149,7 +130,7 @@ TEST_F(ManyObjects, OverlapAndEqualDepthsBehave) {
     // Where the eye sees the sphere that looks out of the cube it is the sphere that bends the ray first.
     const Scene scene = scene_of(scenes[2]);
     const Camera camera = front_camera(scene);
-    EXPECT_GT(agreement(render(scene, camera).paths, render(scene, camera, "reference").paths), 0.5);
+    EXPECT_GT(within_1deg(render(scene, camera).paths, render(scene, camera, "reference").paths), 0.5);
 }
 
 // A pole before the glass hides surfaces from the eye, not from rays that have come in beside it.

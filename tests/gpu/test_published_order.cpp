@@ -1,8 +1,6 @@
 // What each publication added: the share of pixels that agree with exact ray tracing grows from one to the next.
 #include "gpu/gpu_test.h"
 
-#include <algorithm>
-
 namespace pellucid::test {
 namespace {
 
@@ -18,17 +16,6 @@ protected:
         return renderer().render(settings).paths;
     }
 };
-
-double within_1deg(const std::vector<RefractedPath>& paths, const std::vector<RefractedPath>& exact) {
-    int covered = 0, right = 0;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        if (exact[i].events == 0) continue;
-        ++covered;
-        const bool done = paths[i].events > 0 && paths[i].status == Status::kOk;
-        right += done && angle_deg(paths[i].direction, exact[i].direction) <= 1.0 ? 1 : 0;
-    }
-    return double(right) / std::max(covered, 1);
-}
 
 TEST_F(PublishedOrder, EveryStepIsMoreAccurateInTheMean) {
     const std::vector<const char*> order = {"one-interface", "wyman-2005", "oliveira-brauwers-2007", "wang-2014"};
