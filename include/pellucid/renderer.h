@@ -33,6 +33,7 @@ enum class View {
 enum class LayerBuilder {
     kSinglePass,        ///< per-pixel lists, one geometry pass (default)
     kDepthPeeling,      ///< one geometry pass per layer (Everitt 2001)
+    kCompute,           ///< per-pixel lists of triangles, rasterised in compute shaders; visibility techniques use it
     kDualDepthPeeling,  ///< nearest and farthest in one geometry pass, half as many (Bavoil & Myers 2008)
 };
 

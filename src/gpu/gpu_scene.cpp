@@ -176,6 +176,11 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
     textures = upload_buffer(device, "the scene's textures", texture_table.records(), Usage::eStorageBuffer);
 }
 
+void GpuScene::prepare_topology(const Device& device, const Scene& scene) {
+    if (!topology) topology.emplace(device, scene);
+    if (topology->moves != moves) topology->update(device, scene, moves);
+}
+
 void GpuScene::move_vertices(const Device& device, const Scene& scene, std::span<const int> moved) {
     if (moved.empty()) return;
     // First, so that nothing derived from the old shape passes for current if an upload fails.

@@ -2,11 +2,13 @@
 
 #include "gpu/memory.h"
 #include "gpu/recorder.h"
+#include "gpu/scene_topology.h"
 #include "gpu/structs.h"
 
 #include <pellucid/scene.h>
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +26,9 @@ struct GpuScene {
     /// Uploads the vertices of the `moved` meshes as `scene` has them now; all else of it is as it was. No frame may
     /// be in flight.
     void move_vertices(const Device& device, const Scene& scene, std::span<const int> moved);
+
+    /// Makes `topology`, or brings it up to date; `scene` as it is now.
+    void prepare_topology(const Device& device, const Scene& scene);
 
     Buffer indices;     ///< per triangle corner, the vertex; meshes one after the other
     Buffer vertices;    ///< per vertex: position, normal (6 floats, in the frame of its mesh)
@@ -45,6 +50,7 @@ struct GpuScene {
     std::vector<DrawCall> opaque;
     Bounds bounds;
     std::vector<glm::vec3> refractive_corners;  ///< corners of the refractive objects' boxes, world
+    std::optional<SceneTopology> topology;  ///< see prepare_topology()
     /// What techniques have computed from the scene, by name; kept as long as the scene is.
     std::map<std::string, Buffer, std::less<>> prepared;
 };

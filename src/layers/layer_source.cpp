@@ -9,6 +9,8 @@ Layers LayerSource::build(Recorder& recorder, const Frame& frame, const Opaque& 
             return peel(recorder, frame, opaque, request);
         case LayerBuilder::kDualDepthPeeling:
             return peel_dual(recorder, frame, opaque, request);
+        case LayerBuilder::kCompute:
+            return select_from_map(recorder, frame, opaque, request);
         case LayerBuilder::kSinglePass:
             break;
     }
@@ -21,6 +23,8 @@ bool LayerSource::must_repeat(const Frame& frame) {
             return false;
         case LayerBuilder::kDualDepthPeeling:
             return must_peel_more(frame);
+        case LayerBuilder::kCompute:
+            return must_enlarge_map(frame);
         case LayerBuilder::kSinglePass:
             break;
     }

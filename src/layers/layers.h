@@ -1,9 +1,12 @@
 #pragma once
 
 #include "gpu/frame.h"
+#include "gpu/scene_topology.h"
+#include "layers/surface_map.h"
 
 #include <pellucid/renderer.h>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,6 +58,12 @@ struct FragmentPool {
     std::uint32_t bands = 1;     ///< the picture is done in this many horizontal bands
 };
 
+/// Room for a surface map; likewise. 0: choose.
+struct MapPool {
+    std::uint32_t records = 0;
+    std::uint32_t tiles = 0;  ///< that large triangles are cut into
+};
+
 /// What dual depth peeling learnt of a scene: measured in one frame, used in the next. It is kept until another scene
 /// or picture size is set, so a single crowded pixel in one view makes later views peel one by one.
 struct DualPeeling {
@@ -70,8 +79,13 @@ public:
     explicit LayerSource(FragmentPool pool = {}) : pool_(pool) {}
 
     /// Before the first build() of a frame.
-    void begin_frame(LayerBuilder builder) { builder_ = builder, builds_ = geometry_passes_ = 0; }
+    void begin_frame(LayerBuilder builder) { builder_ = builder, builds_ = geometry_passes_ = 0, mapped_ = false; }
     Layers build(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
+    /// The map that kCompute has built the frame's layers from.
+    const SurfaceMap& view_map() const { return *map_; }
+    /// Lists every triangle of the scene in the texels of a projection.
+    SurfaceMap map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
+                            const MapProjection& projection);
     /// After the frame has run: true if something did not fit. What build() does next will, and the frame must be
     /// recorded again. Throws Error if the device has no room for it.
     bool must_repeat(const Frame& frame);
@@ -82,14 +96,19 @@ private:
     Layers peel(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     Layers peel_dual(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     Layers gather(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
+    Layers select_from_map(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     bool must_peel_more(const Frame& frame);
     bool must_enlarge_pool(const Frame& frame);
+    bool must_enlarge_map(const Frame& frame);
 
     LayerBuilder builder_ = LayerBuilder::kSinglePass;
     std::uint32_t builds_ = 0;  ///< in this frame, that counted something
     std::uint32_t geometry_passes_ = 0;
     FragmentPool pool_;
     DualPeeling dual_;
+    MapPool map_pool_;
+    std::optional<SurfaceMap> map_;
+    bool mapped_ = false;  ///< in this frame
 };
 
 }  // namespace pellucid

@@ -160,6 +160,7 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
     warnings = approximations(cpu.scene(), info);
     FrameSettings chosen{technique_of(info), ParameterValues(info, settings.parameters), settings.layer_builder,
                          settings.view};
+    if (chosen.technique.walks_map) chosen.layer_builder = LayerBuilder::kCompute;
     if (chosen.layer_builder == LayerBuilder::kSinglePass && !device.fragment_atomics()) {
         chosen.layer_builder = LayerBuilder::kDepthPeeling;
         warnings.push_back(
@@ -175,6 +176,7 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
 
 void Renderer::Impl::prepare(const FrameSettings& chosen, const Progress& progress,
                              std::vector<std::string>& warnings) {
+    if (chosen.layer_builder == LayerBuilder::kCompute) scene->prepare_topology(device, cpu.scene());
     if (chosen.technique.prepare == nullptr) return;
     // Shapes that a deforming mesh passes through are not worth a file each.
     bake::BakeCache passing{std::filesystem::path()};
@@ -350,8 +352,9 @@ View parse_view(std::string_view name) {
 }
 
 LayerBuilder parse_layer_builder(std::string_view name) {
-    return parse_name<LayerBuilder, 3>("layer builder", name,
+    return parse_name<LayerBuilder, 4>("layer builder", name,
                                        {{{"single-pass", LayerBuilder::kSinglePass},
+                                         {"compute", LayerBuilder::kCompute},
                                          {"depth-peeling", LayerBuilder::kDepthPeeling},
                                          {"dual-depth-peeling", LayerBuilder::kDualDepthPeeling}}});
 }

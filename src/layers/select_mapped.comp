@@ -1,0 +1,70 @@
+#version 460
+// Layers from a surface map: of the surfaces that the view ray through a pixel's centre meets, the nearest in order.
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/frame.glsl"
+layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
+#include "gpu/vertices.glsl"
+#include "gpu/object_traits.glsl"
+#include "layers/layers.glsl"
+#include "layers/objects.glsl"
+#include "layers/pixel_list.glsl"
+#include "layers/surface_map.glsl"
+#include "layers/surface_normal.glsl"
+
+layout(local_size_x = PELLUCID_LIST_GROUP) in;
+
+layout(std430, set = 0, binding = 2) readonly buffer MapTriangles { vec4 map_triangles[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Records { SurfaceRecord records[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Heads { uint heads[]; };
+layout(set = 0, binding = 4, r32f) readonly uniform image2DArray opaque_depth;
+layout(set = 0, binding = 5, r32f) writeonly uniform image2DArray layer_depth;
+layout(set = 0, binding = 7, r32ui) writeonly uniform uimage2DArray layer_triangle;
+layout(set = 0, binding = 8, r32ui) writeonly uniform uimage2DArray layer_normal;
+layout(push_constant) uniform Push {
+    uint layer_count;
+    uint hidden_by_opaque;
+    uint first_triangle, end_triangle;  // of the objects that are asked for
+};
+
+const float kSlack = 1e-4;  // of barycentric weights, as in surface_walk.glsl
+
+Fragment nearest_behind(uint head, vec3 origin, vec3 direction, float depth_rate, Fragment last, bool any) {
+    Fragment nearest = kNoFragment;
+    for (uint number = head; number != 0u;) {
+        SurfaceRecord record = records[number - 1u];
+        number = record.next;
+        if (!refractive(record.traits)) continue;
+        uint triangle = record.triangle & ~kContinues;
+        if (triangle < first_triangle || triangle >= end_triangle) continue;
+        vec4 a = map_triangles[3u * triangle], b = map_triangles[3u * triangle + 1u],
+             c = map_triangles[3u * triangle + 2u];
+        vec3 p = cross(direction, c.xyz), from_corner = origin - a.xyz, q = cross(from_corner, b.xyz);
+        float determinant = dot(b.xyz, p);
+        vec2 weights = vec2(dot(from_corner, p), dot(direction, q)) / determinant;
+        float depth = dot(c.xyz, q) / determinant * depth_rate;
+        if (!(min(min(weights.x, weights.y), 1.0 - weights.x - weights.y) >= -kSlack && depth > frame.near_plane)) continue;
+        Fragment entry = Fragment(depth, triangle | (determinant < 0.0 ? PELLUCID_BACK_FACE : 0u));
+        if ((any || is_behind(entry, last)) && is_behind(nearest, entry)) nearest = entry;
+    }
+    return nearest;
+}
+
+void main() {
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
+    Ray view = camera_ray(vec2(texel) + 0.5);
+    vec3 origin = (frame.world_from_view * vec4(view.origin, 1.0)).xyz;
+    vec3 direction = mat3(frame.world_from_view) * view.direction;
+    uint head = heads[uint(texel.y) * frame.width + uint(texel.x)];
+    Fragment fragment = kNoFragment;
+    for (uint layer = 0u; layer < layer_count; ++layer) {
+        fragment = nearest_behind(head, origin, direction, -view.direction.z, fragment, layer == 0u);
+        if (fragment.triangle == PELLUCID_NO_TRIANGLE) return;
+        if (layer == 0u && hidden_by_opaque != 0u && fragment.depth >= imageLoad(opaque_depth, ivec3(texel, 0)).r) return;
+        imageStore(layer_depth, ivec3(texel, layer), vec4(fragment.depth));
+        imageStore(layer_triangle, ivec3(texel, layer), uvec4(fragment.triangle));
+        uint object = find_object(triangle_index(fragment.triangle));
+        Ray ray = object_ray(vec2(texel) + 0.5, object);
+        imageStore(layer_normal, ivec3(texel, layer), uvec4(surface_normal(ray, fragment.triangle, object)));
+    }
+}

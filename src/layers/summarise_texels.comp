@@ -1,0 +1,26 @@
+#version 460
+// The finest level of a map's pyramid: the depths of each texel's records.
+#extension GL_GOOGLE_include_directive : require
+#include "layers/surface_map.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Heads { uint heads[]; };
+layout(std430, set = 0, binding = 7) readonly buffer Records { SurfaceRecord records[]; };
+layout(std430, set = 0, binding = 9) writeonly buffer Pyramid { uvec4 pyramid[]; };
+
+void main() {
+    MapRecord map = maps[0];
+    uvec2 texel = gl_GlobalInvocationID.xy;
+    if (texel.x >= 1u << map.log2_width || texel.y >= 1u << map.log2_height) return;
+    uvec4 ranges = uvec4(kNoRange);
+    if (texel.x < map.width && texel.y < map.height) {
+        for (uint record = heads[map.first_head + texel.y * map.width + texel.x]; record != 0u;) {
+            SurfaceRecord r = records[record - 1u];
+            insert_range(ranges, r.range);
+            record = r.next;
+        }
+    }
+    pyramid[node_index(map, 0u, texel)] = ranges;
+}

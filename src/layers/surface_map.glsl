@@ -1,0 +1,83 @@
+#ifndef PELLUCID_LAYERS_SURFACE_MAP_GLSL
+#define PELLUCID_LAYERS_SURFACE_MAP_GLSL
+
+// What a surface map is made of (surface_map.h).
+#include "gpu/structs.h"
+
+// Twin of MapRecord in surface_map.cpp.
+struct MapRecord {
+    mat4 map_from_space;   // (X, Y, Q, W)
+    vec4 eye;              // (position, 1), or (minus the direction of all its rays, 0)
+    float near_w;
+    uint width, height;    // texels
+    uint log2_width, log2_height;  // of the pyramid's finest level
+    uint first_head, first_node, first_triangle;
+};
+
+// A triangle in the space of its map is three vec4: its first corner, and the ways from it to the second and third;
+// their w are the bits of the numbers of the triangles across the edges that start at each corner,
+// PELLUCID_NO_TRIANGLE: none.
+
+// A record: the surface of a triangle crosses its texel at depths of `range`, lowest | highest << 16.
+struct SurfaceRecord {
+    uint next;  // number + 1 of the texel's next record; 0: none
+    uint range;
+    uint triangle;  // with kContinues if its neighbours continue it smoothly, so that they have no records of their own
+    uint traits;    // of its object, object_traits.glsl
+};
+const uint kContinues = 0x80000000u;
+
+// Depths in 16 bits.
+const float kDepthSteps = 65535.0;
+const uint kNoRange = 0x0000ffffu;  // ends before it starts
+
+uint pack_range(float low, float high) {
+    uint l = uint(clamp(floor(low * kDepthSteps), 0.0, kDepthSteps));
+    uint h = uint(clamp(ceil(high * kDepthSteps), 0.0, kDepthSteps));
+    return l | h << 16;
+}
+
+// Where the pyramid's levels start: sizes fall by four, so the starts are the digits of 1/3 in base four.
+uint level_start(MapRecord map, uint level) {
+    uint log2_area = map.log2_width + map.log2_height;
+    uint starts = (log2_area & 1u) == 0u ? 0x55555555u : 0xaaaaaaaau;
+    starts &= (2u << log2_area) - 1u;
+    uint rest = log2_area + 2u - 2u * level;
+    return map.first_node + (level == 0u ? 0u : starts & ~((1u << rest) - 1u));
+}
+
+uint node_index(MapRecord map, uint level, uvec2 cell) {
+    return level_start(map, level) + (cell.y << (map.log2_width - level)) + cell.x;
+}
+
+uint map_levels(MapRecord map) { return min(map.log2_width, map.log2_height) + 1u; }
+
+// Up to four ranges, by where they start; a fifth makes the two with the smallest gap between them one.
+void insert_range(inout uvec4 ranges, uint range) {
+    if ((range & 0xffffu) > (range >> 16)) return;
+    uint sorted[5] = uint[5](ranges.x, ranges.y, ranges.z, ranges.w, range);
+    for (int i = 4; i > 0; --i) {
+        if ((sorted[i] & 0xffffu) < (sorted[i - 1] & 0xffffu)) {
+            uint lower = sorted[i];
+            sorted[i] = sorted[i - 1];
+            sorted[i - 1] = lower;
+        }
+    }
+    if (sorted[4] != kNoRange) {
+        int closest = 0, smallest = 0x7fffffff;
+        for (int i = 0; i < 4; ++i) {
+            int gap = int(sorted[i + 1] & 0xffffu) - int(sorted[i] >> 16);
+            if (gap < smallest) {
+                smallest = gap;
+                closest = i;
+            }
+        }
+        for (int i = 0; i < 4; ++i) {
+            if (i == closest) sorted[i] = (sorted[i] & 0xffffu) | max(sorted[i] >> 16, sorted[i + 1] >> 16) << 16;
+            else if (i > closest) sorted[i] = sorted[i + 1];
+        }
+    }
+    ranges = uvec4(sorted[0], sorted[1], sorted[2], sorted[3]);
+}
+
+#endif

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "gpu/frame.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace pellucid {
+
+/// A view of space in which lines stay lines: `map_from_world` times a world position gives (X, Y, Q, W); X / W and
+/// Y / W count texels, Q / W is a depth that grows away from the eye, 0..1 over what the map holds.
+struct MapProjection {
+    glm::mat4 map_from_world{1.0f};
+    glm::vec4 eye{0.0f};   ///< world: (position, 1), or (minus the direction that all rays have, 0)
+    float near_w = 0.0f;   ///< what has a smaller W is not in the map
+    vk::Extent2D extent;   ///< texels
+};
+
+/// Which triangles of the scene lie in which texel, and how deep: a hierarchy for rays that the rasteriser makes anew
+/// whenever the scene changes.
+///
+/// Per texel a list of records, each a triangle and the range of depths at which its surface crosses the texel. A
+/// triangle is in every texel that it touches if it is steep, a crease or a rim (its neighbours do not continue it);
+/// otherwise only where it covers the texel's centre, and whoever finds it walks on to its neighbours.
+/// Over the texels a pyramid of depth ranges: up to four per node, in which all of its records lie.
+struct SurfaceMap {
+    MapProjection projection;
+    const Buffer* maps;          ///< MapRecord[]
+    const Buffer* triangles;     ///< world
+    const Buffer* heads;         ///< per texel: its first record's number + 1, 0: none
+    const Buffer* records;       ///< see surface_map.glsl
+    const Buffer* pyramid;       ///< uvec4[]: levels from the finest on
+};
+
+}  // namespace pellucid

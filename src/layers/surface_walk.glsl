@@ -1,0 +1,158 @@
+#ifndef PELLUCID_LAYERS_SURFACE_WALK_GLSL
+#define PELLUCID_LAYERS_SURFACE_WALK_GLSL
+
+// The nearest surface that a ray meets, by a walk over the texels that it passes in a surface map.
+//
+// Lines of space are lines of the map, so the ray is a + s (b - a) there, s = 0..1, with the depth q as third
+// coordinate. At a node of the pyramid none of whose depth ranges the ray passes, it skips the node and climbs;
+// otherwise it descends. In a texel the records whose ranges it passes are intersected exactly; where a triangle's
+// neighbours have no records of their own, the search goes on across its edges to where the ray meets the surface.
+//
+// Needs: maps, map_triangles, heads, records, pyramid (surface_map.glsl), and
+// bool can_meet(uint traits, bool leaving, uint triangle): whether a surface may be met in that sense.
+#include "layers/surface_map.glsl"
+
+const float kNudge = 0.002;      // texels, over an edge of a node; less than kTexelMargin
+const float kSlack = 1e-4;       // of a triangle's barycentric weights: rays through edges meet one of both sides
+const uint kMostNeighbors = 16u; // triangles walked across
+const float kFarthest = 1e30;
+
+struct MapRay {
+    vec3 a, way;          // map space; from a on all of the way
+    float t_a, t_b;       // distances along the ray of space there
+    float w_a, w_b;       // and W
+};
+
+struct SurfaceHit {
+    float t;         // kFarthest: none
+    uint triangle;
+    uint traits;
+    bool leaving;    // along the outward normal
+};
+
+// Keeps [t_low, t_high] where start + t rate >= 0.
+void clip(float start, float rate, inout float t_low, inout float t_high) {
+    float t = -start / rate;
+    if (rate > 0.0) t_low = max(t_low, t);
+    if (rate < 0.0) t_high = min(t_high, t);
+    if (rate == 0.0 && start < 0.0) t_high = -1.0;
+}
+
+// False: the ray does not enter the map.
+bool map_ray(MapRecord map, vec3 origin, vec3 direction, out MapRay ray) {
+    vec4 p = map.map_from_space * vec4(origin, 1.0), r = map.map_from_space * vec4(direction, 0.0);
+    float low = 0.0, high = kFarthest;
+    clip(p.w - map.near_w, r.w, low, high);
+    clip(p.x, r.x, low, high);
+    clip(p.y, r.y, low, high);
+    clip(p.z, r.z, low, high);
+    vec3 size = vec3(map.width, map.height, 1.0);
+    clip(size.x * p.w - p.x, size.x * r.w - r.x, low, high);
+    clip(size.y * p.w - p.y, size.y * r.w - r.y, low, high);
+    clip(p.w - p.z, r.w - r.z, low, high);
+    vec4 a = p + low * r, b = p + high * r;
+    ray = MapRay(a.xyz / a.w, b.xyz / b.w - a.xyz / a.w, low, high, a.w, b.w);
+    return low < high && high < kFarthest;
+}
+
+float distance_at(MapRay ray, float s) {
+    float share = s * ray.w_a;
+    return mix(ray.t_a, ray.t_b, share / (share + (1.0 - s) * ray.w_b));
+}
+
+// The s of a distance.
+float way_at(MapRay ray, float t) {
+    float share = (t - ray.t_a) / (ray.t_b - ray.t_a);
+    return share * ray.w_b / (share * ray.w_b + (1.0 - share) * ray.w_a);
+}
+
+// Where the ray meets the surface of which a record names one triangle.
+void meet_record(vec3 origin, vec3 direction, SurfaceRecord record, float t_min, float t_max, inout SurfaceHit hit) {
+    uint triangle = record.triangle & ~kContinues, before = PELLUCID_NO_TRIANGLE;
+    uint left = (record.triangle & kContinues) != 0u ? kMostNeighbors : 0u;
+    for (;;) {
+        vec4 a = map_triangles[3u * triangle], b = map_triangles[3u * triangle + 1u],
+             c = map_triangles[3u * triangle + 2u];
+        vec3 p = cross(direction, c.xyz), from_corner = origin - a.xyz, q = cross(from_corner, b.xyz);
+        float determinant = dot(b.xyz, p);  // minus the speed along the outward normal
+        vec3 weights;
+        weights.yz = vec2(dot(from_corner, p), dot(direction, q)) / determinant;
+        weights.x = 1.0 - weights.y - weights.z;
+        float t = dot(c.xyz, q) / determinant;
+        float least = min(weights.x, min(weights.y, weights.z));
+        if (!(abs(t) < kFarthest)) return;
+        uint next = floatBitsToUint(weights.x == least ? b.w : weights.y == least ? c.w : a.w);
+        if (least >= -kSlack || (next == before && least > -0.01)) {
+            bool leaving = determinant < 0.0;
+            if (t > t_min && t <= t_max && t < hit.t && can_meet(record.traits, leaving, triangle))
+                hit = SurfaceHit(t, triangle, record.traits, leaving);
+            return;
+        }
+        if (left == 0u || next == PELLUCID_NO_TRIANGLE || next == before) return;
+        --left;
+        before = triangle;
+        triangle = next;
+    }
+}
+
+// The nearest surface beyond `t_min`, m; `status` tells what became of the ray if there is none.
+SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, out bool in_map, out bool gave_up, inout uint visits) {
+    SurfaceHit hit = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
+    MapRay ray;
+    gave_up = false;
+    in_map = map_ray(map, origin, direction, ray);
+    if (!in_map) return hit;
+    vec2 inverse = 1.0 / mix(ray.way.xy, vec2(1e-9), lessThan(abs(ray.way.xy), vec2(1e-9)));
+    vec2 ahead = vec2(greaterThan(ray.way.xy, vec2(0.0)));
+    float nudge = kNudge * min(abs(inverse.x), abs(inverse.y));
+    uint top = map_levels(map) - 1u, level = 0u;
+    vec2 last_texel = vec2(map.width, map.height) - 1.0;
+    float s = 0.0;
+    uint budget = 4096u;
+    while (s < 1.0 && budget > 0u) {
+        uvec2 cell;
+        uint low, high;
+        float s_out;
+        bool at_leaf = false;
+        while (s < 1.0 && !at_leaf && budget > 0u) {
+            --budget;
+            ++visits;
+            vec3 here = ray.a + s * ray.way;
+            cell = uvec2(clamp(here.xy, vec2(0.0), last_texel)) >> level;
+            vec2 edge = (vec2(cell) + ahead) * float(1u << level);
+            vec2 to_edge = (edge - ray.a.xy) * inverse;
+            s_out = min(min(to_edge.x, to_edge.y) + nudge, 1.0);
+            s_out = max(s_out, s + 0.5 * nudge);
+            float q_out = ray.a.z + s_out * ray.way.z;
+            low = uint(clamp(floor(min(here.z, q_out) * kDepthSteps) - 1.0, 0.0, kDepthSteps));
+            high = uint(clamp(ceil(max(here.z, q_out) * kDepthSteps) + 1.0, 0.0, kDepthSteps));
+            uvec4 ranges = pyramid[node_index(map, level, cell)];
+            bool passes = any(lessThanEqual(max(ranges & 0xffffu, uvec4(low)), min(ranges >> 16, uvec4(high))));
+            if (!passes) {
+                s = s_out;
+                vec2 next = clamp(ray.a.xy + s * ray.way.xy, vec2(0.0), last_texel);
+                uvec2 parent = uvec2(next) >> (level + 1u);
+                if (level < top && parent != cell >> 1u) ++level;
+            } else if (level > 0u) {
+                --level;
+            } else {
+                at_leaf = true;
+            }
+        }
+        if (!at_leaf) break;
+        float t_max = distance_at(ray, min(s_out + nudge, 1.0));
+        t_max += 1e-5 * abs(t_max);
+        for (uint number = heads[map.first_head + cell.y * map.width + cell.x]; number != 0u;) {
+            SurfaceRecord record = records[number - 1u];
+            number = record.next;
+            if (max(record.range & 0xffffu, low) <= min(record.range >> 16, high))
+                meet_record(origin, direction, record, t_min, t_max, hit);
+        }
+        if (hit.t < kFarthest) break;
+        s = s_out;
+    }
+    gave_up = budget == 0u;
+    return hit;
+}
+
+#endif
