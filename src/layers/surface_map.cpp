@@ -39,7 +39,7 @@ constexpr vk::DeviceSize kTriangleSize = 48;
 
 /// Cosines; anything near them is as right, see docs/performance.md.
 constexpr float kSteep = 0.25f;
-constexpr float kCrease = 0.95f;
+constexpr float kCrease = 2.0f;
 
 /// Twin of MapRecord in surface_map.glsl.
 struct MapRecord {

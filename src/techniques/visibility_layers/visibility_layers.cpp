@@ -16,7 +16,7 @@ constexpr std::uint32_t kFollowPaths[] = {
 
 constexpr std::array kParameters = {
     ParameterInfo{"layers", "", 8, 1, 4095, true, "unused yet"},
-    ParameterInfo{"events", "", 8, 1, 4095, true, "refractions and reflections followed"},
+    ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed"},
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
