@@ -6,12 +6,12 @@
 
 layout(local_size_x = 4, local_size_y = 16) in;  // as in list_pixels.comp
 
-layout(std430, set = 0, binding = 0) readonly buffer Heads { uint heads[]; };
+layout(std430, set = 0, binding = 0) readonly buffer Texels { uvec2 texels[]; };
 PELLUCID_APPENDED_LIST(PixelList, 1, list_groups, list_length, list_pixels, append)
 layout(push_constant) uniform Push { uint width, height; };
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= int(width) || texel.y >= int(height)) return;
-    if (heads[uint(texel.y) * width + uint(texel.x)] != 0u) append(texel);
+    if (texels[uint(texel.y) * width + uint(texel.x)].y != 0u) append(texel);
 }

@@ -1,18 +1,17 @@
 #ifndef PELLUCID_LAYERS_MAP_RECORDS_GLSL
 #define PELLUCID_LAYERS_MAP_RECORDS_GLSL
 
-// Filling a map's lists. Needs: layers/map_triangle_setup.glsl.
-
+// Records as the rasteriser finds them, before they are sorted by texel. Needs: layers/map_triangle_setup.glsl.
 #include "layers/map_count.glsl"
 
-layout(std430, set = 0, binding = 6) buffer Heads { uint heads[]; };
-layout(std430, set = 0, binding = 7) writeonly buffer Records { SurfaceRecord records[]; };
+layout(std430, set = 0, binding = 6) buffer Texels { TexelRecords texels[]; };
+layout(std430, set = 0, binding = 7) writeonly buffer Found { uvec4 found[]; };  // texel, number there, triangle, range
 
-void append_record(MapRecord map, ivec2 texel, uint triangle, uint traits, uint range, uint capacity) {
-    uint record = atomicAdd(counts.records, 1u);
-    if (record >= capacity) return;  // counted all the same: the host makes more room
-    uint next = atomicExchange(heads[map.first_head + uint(texel.y) * map.width + uint(texel.x)], record + 1u);
-    records[record] = SurfaceRecord(next, range, triangle, traits);
+void append_record(MapRecord map, ivec2 texel, uint triangle, uint range, uint capacity) {
+    uint index = uint(int(map.first_head) + texel.y * int(map.width) + texel.x);
+    uint number = atomicAdd(texels[index].count, 1u);
+    uint i = atomicAdd(counts.records, 1u);  // counted even if there is no room: the host then makes more
+    if (i < capacity) found[i] = uvec4(index, number, triangle, range);
 }
 
 #endif

@@ -60,13 +60,13 @@ Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, cons
     recorder.clear(images.triangle, vk::ClearColorValue(std::array{PELLUCID_NO_TRIANGLE, 0u, 0u, 0u}));
     const Buffer& any = start_pixel_list(recorder, frame, "mapped pixels");
     recorder.compute(frame.workspace.compute({"list_mapped.comp", kListMapped}),
-                     {reads("Heads", *map_->heads), updates("PixelList", any)},
+                     {reads("Texels", *map_->texels), updates("PixelList", any)},
                      std::array{frame.extent.width, frame.extent.height}, frame.extent);
     recorder.compute_indirect(
         frame.workspace.compute({"select_mapped.comp", kSelectMapped}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
          reads("Vertices", frame.scene.vertices), reads("PixelList", any), reads("MapTriangles", *map_->triangles),
-         reads("Records", *map_->records), reads("Heads", *map_->heads), reads("opaque_depth", opaque.depth),
+         reads("Records", *map_->records), reads("Texels", *map_->texels), reads("opaque_depth", opaque.depth),
          writes("layer_depth", images.depth), writes("layer_triangle", images.triangle),
          writes("layer_normal", images.normal)},
         std::array{request.count, request.hidden_by_opaque ? 1u : 0u, first_triangle, end_triangle}, any);

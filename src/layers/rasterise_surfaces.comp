@@ -14,7 +14,6 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Neighbors { uvec2 neighbors[]; };  // per corner: Neighbor
 layout(std430, set = 0, binding = 4) writeonly buffer MapTriangles { vec4 map_triangles[]; };
-layout(std430, set = 0, binding = 9) readonly buffer Traits { uint traits[]; };  // per object
 layout(std430, set = 0, binding = 8) writeonly buffer Tiles { uvec2 tiles[]; };  // triangle, tile's x | y << 16
 layout(push_constant) uniform Push {
     uint triangle_count;
@@ -71,7 +70,7 @@ void main() {
         for (int i = 0; i < size.x * size.y; ++i) {
             ivec2 texel = c.low + ivec2(i % size.x, i / size.x);
             if (covers(c, texel, !continues)) {
-                append_record(map, texel, word, traits[object], depths_in_texel(c, texel, continues), record_capacity);
+                append_record(map, texel, word, depths_in_texel(c, texel, continues), record_capacity);
             }
         }
         return;

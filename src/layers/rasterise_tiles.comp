@@ -1,17 +1,13 @@
 #version 460
 // The tiles that rasterise_surfaces.comp has cut large triangles into.
 #extension GL_GOOGLE_include_directive : require
-#include "gpu/frame.glsl"
-layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 #include "layers/map_triangle_setup.glsl"
 #include "layers/map_records.glsl"
-#include "layers/objects.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 4) readonly buffer MapTriangles { vec4 map_triangles[]; };
-layout(std430, set = 0, binding = 9) readonly buffer Traits { uint traits[]; };  // per object
 layout(std430, set = 0, binding = 8) readonly buffer Tiles { uvec2 tiles[]; };
 layout(push_constant) uniform Push {
     uint record_capacity;
@@ -33,12 +29,11 @@ void main() {
                         map.map_from_space * vec4(corner + map_triangles[3u * triangle + 1u].xyz, 1.0),
                         map.map_from_space * vec4(corner + map_triangles[3u * triangle + 2u].xyz, 1.0));
     MapCoverage c = cover(map, p);
-    uint own_traits = traits[find_object(triangle)];
     ivec2 low = max(first, c.low), high = min(first + kTile - 1, c.high);
     for (int y = low.y; y <= high.y; ++y) {
         for (int x = low.x; x <= high.x; ++x) {
             if (covers(c, ivec2(x, y), !continues)) {
-                append_record(map, ivec2(x, y), word, own_traits, depths_in_texel(c, ivec2(x, y), continues), record_capacity);
+                append_record(map, ivec2(x, y), word, depths_in_texel(c, ivec2(x, y), continues), record_capacity);
             }
         }
     }

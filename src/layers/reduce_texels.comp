@@ -15,8 +15,8 @@ void main() {
     if (cell.x >= 1u << (map.log2_width - level) || cell.y >= 1u << (map.log2_height - level)) return;
     uvec4 ranges = uvec4(kNoRange);
     for (uint child = 0u; child < 4u; ++child) {
-        uvec4 below = pyramid[node_index(map, level - 1u, 2u * cell + uvec2(child & 1u, child >> 1))];
+        uvec4 below = pyramid[node_index(map, int(level) - 1, ivec2(2u * cell + uvec2(child & 1u, child >> 1)))];
         for (int i = 0; i < 4; ++i) insert_range(ranges, below[i]);
     }
-    pyramid[node_index(map, level, cell)] = ranges;
+    pyramid[node_index(map, int(level), ivec2(cell))] = ranges;
 }

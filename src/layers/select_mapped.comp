@@ -14,8 +14,8 @@ layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord obje
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer MapTriangles { vec4 map_triangles[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Records { SurfaceRecord records[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Heads { uint heads[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Records { uvec4 records[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Texels { TexelRecords texels[]; };
 layout(set = 0, binding = 4, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 5, r32f) writeonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 7, r32ui) writeonly uniform uimage2DArray layer_triangle;
@@ -28,13 +28,12 @@ layout(push_constant) uniform Push {
 
 const float kSlack = 1e-4;  // of barycentric weights, as in surface_walk.glsl
 
-Fragment nearest_behind(uint head, vec3 origin, vec3 direction, float depth_rate, Fragment last, bool any) {
+Fragment nearest_behind(TexelRecords own, vec3 origin, vec3 direction, float depth_rate, Fragment last, bool any) {
     Fragment nearest = kNoFragment;
-    for (uint number = head; number != 0u;) {
-        SurfaceRecord record = records[number - 1u];
-        number = record.next;
-        if (!refractive(record.traits)) continue;
-        uint triangle = record.triangle & ~kContinues;
+    for (uint i = 0u; i < own.count; ++i) {
+        uvec4 record = records[own.first + i];
+        if (!refractive(record.z)) continue;
+        uint triangle = record.y & ~kContinues;
         if (triangle < first_triangle || triangle >= end_triangle) continue;
         vec4 a = map_triangles[3u * triangle], b = map_triangles[3u * triangle + 1u],
              c = map_triangles[3u * triangle + 2u];
@@ -55,10 +54,10 @@ void main() {
     Ray view = camera_ray(vec2(texel) + 0.5);
     vec3 origin = (frame.world_from_view * vec4(view.origin, 1.0)).xyz;
     vec3 direction = mat3(frame.world_from_view) * view.direction;
-    uint head = heads[uint(texel.y) * frame.width + uint(texel.x)];
+    TexelRecords own = texels[uint(texel.y) * frame.width + uint(texel.x)];
     Fragment fragment = kNoFragment;
     for (uint layer = 0u; layer < layer_count; ++layer) {
-        fragment = nearest_behind(head, origin, direction, -view.direction.z, fragment, layer == 0u);
+        fragment = nearest_behind(own, origin, direction, -view.direction.z, fragment, layer == 0u);
         if (fragment.triangle == PELLUCID_NO_TRIANGLE) return;
         if (layer == 0u && hidden_by_opaque != 0u && fragment.depth >= imageLoad(opaque_depth, ivec3(texel, 0)).r) return;
         imageStore(layer_depth, ivec3(texel, layer), vec4(fragment.depth));

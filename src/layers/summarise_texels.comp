@@ -6,8 +6,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Heads { uint heads[]; };
-layout(std430, set = 0, binding = 7) readonly buffer Records { SurfaceRecord records[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Texels { TexelRecords texels[]; };
+layout(std430, set = 0, binding = 7) readonly buffer Records { uvec4 records[]; };
 layout(std430, set = 0, binding = 9) writeonly buffer Pyramid { uvec4 pyramid[]; };
 
 void main() {
@@ -16,11 +16,8 @@ void main() {
     if (texel.x >= 1u << map.log2_width || texel.y >= 1u << map.log2_height) return;
     uvec4 ranges = uvec4(kNoRange);
     if (texel.x < map.width && texel.y < map.height) {
-        for (uint record = heads[map.first_head + texel.y * map.width + texel.x]; record != 0u;) {
-            SurfaceRecord r = records[record - 1u];
-            insert_range(ranges, r.range);
-            record = r.next;
-        }
+        TexelRecords own = texels[map.first_head + texel.y * map.width + texel.x];
+        for (uint i = 0u; i < own.count; ++i) insert_range(ranges, records[own.first + i].x);
     }
-    pyramid[node_index(map, 0u, texel)] = ranges;
+    pyramid[node_index(map, 0, ivec2(texel))] = ranges;
 }

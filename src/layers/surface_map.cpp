@@ -21,8 +21,14 @@ constexpr std::uint32_t kRasteriseSurfaces[] = {
 constexpr std::uint32_t kRasteriseTiles[] = {
 #include "rasterise_tiles.comp.inc"
 };
-constexpr std::uint32_t kDispatchTiles[] = {
-#include "dispatch_tiles.comp.inc"
+constexpr std::uint32_t kDispatchMap[] = {
+#include "dispatch_map.comp.inc"
+};
+constexpr std::uint32_t kPlaceTexels[] = {
+#include "place_texels.comp.inc"
+};
+constexpr std::uint32_t kPlaceRecords[] = {
+#include "place_records.comp.inc"
 };
 constexpr std::uint32_t kSummariseTexels[] = {
 #include "summarise_texels.comp.inc"
@@ -51,11 +57,11 @@ struct MapRecord {
 };
 static_assert(sizeof(MapRecord) == 112);
 
-/// Twin of MapCount in map_records.glsl.
+/// Twin of MapCount in map_count.glsl.
 struct MapCount {
-    std::uint32_t tile_groups, tile_rows, tile_layers;
     std::uint32_t tiles;
     std::uint32_t records;
+    std::uint32_t placed;
 };
 
 std::uint32_t log2_ceil(std::uint32_t size) { return std::uint32_t(std::bit_width(size - 1)); }
@@ -99,18 +105,20 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     const SurfaceMap map{projection,
                          &maps,
                          &workspace.buffer("map triangles", std::max<std::uint64_t>(scene.triangle_count, 1) * kTriangleSize),
-                         &workspace.buffer("map heads", texels * sizeof(std::uint32_t)),
+                         &workspace.buffer("map texels", texels * 2 * sizeof(std::uint32_t)),
                          &workspace.buffer("map records", map_pool_.records * kRecordSize),
                          &workspace.buffer("map pyramid", nodes * kNodeSize)};
     const Buffer& counters = workspace.buffer("map counters", sizeof(MapCount));
+    const Buffer& found = workspace.buffer("map records found", map_pool_.records * kRecordSize);
+    const Buffer& groups = workspace.buffer("map workgroups", 3 * sizeof(std::uint32_t));
     const Buffer& tiles = workspace.buffer("map tiles", map_pool_.tiles * kTileSize);
 
     recorder.fill(counters, 0);
-    recorder.fill(*map.heads, 0);
+    recorder.fill(*map.texels, 0);
     const std::uint32_t row_groups = device.limits().maxComputeWorkGroupCount[0];
-    const std::uint64_t groups = (scene.triangle_count + kGroup - 1) / kGroup;
-    const std::uint32_t rows = std::uint32_t(groups / row_groups + 1);
-    const std::uint32_t row = std::uint32_t((groups + rows - 1) / rows) * kGroup;
+    const std::uint64_t all_groups = (scene.triangle_count + kGroup - 1) / kGroup;
+    const std::uint32_t rows = std::uint32_t(all_groups / row_groups + 1);
+    const std::uint32_t row = std::uint32_t((all_groups + rows - 1) / rows) * kGroup;
     struct Push {
         std::uint32_t triangle_count, record_capacity, tile_capacity, row;
         float steep, crease;
@@ -118,24 +126,34 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     recorder.compute(workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}),
                      {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
                       reads("Vertices", scene.vertices), reads("Maps", maps), reads("Neighbors", topology.neighbors),
-                      reads("Traits", topology.traits), writes("MapTriangles", *map.triangles),
-                      updates("MapCounters", counters), updates("Heads", *map.heads), writes("Records", *map.records),
-                      writes("Tiles", tiles)},
+                      writes("MapTriangles", *map.triangles),
+                      updates("MapCounters", counters), updates("Texels", *map.texels), writes("Found", found), writes("Tiles", tiles)},
                      Push{std::uint32_t(scene.triangle_count), map_pool_.records, map_pool_.tiles, row, kSteep, kCrease},
                      {row, rows});
-    recorder.compute(workspace.compute({"dispatch_tiles.comp", kDispatchTiles}), {updates("MapCounters", counters)},
-                     std::array{map_pool_.tiles, row_groups}, {1, 1});
+    const Program& dispatch = workspace.compute({"dispatch_map.comp", kDispatchMap});
+    recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
+                     std::array{0u, map_pool_.tiles, row_groups}, {1, 1});
     recorder.compute_indirect(workspace.compute({"rasterise_tiles.comp", kRasteriseTiles}),
-                              {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Maps", maps),
-                               reads("Traits", topology.traits), reads("MapTriangles", *map.triangles),
-                               updates("MapCounters", counters), updates("Heads", *map.heads),
-                               writes("Records", *map.records), reads("Tiles", tiles)},
-                              std::array{map_pool_.records, map_pool_.tiles}, counters);
+                              {reads("Maps", maps), reads("MapTriangles", *map.triangles),
+                               updates("MapCounters", counters), updates("Texels", *map.texels), writes("Found", found),
+                               reads("Tiles", tiles)},
+                              std::array{map_pool_.records, map_pool_.tiles}, groups);
+    recorder.compute(workspace.compute({"place_texels.comp", kPlaceTexels}),
+                     {reads("Maps", maps), updates("MapCounters", counters), updates("Texels", *map.texels)},
+                     {(projection.extent.width + 3) / 4, (projection.extent.height + 3) / 4});
+    recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
+                     std::array{1u, map_pool_.records, row_groups}, {1, 1});
+    recorder.compute_indirect(
+        workspace.compute({"place_records.comp", kPlaceRecords}, {scene.object_count == 1 ? 1u : 0u}),
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Traits", topology.traits),
+         updates("MapCounters", counters), reads("Texels", *map.texels), reads("Found", found),
+         writes("Records", *map.records)},
+        map_pool_.records, groups);
     recorder.copy(counters, counts_on_host(frame), sizeof(MapCount));
 
     const vk::Extent2D padded{1u << record.log2_width, 1u << record.log2_height};
     recorder.compute(workspace.compute({"summarise_texels.comp", kSummariseTexels}),
-                     {reads("Maps", maps), reads("Heads", *map.heads), reads("Records", *map.records),
+                     {reads("Maps", maps), reads("Texels", *map.texels), reads("Records", *map.records),
                       writes("Pyramid", *map.pyramid)},
                      padded);
     for (std::uint32_t level = 1; level <= std::min(record.log2_width, record.log2_height); ++level) {

@@ -18,12 +18,17 @@ struct MapRecord {
 // their w are the bits of the numbers of the triangles across the edges that start at each corner,
 // PELLUCID_NO_TRIANGLE: none.
 
-// A record: the surface of a triangle crosses its texel at depths of `range`, lowest | highest << 16.
+// A record: the surface of a triangle crosses its texel at depths of `range`, lowest | highest << 16. Those of a texel
+// lie one after the other.
 struct SurfaceRecord {
-    uint next;  // number + 1 of the texel's next record; 0: none
     uint range;
     uint triangle;  // with kContinues if its neighbours continue it smoothly, so that they have no records of their own
     uint traits;    // of its object, object_traits.glsl
+    uint reserved;
+};
+// Where they lie.
+struct TexelRecords {
+    uint first, count;
 };
 const uint kContinues = 0x80000000u;
 
@@ -38,16 +43,14 @@ uint pack_range(float low, float high) {
 }
 
 // Where the pyramid's levels start: sizes fall by four, so the starts are the digits of 1/3 in base four.
-uint level_start(MapRecord map, uint level) {
-    uint log2_area = map.log2_width + map.log2_height;
-    uint starts = (log2_area & 1u) == 0u ? 0x55555555u : 0xaaaaaaaau;
-    starts &= (2u << log2_area) - 1u;
-    uint rest = log2_area + 2u - 2u * level;
-    return map.first_node + (level == 0u ? 0u : starts & ~((1u << rest) - 1u));
+int level_start(MapRecord map, int level) {
+    int log2_area = int(map.log2_width + map.log2_height);
+    int starts = ((log2_area & 1) == 0 ? 0x55555555 : 0x2aaaaaaa) & ((2 << log2_area) - 1);
+    return int(map.first_node) + (starts & ~((4 << log2_area >> 2 * level) - 1));
 }
 
-uint node_index(MapRecord map, uint level, uvec2 cell) {
-    return level_start(map, level) + (cell.y << (map.log2_width - level)) + cell.x;
+int node_index(MapRecord map, int level, ivec2 cell) {
+    return level_start(map, level) + (cell.y << (int(map.log2_width) - level)) + cell.x;
 }
 
 uint map_levels(MapRecord map) { return min(map.log2_width, map.log2_height) + 1u; }

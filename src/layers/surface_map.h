@@ -29,7 +29,7 @@ struct SurfaceMap {
     MapProjection projection;
     const Buffer* maps;          ///< MapRecord[]
     const Buffer* triangles;     ///< world
-    const Buffer* heads;         ///< per texel: its first record's number + 1, 0: none
+    const Buffer* texels;     ///< TexelRecords[]: per texel, where its records lie
     const Buffer* records;       ///< see surface_map.glsl
     const Buffer* pyramid;       ///< uvec4[]: levels from the finest on
 };

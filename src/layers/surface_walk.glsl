@@ -8,7 +8,7 @@
 // otherwise it descends. In a texel the records whose ranges it passes are intersected exactly; where a triangle's
 // neighbours have no records of their own, the search goes on across its edges to where the ray meets the surface.
 //
-// Needs: maps, map_triangles, heads, records, pyramid (surface_map.glsl), and
+// Needs: maps, map_triangles, texels, records, pyramid (surface_map.glsl), and
 // bool can_meet(uint traits, bool leaving, uint triangle): whether a surface may be met in that sense.
 #include "layers/surface_map.glsl"
 
@@ -16,6 +16,11 @@ const float kNudge = 0.002;      // texels, over an edge of a node; less than kT
 const float kSlack = 1e-4;       // of a triangle's barycentric weights: rays through edges meet one of both sides
 const uint kMostNeighbors = 16u; // triangles walked across
 const float kFarthest = 1e30;
+
+SurfaceRecord read_record(uint number) {
+    uvec4 words = records[number];
+    return SurfaceRecord(words.x, words.y, words.z, words.w);
+}
 
 struct MapRay {
     vec3 a, way;          // map space; from a on all of the way
@@ -66,35 +71,6 @@ float way_at(MapRay ray, float t) {
     return share * ray.w_b / (share * ray.w_b + (1.0 - share) * ray.w_a);
 }
 
-// Where the ray meets the surface of which a record names one triangle.
-void meet_record(vec3 origin, vec3 direction, SurfaceRecord record, float t_min, float t_max, inout SurfaceHit hit) {
-    uint triangle = record.triangle & ~kContinues, before = PELLUCID_NO_TRIANGLE;
-    uint left = (record.triangle & kContinues) != 0u ? kMostNeighbors : 0u;
-    for (;;) {
-        vec4 a = map_triangles[3u * triangle], b = map_triangles[3u * triangle + 1u],
-             c = map_triangles[3u * triangle + 2u];
-        vec3 p = cross(direction, c.xyz), from_corner = origin - a.xyz, q = cross(from_corner, b.xyz);
-        float determinant = dot(b.xyz, p);  // minus the speed along the outward normal
-        vec3 weights;
-        weights.yz = vec2(dot(from_corner, p), dot(direction, q)) / determinant;
-        weights.x = 1.0 - weights.y - weights.z;
-        float t = dot(c.xyz, q) / determinant;
-        float least = min(weights.x, min(weights.y, weights.z));
-        if (!(abs(t) < kFarthest)) return;
-        uint next = floatBitsToUint(weights.x == least ? b.w : weights.y == least ? c.w : a.w);
-        if (least >= -kSlack || (next == before && least > -0.01)) {
-            bool leaving = determinant < 0.0;
-            if (t > t_min && t <= t_max && t < hit.t && can_meet(record.traits, leaving, triangle))
-                hit = SurfaceHit(t, triangle, record.traits, leaving);
-            return;
-        }
-        if (left == 0u || next == PELLUCID_NO_TRIANGLE || next == before) return;
-        --left;
-        before = triangle;
-        triangle = next;
-    }
-}
-
 // The nearest surface beyond `t_min`, m; `status` tells what became of the ray if there is none.
 SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, out bool in_map, out bool gave_up, inout uint visits) {
     SurfaceHit hit = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
@@ -105,35 +81,35 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
     vec2 inverse = 1.0 / mix(ray.way.xy, vec2(1e-9), lessThan(abs(ray.way.xy), vec2(1e-9)));
     vec2 ahead = vec2(greaterThan(ray.way.xy, vec2(0.0)));
     float nudge = kNudge * min(abs(inverse.x), abs(inverse.y));
-    uint top = map_levels(map) - 1u, level = 0u;
+    int top = int(map_levels(map)) - 1, level = 0;
     vec2 last_texel = vec2(map.width, map.height) - 1.0;
     float s = 0.0;
     uint budget = 4096u;
     while (s < 1.0 && budget > 0u) {
-        uvec2 cell;
-        uint low, high;
+        ivec2 cell;
+        int low, high;
         float s_out;
         bool at_leaf = false;
         while (s < 1.0 && !at_leaf && budget > 0u) {
             --budget;
             ++visits;
             vec3 here = ray.a + s * ray.way;
-            cell = uvec2(clamp(here.xy, vec2(0.0), last_texel)) >> level;
-            vec2 edge = (vec2(cell) + ahead) * float(1u << level);
+            cell = ivec2(clamp(here.xy, vec2(0.0), last_texel)) >> level;
+            vec2 edge = (vec2(cell) + ahead) * float(1 << level);
             vec2 to_edge = (edge - ray.a.xy) * inverse;
             s_out = min(min(to_edge.x, to_edge.y) + nudge, 1.0);
             s_out = max(s_out, s + 0.5 * nudge);
             float q_out = ray.a.z + s_out * ray.way.z;
-            low = uint(clamp(floor(min(here.z, q_out) * kDepthSteps) - 1.0, 0.0, kDepthSteps));
-            high = uint(clamp(ceil(max(here.z, q_out) * kDepthSteps) + 1.0, 0.0, kDepthSteps));
-            uvec4 ranges = pyramid[node_index(map, level, cell)];
-            bool passes = any(lessThanEqual(max(ranges & 0xffffu, uvec4(low)), min(ranges >> 16, uvec4(high))));
+            low = int(clamp(min(here.z, q_out) * kDepthSteps - 1.0, 0.0, kDepthSteps));
+            high = int(clamp(max(here.z, q_out) * kDepthSteps + 2.0, 0.0, kDepthSteps));
+            ivec4 ranges = ivec4(pyramid[node_index(map, level, cell)]);
+            bool passes = any(lessThanEqual(max(ranges & 0xffff, ivec4(low)), min((ranges >> 16) & 0xffff, ivec4(high))));
             if (!passes) {
                 s = s_out;
                 vec2 next = clamp(ray.a.xy + s * ray.way.xy, vec2(0.0), last_texel);
-                uvec2 parent = uvec2(next) >> (level + 1u);
-                if (level < top && parent != cell >> 1u) ++level;
-            } else if (level > 0u) {
+                ivec2 parent = ivec2(next) >> (level + 1);
+                if (level < top && parent != cell >> 1) ++level;
+            } else if (level > 0) {
                 --level;
             } else {
                 at_leaf = true;
@@ -142,11 +118,36 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         if (!at_leaf) break;
         float t_max = distance_at(ray, min(s_out + nudge, 1.0));
         t_max += 1e-5 * abs(t_max);
-        for (uint number = heads[map.first_head + cell.y * map.width + cell.x]; number != 0u;) {
-            SurfaceRecord record = records[number - 1u];
-            number = record.next;
-            if (max(record.range & 0xffffu, low) <= min(record.range >> 16, high))
-                meet_record(origin, direction, record, t_min, t_max, hit);
+        TexelRecords own = texels[int(map.first_head) + cell.y * int(map.width) + cell.x];
+        uint number = own.first, end = own.first + own.count;
+        SurfaceRecord record;
+        uint triangle = PELLUCID_NO_TRIANGLE, before, left;
+        for (;;) {
+            while (triangle == PELLUCID_NO_TRIANGLE && number < end) {
+                record = read_record(number++);
+                if (max(int(record.range & 0xffffu), low) <= min(int(record.range >> 16), high)) triangle = record.triangle & ~kContinues;
+                before = PELLUCID_NO_TRIANGLE;
+                left = (record.triangle & kContinues) != 0u ? kMostNeighbors : 0u;
+            }
+            if (triangle == PELLUCID_NO_TRIANGLE) break;
+            vec4 a = map_triangles[3u * triangle], b = map_triangles[3u * triangle + 1u],
+                 c = map_triangles[3u * triangle + 2u];
+            vec3 p = cross(direction, c.xyz), from_corner = origin - a.xyz, q = cross(from_corner, b.xyz);
+            float determinant = dot(b.xyz, p);  // minus the speed along the outward normal
+            vec3 weights;
+            weights.yz = vec2(dot(from_corner, p), dot(direction, q)) / determinant;
+            weights.x = 1.0 - weights.y - weights.z;
+            float t = dot(c.xyz, q) / determinant;
+            float least = min(weights.x, min(weights.y, weights.z));
+            uint next = floatBitsToUint(weights.x == least ? b.w : weights.y == least ? c.w : a.w);
+            bool inside = least >= -kSlack || (next == before && least > -0.01);
+            bool leaving = determinant < 0.0;
+            if (inside && t > t_min && t <= t_max && t < hit.t && can_meet(record.traits, leaving, triangle))
+                hit = SurfaceHit(t, triangle, record.traits, leaving);
+            bool on = !inside && left > 0u && next != before && abs(t) < kFarthest;
+            before = triangle;
+            triangle = on ? next : PELLUCID_NO_TRIANGLE;
+            --left;
         }
         if (hit.t < kFarthest) break;
         s = s_out;

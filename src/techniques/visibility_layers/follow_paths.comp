@@ -6,8 +6,8 @@
 
 layout(std430, set = 0, binding = 14) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 15) readonly buffer MapTriangles { vec4 map_triangles[]; };
-layout(std430, set = 0, binding = 16) readonly buffer Heads { uint heads[]; };
-layout(std430, set = 0, binding = 17) readonly buffer Records { SurfaceRecord records[]; };
+layout(std430, set = 0, binding = 16) readonly buffer Texels { TexelRecords texels[]; };
+layout(std430, set = 0, binding = 17) readonly buffer Records { uvec4 records[]; };
 layout(std430, set = 0, binding = 22) readonly buffer Pyramid { uvec4 pyramid[]; };
 
 layout(set = 0, binding = 5, rgba32f) writeonly uniform image2DArray exit_direction;

@@ -58,7 +58,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
              reads("Solids", topology.materials), reads("PixelList", list), updates("NextList", *next),
              updates("PathPlaces", places), updates("PathWays", ways), updates("PathWeights", weights),
              updates("PathMedia", media), reads("Maps", *map.maps), reads("MapTriangles", *map.triangles),
-             reads("Heads", *map.heads), reads("Records", *map.records), reads("Pyramid", *map.pyramid),
+             reads("Texels", *map.texels), reads("Records", *map.records), reads("Pyramid", *map.pyramid),
              writes("exit_direction", refraction.exit_direction), writes("exit_position", refraction.exit_position),
              writes("transmittance", refraction.transmittance), writes("path_events", refraction.events)},
             Push{event == events ? 1u : 0u, -rounding}, list);

@@ -1,0 +1,27 @@
+#version 460
+// Puts every record that the rasteriser has found into its texel.
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/frame.glsl"
+layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
+#include "layers/surface_map.glsl"
+#include "layers/map_count.glsl"
+#include "layers/objects.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
+layout(std430, set = 0, binding = 6) readonly buffer Texels { TexelRecords texels[]; };
+layout(std430, set = 0, binding = 7) readonly buffer Found { uvec4 found[]; };
+layout(std430, set = 0, binding = 8) writeonly buffer Records { uvec4 records[]; };
+layout(constant_id = 0) const bool kOneObject = false;
+layout(push_constant) uniform Push { uint capacity; };
+
+void main() {
+    uint group = gl_WorkGroupID.x * gl_NumWorkGroups.y + gl_WorkGroupID.y;
+    uint i = group * 64u + gl_LocalInvocationID.x;
+    if (i >= min(counts.records, capacity)) return;
+    uvec4 record = found[i];  // texel, number there, triangle, range
+    uint object = kOneObject ? 0u : find_object(record.z & ~kContinues);
+    uint place = texels[record.x].first + record.y;
+    if (place < capacity) records[place] = uvec4(record.w, record.z, traits[object], 0u);
+}
