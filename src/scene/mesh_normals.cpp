@@ -111,7 +111,8 @@ CornerTable corners_by_vertex(const Mesh& mesh, const std::vector<std::uint32_t>
     return table;
 }
 
-void make_creased_normals(Mesh& mesh, const std::vector<std::uint32_t>& weld, float crease_angle) {
+std::vector<std::uint32_t> make_creased_normals(Mesh& mesh, const std::vector<std::uint32_t>& weld,
+                                                float crease_angle) {
     const std::vector<glm::dvec3> areas = area_vectors(mesh);
     const std::vector<glm::vec3> smooth = smooth_normals(mesh, weld);
     const CornerTable table = corners_by_vertex(mesh, weld);
@@ -151,19 +152,20 @@ void make_creased_normals(Mesh& mesh, const std::vector<std::uint32_t>& weld, fl
     gather_vertices(mesh, source);
     mesh.normals = std::move(normals);
     mesh.triangles = std::move(triangles);
+    return source;
 }
 
 }  // namespace
 
-void make_normals(Mesh& mesh, float crease_angle) {
+std::vector<std::uint32_t> make_normals(Mesh& mesh, float crease_angle) {
     const std::vector<std::uint32_t> weld = weld_positions(mesh.positions);
-    if (crease_angle < kPi) {
-        make_creased_normals(mesh, weld, crease_angle);
-        return;
-    }
+    if (crease_angle < kPi) return make_creased_normals(mesh, weld, crease_angle);
     const std::vector<glm::vec3> smooth = smooth_normals(mesh, weld);
     mesh.normals.resize(mesh.positions.size());
     for (std::size_t v = 0; v < weld.size(); ++v) mesh.normals[v] = smooth[weld[v]];
+    std::vector<std::uint32_t> source(mesh.positions.size());
+    std::iota(source.begin(), source.end(), 0u);
+    return source;
 }
 
 std::size_t make_normals_valid(Mesh& mesh) {

@@ -76,11 +76,12 @@ bool zero_area(const Mesh& mesh, glm::uvec3 t) {
     return glm::length(glm::cross(b - a, c - a)) <= 1e-14 * longest * longest;
 }
 
-void check_solid(Mesh& mesh, Warnings& warnings) {
+/// Returns whether the mesh was turned inside out.
+bool check_solid(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
     // Edges are counted before triangles are dropped: a triangle squeezed to a line leaves no gap
     // in the surface, though its neighbours no longer share an edge.
     const EdgeCounts edges = count_edges(mesh.triangles, weld_positions(mesh.positions));
-    if (const std::size_t dropped = drop_zero_area_triangles(mesh))
+    if (const std::size_t dropped = origin.deforms ? 0 : drop_zero_area_triangles(mesh))
         warnings.add(
             fmt::format("{}: {} triangle{} without area left out", mesh.name, dropped, dropped == 1 ? "" : "s"));
     if (edges.boundary + edges.non_manifold > 0)
@@ -97,10 +98,10 @@ void check_solid(Mesh& mesh, Warnings& warnings) {
     // The whole mesh is judged, not each of its parts: the inner wall of a hollow body is rightly
     // wound the other way round. An open sheet has no volume whose sign could be believed.
     const SignedVolume volume = signed_volume(mesh);
-    if (volume.value < 0.0 && volume.meaningful()) {
-        turn_inside_out(mesh);
-        warnings.add(fmt::format("{}: was wound inside out, turned", mesh.name));
-    }
+    if (!(volume.value < 0.0 && volume.meaningful())) return false;
+    turn_inside_out(mesh);
+    warnings.add(fmt::format("{}: was wound inside out, turned", mesh.name));
+    return true;
 }
 
 }  // namespace
@@ -108,6 +109,14 @@ void check_solid(Mesh& mesh, Warnings& warnings) {
 std::vector<std::uint32_t> weld_positions(std::span<const glm::vec3> positions) {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
     return first_equal_row(reinterpret_cast<const float*>(positions.data()), positions.size(), 3);
+}
+
+std::vector<std::uint32_t> weld_vertices(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals) {
+    std::vector<float> rows;
+    rows.reserve(6 * positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        for (const glm::vec3& v : {positions[i], normals[i]}) rows.insert(rows.end(), {v.x, v.y, v.z});
+    return first_equal_row(rows.data(), positions.size(), 6);
 }
 
 void gather_vertices(Mesh& mesh, const std::vector<std::uint32_t>& source) {
@@ -126,7 +135,7 @@ void join_identical_vertices(Mesh& mesh) {
     drop_unused_vertices(mesh);
 }
 
-void drop_unused_vertices(Mesh& mesh) {
+std::vector<std::uint32_t> drop_unused_vertices(Mesh& mesh) {
     std::vector<std::uint32_t> renamed(mesh.positions.size(), kNone);
     std::vector<std::uint32_t> source;
     for (glm::uvec3& t : mesh.triangles) {
@@ -140,6 +149,7 @@ void drop_unused_vertices(Mesh& mesh) {
         }
     }
     gather_vertices(mesh, source);
+    return source;
 }
 
 EdgeCounts count_edges(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> weld) {
@@ -207,20 +217,26 @@ bool normals_oppose_winding(const Mesh& mesh) {
     return 2 * opposed > mesh.triangles.size();
 }
 
-void repair_mesh(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
+MeshRepair repair_mesh(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
+    MeshRepair repair;
     if (origin.make_normals) mesh.normals.clear();
-    if (origin.refractive) check_solid(mesh, warnings);
+    if (origin.refractive) repair.normals_turned = check_solid(mesh, origin, warnings);
+    std::vector<std::uint32_t> split;  // none of them, unless normals are made
     if (mesh.normals.empty()) {
-        make_normals(mesh, origin.crease_angle);
+        split = make_normals(mesh, origin.crease_angle);
+        repair.normals_turned = false;
     } else {
         if (const std::size_t bad = make_normals_valid(mesh))
             warnings.add(fmt::format("{}: {} normals were zero or not finite, made anew", mesh.name, bad));
         if (origin.refractive && normals_oppose_winding(mesh)) {
             for (glm::vec3& n : mesh.normals) n = -n;
+            repair.normals_turned = !repair.normals_turned;
             warnings.add(fmt::format("{}: normals pointed inwards, turned", mesh.name));
         }
     }
-    drop_unused_vertices(mesh);
+    repair.source = drop_unused_vertices(mesh);
+    if (!split.empty()) gather(split, repair.source), repair.source = std::move(split);
+    return repair;
 }
 
 }  // namespace pellucid

@@ -16,11 +16,14 @@ namespace pellucid {
 /// Files split vertices where normals or texture coordinates jump; the surface itself is only
 /// connected after such vertices count as one.
 std::vector<std::uint32_t> weld_positions(std::span<const glm::vec3> positions);
+/// The same for positions and normals together.
+std::vector<std::uint32_t> weld_vertices(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
 
 /// Makes one vertex of those that agree in all their attributes, and drops vertices without a
 /// triangle (which would otherwise count for the bounding sphere).
 void join_identical_vertices(Mesh& mesh);
-void drop_unused_vertices(Mesh& mesh);
+/// Returns for each vertex that stays the one that it was before.
+std::vector<std::uint32_t> drop_unused_vertices(Mesh& mesh);
 
 /// New vertex i becomes a copy of the old vertex source[i]; triangles stay as they are.
 void gather_vertices(Mesh& mesh, const std::vector<std::uint32_t>& source);
@@ -60,9 +63,15 @@ struct MeshOrigin {
     bool refractive = false;           ///< bounds a solid of glass, so inside and outside matter
     bool make_normals = false;         ///< Mesh::normals is ignored and made anew
     float crease_angle = 3.14159265f;  ///< for made normals, radians
+    bool deforms = false;              ///< triangles without area may get one
+};
+/// What became of a mesh's vertices.
+struct MeshRepair {
+    std::vector<std::uint32_t> source;  ///< for each vertex the one of the file that it was
+    bool normals_turned = false;        ///< those of the file are kept, and point the other way
 };
 /// Makes what a file contains usable: winding, normals, no leftovers. Everything that was changed
 /// or that will be seen as an error in the picture is added to `warnings` with the mesh's name.
-void repair_mesh(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings);
+MeshRepair repair_mesh(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings);
 
 }  // namespace pellucid
