@@ -1,6 +1,7 @@
 #pragma once
 
 // All of Pellucid's public interface.
+#include <pellucid/animation.h>
 #include <pellucid/device.h>
 #include <pellucid/environment.h>
 #include <pellucid/error.h>

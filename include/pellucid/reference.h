@@ -49,13 +49,6 @@ struct PathTracedImage {
     std::uint64_t cut_paths = 0;  ///< paths that reached max_vertices, over all pixels
 };
 
-/// New vertices of one mesh of a scene.
-struct MovedMesh {
-    int mesh = 0;                          ///< Scene::meshes
-    std::span<const glm::vec3> positions;  ///< in the mesh's own frame, as many as it has
-    std::span<const glm::vec3> normals;    ///< alike
-};
-
 /// Exact ray tracing on the CPU (Embree): the truth that techniques are held against. Shares no
 /// optics code with the renderer.
 ///

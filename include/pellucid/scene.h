@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +68,13 @@ struct Mesh {
     std::vector<glm::uvec3> triangles;    ///< counter-clockwise seen from outside
 };
 
+/// New vertices of one mesh of a scene.
+struct MovedMesh {
+    int mesh = 0;                          ///< Scene::meshes
+    std::span<const glm::vec3> positions;  ///< in the mesh's own frame, as many as it has
+    std::span<const glm::vec3> normals;    ///< alike
+};
+
 /// One placement of a mesh.
 struct Object {
     std::string name;
@@ -99,6 +108,9 @@ struct Light {
     float outer_cone_angle = 0.7853982f;                   ///< radians, > inner_cone_angle: none beyond
 };
 
+/// Nodes, animations, skins and morph targets of a file, as load_scene() read them. See pellucid/animation.h.
+struct Rig;
+
 /// A checked scene: every index is in range, every number finite, every normal of unit length.
 struct Scene {
     std::string source;  ///< what load_scene was given
@@ -109,6 +121,7 @@ struct Scene {
     std::vector<Object> objects;
     std::vector<Camera> cameras;
     std::vector<Light> lights;
+    std::shared_ptr<const Rig> rig;        ///< what pose_at() poses; copies share it; null where nothing is animated
     std::vector<std::string> warnings;     ///< one line each; what was approximated, repaired or left out
     std::uint64_t triangle_count() const;  ///< over all objects; instances count each time
 };
@@ -122,7 +135,7 @@ struct Bounds {
 /// Bounds of all objects: centre of the box, radius to the farthest vertex.
 Bounds scene_bounds(const Scene& scene);
 
-/// How files without materials of their own become glass, and how meshes are repaired.
+/// How files without materials of their own become glass, how meshes are repaired, and what animated files show.
 struct LoadOptions {
     std::optional<float> ior;                    ///< >= 1; overrides every refractive material
     std::optional<glm::vec3> attenuation_color;  ///< 0..1; likewise
@@ -131,13 +144,18 @@ struct LoadOptions {
     float crease_angle = 3.14159265f;
     /// Replace normals that a mesh file brings along by made ones.
     bool remake_normals = false;
+    /// Name, or else number from 0, of the animation whose pose is loaded. None, and no time either: the file's own
+    /// node transforms and weights.
+    std::optional<std::string> animation;
+    std::optional<double> time_s;  ///< >= 0, default 0; of the animation, or without one of the file's first
 };
 
 /// Loads a scene.
 ///
 /// `source` is a file (`.gltf`, `.glb`, `.obj`, `.ply`, `.stl`, `.off`, `.3ds`) or a procedural
 /// shape `shape:NAME[,PARAMETER=VALUE...]` (see shape_names()). glTF brings its own materials;
-/// of every other kind the whole file is glass.
+/// of every other kind the whole file is glass. Skins and morph targets of glTF are applied, at rest or as
+/// LoadOptions::animation says; meshes with a skin get vertices in the world's frame and objects at the identity.
 /// Throws Error in one line if the file is missing, malformed, empty, or requires a glTF extension
 /// that is not supported. What could be repaired or was left out is in Scene::warnings.
 Scene load_scene(const std::string& source, const LoadOptions& options = {});

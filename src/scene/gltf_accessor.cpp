@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -52,11 +53,15 @@ void place(const GltfFile& gltf, int buffer_view, std::size_t offset, std::size_
     elements.data = bytes.data() + offset;
 }
 
-Elements elements_of(const GltfFile& gltf, const tinygltf::Accessor& accessor, const std::string& user) {
+/// Of `components` values each; anything else is an error.
+Elements elements_of(const GltfFile& gltf, const tinygltf::Accessor& accessor, int components,
+                     const std::string& user) {
     Elements elements;
     elements.count = accessor.count;
     elements.component_type = accessor.componentType;
     elements.components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    if (elements.components != components)
+        fail(gltf.path, fmt::format("{}: has {} components, must have {}", user, elements.components, components));
     elements.normalized = accessor.normalized;
     const std::size_t size = element_size(gltf, accessor.componentType, elements.components, user);
     if (accessor.bufferView >= 0) {
@@ -160,26 +165,56 @@ void replace_sparse(const GltfFile& gltf, const tinygltf::Accessor& accessor, co
     }
 }
 
+/// All values of an accessor; `out` holds zeros.
+void read_into(const GltfFile& gltf, const tinygltf::Accessor& accessor, const Elements& elements, float* out,
+               const std::string& user) {
+    convert(elements, out);
+    if (accessor.sparse.isSparse) replace_sparse(gltf, accessor, elements, out, user);
+}
+
 }  // namespace
 
 template <int N>
 std::vector<glm::vec<N, float>> read_vectors(const GltfFile& gltf, int accessor, const std::string& user) {
     const tinygltf::Accessor& a = accessor_at(gltf, accessor, user);
-    const Elements elements = elements_of(gltf, a, user);
-    if (elements.components != N)
-        fail(gltf.path, fmt::format("{}: has {} components, must have {}", user, elements.components, N));
+    const Elements elements = elements_of(gltf, a, N, user);
     std::vector<glm::vec<N, float>> vectors(elements.count, glm::vec<N, float>(0.0f));
     static_assert(sizeof(glm::vec<N, float>) == N * sizeof(float));
-    if (vectors.empty()) return vectors;
-    float* const out = &vectors.front()[0];
-    convert(elements, out);
-    if (a.sparse.isSparse) replace_sparse(gltf, a, elements, out, user);
+    if (!vectors.empty()) read_into(gltf, a, elements, &vectors.front()[0], user);
     return vectors;
 }
 
 template std::vector<glm::vec2> read_vectors<2>(const GltfFile&, int, const std::string&);
 template std::vector<glm::vec3> read_vectors<3>(const GltfFile&, int, const std::string&);
 template std::vector<glm::vec4> read_vectors<4>(const GltfFile&, int, const std::string&);
+
+std::vector<float> read_fractions(const GltfFile& gltf, int accessor, int components, const std::string& user) {
+    const tinygltf::Accessor& a = accessor_at(gltf, accessor, user);
+    const Elements elements = elements_of(gltf, a, components, user);
+    if (elements.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT && !elements.normalized)
+        fail(gltf.path, fmt::format("{}: must be floats or normalized integers", user));
+    std::vector<float> values(elements.count * std::size_t(components), 0.0f);
+    if (!values.empty()) read_into(gltf, a, elements, values.data(), user);
+    if (!std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
+        fail(gltf.path, fmt::format("{}: a number is not finite", user));
+    return values;
+}
+
+std::vector<float> read_floats(const GltfFile& gltf, int accessor, int components, const std::string& user) {
+    if (accessor_at(gltf, accessor, user).componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+        fail(gltf.path, fmt::format("{}: must be floats", user));
+    return read_fractions(gltf, accessor, components, user);
+}
+
+std::vector<glm::uvec4> read_joints(const GltfFile& gltf, int accessor, const std::string& user) {
+    const tinygltf::Accessor& a = accessor_at(gltf, accessor, user);
+    if (a.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+        a.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+        fail(gltf.path, fmt::format("{}: must be unsigned bytes or shorts", user));
+    if (a.normalized) fail(gltf.path, fmt::format("{}: indices cannot be normalized", user));
+    const std::vector<glm::vec4> exact = read_vectors<4>(gltf, accessor, user);  // 16 bits fit into a float
+    return {exact.begin(), exact.end()};
+}
 
 int component_count(const GltfFile& gltf, int accessor) {
     if (accessor < 0 || std::size_t(accessor) >= gltf.model.accessors.size()) return 0;
@@ -189,8 +224,7 @@ int component_count(const GltfFile& gltf, int accessor) {
 
 std::vector<std::uint32_t> read_indices(const GltfFile& gltf, int accessor, const std::string& user) {
     const tinygltf::Accessor& a = accessor_at(gltf, accessor, user);
-    const Elements elements = elements_of(gltf, a, user);
-    if (elements.components != 1) fail(gltf.path, fmt::format("{}: indices must be scalars", user));
+    const Elements elements = elements_of(gltf, a, 1, user);
     if (a.sparse.isSparse) fail(gltf.path, fmt::format("{}: sparse indices are not supported", user));
     return integers(gltf, elements, user);
 }

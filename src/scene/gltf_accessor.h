@@ -18,6 +18,14 @@ namespace pellucid {
 template <int N>
 std::vector<glm::vec<N, float>> read_vectors(const GltfFile& gltf, int accessor, const std::string& user);
 
+/// All values of an accessor of floats or normalized integers, `components` for each element; read_floats() takes
+/// floats alone. Throws Error as above, and for numbers that are not finite.
+std::vector<float> read_fractions(const GltfFile& gltf, int accessor, int components, const std::string& user);
+std::vector<float> read_floats(const GltfFile& gltf, int accessor, int components, const std::string& user);
+
+/// Reads four unsigned 8 or 16 bit integers per element. Throws Error as above.
+std::vector<glm::uvec4> read_joints(const GltfFile& gltf, int accessor, const std::string& user);
+
 /// Number of components of an accessor's elements, 0 if there is no such accessor.
 int component_count(const GltfFile& gltf, int accessor);
 

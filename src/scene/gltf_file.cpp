@@ -197,6 +197,10 @@ void read_images(GltfFile& gltf, const json& root) {
 void parse_model(GltfFile& gltf, json root, Warnings& warnings) {
     root.erase("buffers");
     root.erase("images");
+    // Skins need not have inverse bind matrices, but tinygltf complains.
+    if (const auto skins = root.find("skins"); skins != root.end() && skins->is_array())
+        for (json& skin : *skins)
+            if (skin.is_object() && !skin.contains("inverseBindMatrices")) skin["inverseBindMatrices"] = -1;
     const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
     std::string problem, remark;
     tinygltf::TinyGLTF parser;

@@ -2,8 +2,12 @@
 #include "scene/gltf_meshes.h"
 
 #include "core/fail.h"
+#include "scene/deform_mesh.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_animations.h"
 #include "scene/gltf_materials.h"
+#include "scene/gltf_nodes.h"
+#include "scene/gltf_skins.h"
 #include "scene/mesh_repair.h"
 
 #include <fmt/format.h>
@@ -11,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace pellucid {
 namespace {
@@ -44,18 +49,115 @@ bool finite(const std::vector<T>& vectors) {
     });
 }
 
-}  // namespace
-
-GltfMeshes::GltfMeshes(const GltfFile& gltf, const LoadOptions& options, Scene& scene, Warnings& warnings)
-    : gltf_(gltf), options_(options), scene_(scene), warnings_(warnings), parts_(gltf.model.meshes.size()) {}
-
-const std::vector<GltfPart>& GltfMeshes::parts(int gltf_mesh) {
-    auto& parts = parts_[std::size_t(gltf_mesh)];
-    if (!parts) read(gltf_.model.meshes[std::size_t(gltf_mesh)], gltf_mesh, parts.emplace());
-    return *parts;
+/// Brings what deforms a mesh in line with its repaired vertices.
+void follow_repair(Shape& shape, const MeshRepair& repair, const MeshOrigin& origin) {
+    gather_influences(shape.influences, repair.source);
+    gather_targets(shape.targets, repair.source);
+    if (repair.normals_turned)
+        for (MorphTarget& target : shape.targets)
+            for (glm::vec3& n : target.normals) n = -n;
+    if (!origin.make_normals) return;
+    for (MorphTarget& target : shape.targets) target.normals.clear();
+    if (origin.crease_angle > 0.0f) {
+        shape.normal_group = weld_vertices(shape.base.positions, shape.base.normals);
+    } else {
+        // Flat triangles have vertices of their own, also where they lie in one plane now.
+        shape.normal_group.resize(shape.base.positions.size());
+        std::iota(shape.normal_group.begin(), shape.normal_group.end(), 0u);
+    }
 }
 
-void GltfMeshes::read(const tinygltf::Mesh& from, int gltf_mesh, std::vector<GltfPart>& parts) {
+}  // namespace
+
+GltfMeshes::GltfMeshes(const GltfFile& gltf, const LoadOptions& options, Scene& scene, Rig& rig, Warnings& warnings)
+    : gltf_(gltf), options_(options), scene_(scene), rig_(rig), warnings_(warnings),
+      primitives_(gltf.model.meshes.size()), skins_(gltf.model.skins.size(), -1),
+      animated_weights_(gltf.model.nodes.size(), 0) {
+    for (const Animation& animation : rig.animations)
+        for (const Channel& channel : animation.channels)
+            if (channel.part == AnimatedPart::kWeights) animated_weights_[std::size_t(channel.node)] = 1;
+}
+
+std::vector<GltfPart> GltfMeshes::parts(int node_index, const NodePose& pose) {
+    const tinygltf::Node& node = gltf_.model.nodes[std::size_t(node_index)];
+    const std::string user = gltf_node_name(gltf_, node_index);
+    const int skin = skin_of(node);
+    std::vector<GltfPart> parts;
+    for (const Primitive& primitive : primitives(node.mesh)) {
+        const Shape* const shape = primitive.shape < 0 ? nullptr : &rig_.shapes[std::size_t(primitive.shape)];
+        const bool skinned = skin >= 0 && shape && !shape->influences.first.empty();
+        if (skin >= 0 && !skinned)
+            warnings_.add(fmt::format("{}: its skin is ignored, the mesh has no joints and weights", user));
+        const bool morphed = shape && !shape->targets.empty();
+        GltfPart part{.mesh = primitive.mesh, .material = primitive.material, .in_world = skinned};
+        if (shape)
+            part.mesh = deformed_mesh({primitive.shape, skinned ? skin : -1,
+                                       morphed && animated_weights_[std::size_t(node_index)] ? node_index : -1,
+                                       morphed ? weights_of(node, user) : std::vector<float>()},
+                                      pose);
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+const std::vector<GltfMeshes::Primitive>& GltfMeshes::primitives(int gltf_mesh) {
+    auto& primitives = primitives_[std::size_t(gltf_mesh)];
+    if (!primitives) read(gltf_.model.meshes[std::size_t(gltf_mesh)], gltf_mesh, primitives.emplace());
+    return *primitives;
+}
+
+int GltfMeshes::skin_of(const tinygltf::Node& node) {
+    if (node.skin < 0) return -1;
+    if (std::size_t(node.skin) >= skins_.size()) fail(gltf_.path, fmt::format("there is no skin {}", node.skin));
+    int& skin = skins_[std::size_t(node.skin)];
+    if (skin < 0) {
+        rig_.skins.push_back(read_gltf_skin(gltf_, node.skin, rig_.tree));
+        skin = static_cast<int>(rig_.skins.size()) - 1;
+    }
+    return skin;
+}
+
+/// The node's own, else the mesh's, else zeros; one for each morph target.
+std::vector<float> GltfMeshes::weights_of(const tinygltf::Node& node, const std::string& user) {
+    const tinygltf::Mesh& mesh = gltf_.model.meshes[std::size_t(node.mesh)];
+    const std::vector<double>& given = node.weights.empty() ? mesh.weights : node.weights;
+    std::vector<float> weights(given.begin(), given.end());
+    const std::size_t targets = morph_target_count(mesh);
+    if (!weights.empty() && weights.size() != targets)
+        warnings_.add(fmt::format("{}: {} weights for {} morph targets", user, weights.size(), targets));
+    weights.resize(targets, 0.0f);
+    for (const float weight : weights)
+        if (!std::isfinite(weight)) fail(gltf_.path, fmt::format("{}: a weight is too large", user));
+    return weights;
+}
+
+/// Index into Scene::meshes of a shape deformed in one way.
+int GltfMeshes::deformed_mesh(const Deformation& how, const NodePose& pose) {
+    const auto known = deformed_.find(how);
+    if (known != deformed_.end()) return known->second;
+    const auto& [shape_index, skin, weights_node, weights] = how;
+    const Shape& shape = rig_.shapes[std::size_t(shape_index)];
+    if (skin >= 0)
+        check_influences(gltf_, shape.influences, rig_.skins[std::size_t(skin)].joints.size(), shape.base.name);
+    DeformedMesh deformed{.mesh = static_cast<int>(scene_.meshes.size()),
+                          .shape = std::size_t(shape_index),
+                          .skin = skin,
+                          .weights_node = weights_node,
+                          .weights = weights};
+    deformed.mirrored = skin_mirrors(rig_, deformed, pose);
+    DeformedVertices vertices = deform(rig_, deformed, pose);
+    if (!vertices.finite()) fail(gltf_.path, fmt::format("{}: a posed position is not finite", shape.base.name));
+    Mesh mesh = shape.base;
+    mesh.positions = std::move(vertices.positions);
+    mesh.normals = std::move(vertices.normals);
+    if (deformed.mirrored)
+        for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    scene_.meshes.push_back(std::move(mesh));
+    rig_.meshes.push_back(std::move(deformed));
+    return deformed_[how] = rig_.meshes.back().mesh;
+}
+
+void GltfMeshes::read(const tinygltf::Mesh& from, int gltf_mesh, std::vector<Primitive>& primitives) {
     const std::string number = std::to_string(gltf_mesh);
     for (std::size_t p = 0; p < from.primitives.size(); ++p) {
         const tinygltf::Primitive& primitive = from.primitives[p];
@@ -66,24 +168,38 @@ void GltfMeshes::read(const tinygltf::Mesh& from, int gltf_mesh, std::vector<Glt
             ++points_or_lines_;
             continue;
         }
-        rest_pose_ = rest_pose_ || !primitive.targets.empty();
         Mesh mesh = read_triangles(primitive, user);
         mesh.name = from.name.empty() ? "mesh " + number : from.name;
         if (from.primitives.size() > 1) mesh.name += fmt::format(" primitive {}", p);
         const int material = material_of(primitive, user);
+
+        Shape shape;
+        const std::size_t vertices = mesh.positions.size();
+        shape.targets = read_gltf_targets(gltf_, primitive, vertices, user, warnings_);
+        if (!gltf_.model.skins.empty())
+            shape.influences = read_gltf_influences(gltf_, primitive, vertices, user, warnings_);
+        const bool deforms = !shape.targets.empty() || !shape.influences.first.empty();
 
         MeshOrigin origin;
         origin.refractive = scene_.materials[std::size_t(material)].refractive();
         origin.make_normals = mesh.normals.empty() || options_.remake_normals;
         // glTF asks for flat triangles where a file brings no normals (section 3.7.2.1).
         origin.crease_angle = options_.remake_normals ? options_.crease_angle : 0.0f;
-        repair_mesh(mesh, origin, warnings_);
+        origin.deforms = deforms;
+        const MeshRepair repair = repair_mesh(mesh, origin, warnings_);
         if (mesh.triangles.empty()) {
             warnings_.add(fmt::format("{}: no triangles, left out", mesh.name));
             continue;
         }
-        scene_.meshes.push_back(std::move(mesh));
-        parts.push_back({static_cast<int>(scene_.meshes.size()) - 1, material});
+        if (deforms) {
+            shape.base = std::move(mesh);
+            follow_repair(shape, repair, origin);
+            rig_.shapes.push_back(std::move(shape));
+            primitives.push_back({.shape = static_cast<int>(rig_.shapes.size()) - 1, .material = material});
+        } else {
+            scene_.meshes.push_back(std::move(mesh));
+            primitives.push_back({.mesh = static_cast<int>(scene_.meshes.size()) - 1, .material = material});
+        }
     }
 }
 
@@ -170,8 +286,6 @@ void GltfMeshes::warn_about_leftovers() {
     if (points_or_lines_ > 0)
         warnings_.add(fmt::format("{}: {} primitive{} of points or lines left out", file, points_or_lines_,
                                   points_or_lines_ == 1 ? "" : "s"));
-    if (rest_pose_ || !gltf_.model.animations.empty() || !gltf_.model.skins.empty())
-        warnings_.add(fmt::format("{}: animations, skins and morph targets are drawn in their rest pose", file));
 }
 
 }  // namespace pellucid

@@ -1,17 +1,22 @@
-// Nodes and cameras of glTF 2.0 (Khronos Group, glTF 2.0 Specification, 2021, sections 3.5, 3.10).
+// Objects and cameras of glTF 2.0 (Khronos Group, glTF 2.0 Specification, 2021, sections 3.5, 3.10).
 #include "scene/load_gltf.h"
 
 #include "core/fail.h"
 #include "core/math.h"
+#include "scene/gltf_animations.h"
 #include "scene/gltf_file.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
+#include "scene/gltf_nodes.h"
+#include "scene/pose_nodes.h"
+#include "scene/rig.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace pellucid {
 namespace {
@@ -26,113 +31,89 @@ bool finite(const glm::dmat4& m) {
 class SceneReader {
 public:
     SceneReader(const GltfFile& gltf, const LoadOptions& options, Scene& scene, Warnings& warnings)
-        : gltf_(gltf), scene_(scene), warnings_(warnings), meshes_(gltf, options, scene, warnings) {}
+        : gltf_(gltf), options_(options), scene_(scene), warnings_(warnings) {}
 
     void read() {
-        struct Placed {
-            int node;
-            glm::dmat4 world_from_parent;
-        };
-        std::vector<Placed> open;  // a stack of our own: files nest as deeply as they like
-        const std::vector<int> tops = roots();
-        for (auto top = tops.rbegin(); top != tops.rend(); ++top) open.push_back({*top, glm::dmat4(1.0)});
-        std::vector<char> visited(gltf_.model.nodes.size(), 0);
-        while (!open.empty()) {
-            const Placed placed = open.back();
-            open.pop_back();
-            if (placed.node < 0 || std::size_t(placed.node) >= visited.size())
-                fail(gltf_.path, fmt::format("there is no node {}", placed.node));
-            // Nodes form trees. One that is reached twice may be its own ancestor, or double the
-            // scene at each of many levels.
-            if (visited[std::size_t(placed.node)]++)
-                fail(gltf_.path, fmt::format("node {} has more than one parent, or is its own ancestor", placed.node));
-            const tinygltf::Node& node = gltf_.model.nodes[std::size_t(placed.node)];
-            const glm::dmat4 world = placed.world_from_parent * local_matrix(node, placed.node);
-            if (!finite(world))
-                fail(gltf_.path, fmt::format("{}: transform is not finite", name_of(node, placed.node)));
-            add_objects(node, placed.node, world);
-            add_camera(node, placed.node, world);
-            add_gltf_light(gltf_, node, name_of(node, placed.node), world, scene_, warnings_);
-            for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-                open.push_back({*child, world});
+        const GltfNodes nodes = read_gltf_nodes(gltf_);
+        rig_.tree = nodes.tree;
+        rig_.animations = read_gltf_animations(gltf_, rig_.tree, warnings_);
+        const NodePose pose =
+            pose_nodes(rig_.tree, chosen_animation(gltf_, rig_.animations, options_), options_.time_s.value_or(0.0));
+        GltfMeshes meshes(gltf_, options_, scene_, rig_, warnings_);
+        for (std::size_t i = 0; i < nodes.in_scene; ++i) {
+            const int index = rig_.tree.order[i];
+            const tinygltf::Node& node = gltf_.model.nodes[std::size_t(index)];
+            const glm::dmat4& world = pose.world_from_node[std::size_t(index)];
+            const std::string name = gltf_node_name(gltf_, index);
+            if (!finite(world)) fail(gltf_.path, fmt::format("{}: transform is not finite", name));
+            if (node.mesh >= 0) add_objects(meshes, index, name, pose);
+            add_camera(node, index, world);
+            add_gltf_light(gltf_, node, name, world, scene_, warnings_);
         }
-        meshes_.warn_about_leftovers();
+        meshes.warn_about_leftovers();
+        keep_rig();
     }
 
 private:
-    static std::string name_of(const tinygltf::Node& node, int index) {
-        return node.name.empty() ? fmt::format("node {}", index) : node.name;
-    }
-
-    /// Root nodes of the default scene, else of the first, else all that are nobody's child.
-    std::vector<int> roots() const {
-        const auto& scenes = gltf_.model.scenes;
-        if (!scenes.empty()) {
-            const int chosen = std::max(gltf_.model.defaultScene, 0);
-            if (std::size_t(chosen) >= scenes.size()) fail(gltf_.path, fmt::format("there is no scene {}", chosen));
-            return scenes[std::size_t(chosen)].nodes;
-        }
-        std::vector<char> is_child(gltf_.model.nodes.size(), 0);
-        for (const tinygltf::Node& node : gltf_.model.nodes)
-            for (const int child : node.children)
-                if (child >= 0 && std::size_t(child) < is_child.size()) is_child[std::size_t(child)] = 1;
-        std::vector<int> nodes;
-        for (std::size_t i = 0; i < is_child.size(); ++i)
-            if (!is_child[i]) nodes.push_back(static_cast<int>(i));
-        return nodes;
-    }
-
-    glm::dmat4 local_matrix(const tinygltf::Node& node, int index) const {
-        const auto check_size = [&](const std::vector<double>& values, std::size_t size, const char* what) {
-            if (!values.empty() && values.size() != size)
-                fail(gltf_.path, fmt::format("{}: {} has {} numbers instead of {}", name_of(node, index), what,
-                                             values.size(), size));
-            return !values.empty();
-        };
-        if (check_size(node.matrix, 16, "matrix")) {
-            const glm::dmat4 m = glm::make_mat4(node.matrix.data());
-            if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
-                fail(gltf_.path, fmt::format("{}: matrix is not affine", name_of(node, index)));
-            return m;
-        }
-        glm::dmat4 m(1.0);
-        if (check_size(node.translation, 3, "translation"))
-            m = glm::translate(m, glm::make_vec3(node.translation.data()));
-        if (check_size(node.rotation, 4, "rotation")) {
-            const auto& r = node.rotation;
-            const glm::dquat q(r[3], r[0], r[1], r[2]);
-            const double length = glm::length(q);
-            if (!(length > 0.0)) fail(gltf_.path, fmt::format("{}: rotation is zero", name_of(node, index)));
-            m *= glm::mat4_cast(q / length);
-        }
-        if (check_size(node.scale, 3, "scale")) m = glm::scale(m, glm::make_vec3(node.scale.data()));
-        return m;
-    }
-
-    void add_objects(const tinygltf::Node& node, int index, const glm::dmat4& world) {
-        if (node.mesh < 0) return;
-        const std::string name = name_of(node, index);
-        if (std::size_t(node.mesh) >= gltf_.model.meshes.size())
-            fail(gltf_.path, fmt::format("{}: there is no mesh {}", name, node.mesh));
-        // Objects are taken back to their own frame in 32 bits, so the inverse must exist there.
+    /// Objects are taken back to their own frame in 32 bits, so the inverse must exist there.
+    static bool invertible(const glm::dmat4& world) {
         const glm::dmat3 linear(world);
         const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
         const double volume = std::abs(glm::determinant(linear));
-        if (volume <= 1e-9 * lengths || volume < 1e-30 || volume > 1e30) {
-            warnings_.add(fmt::format("{}: scaled to nothing or out of all proportion, left out", name));
-            return;
+        return volume > 1e-9 * lengths && volume >= 1e-30 && volume <= 1e30;
+    }
+
+    void add_objects(GltfMeshes& meshes, int node, const std::string& name, const NodePose& pose) {
+        const int mesh = gltf_.model.nodes[std::size_t(node)].mesh;
+        if (std::size_t(mesh) >= gltf_.model.meshes.size())
+            fail(gltf_.path, fmt::format("{}: there is no mesh {}", name, mesh));
+        const glm::dmat4& world = pose.world_from_node[std::size_t(node)];
+        const bool rigid = invertible(world);
+        const std::string left_out = fmt::format("{}: scaled to nothing or out of all proportion, left out", name);
+        if (!rigid && gltf_.model.nodes[std::size_t(node)].skin < 0) return warnings_.add(left_out);
+        for (const GltfPart& part : meshes.parts(node, pose)) {
+            // A skin says where in the world its vertices are, whatever the node's own transform is.
+            if (part.in_world) {
+                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(1.0f)});
+            } else if (rigid) {
+                rig_.objects.push_back({static_cast<int>(scene_.objects.size()), node});
+                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(world)});
+            } else {
+                warnings_.add(left_out);
+            }
         }
-        for (const GltfPart& part : meshes_.parts(node.mesh))
-            scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(world)});
+    }
+
+    /// What the file's animations move is all that posing needs.
+    void keep_rig() {
+        if (rig_.animations.empty()) return;
+        std::vector<char> moved(rig_.tree.rest.size(), 0), deformed(rig_.meshes.size(), 0);
+        for (const Animation& animation : rig_.animations) {
+            const std::vector<char> nodes = moved_nodes(rig_.tree, animation);
+            for (std::size_t n = 0; n < moved.size(); ++n) moved[n] = moved[n] || nodes[n];
+            for (std::size_t m = 0; m < deformed.size(); ++m)
+                deformed[m] = deformed[m] || moves(rig_, animation, nodes, rig_.meshes[m]);
+        }
+        std::erase_if(rig_.objects, [&](const NodeObject& object) { return !moved[std::size_t(object.node)]; });
+        std::erase_if(rig_.meshes, [&, m = std::size_t(0)](const DeformedMesh&) mutable { return !deformed[m++]; });
+        std::vector<char> used(rig_.shapes.size(), 0);
+        for (const DeformedMesh& mesh : rig_.meshes) used[mesh.shape] = 1;
+        for (std::size_t i = 0; i < used.size(); ++i) {
+            Shape& shape = rig_.shapes[i];
+            if (!used[i]) shape = {};
+            shape.base.texcoords[0] = shape.base.texcoords[1] = {};
+            shape.base.colors = {};
+        }
+        scene_.rig = std::make_shared<const Rig>(std::move(rig_));
     }
 
     void add_camera(const tinygltf::Node& node, int index, const glm::dmat4& world) {
         if (node.camera < 0) return;
         if (std::size_t(node.camera) >= gltf_.model.cameras.size())
-            fail(gltf_.path, fmt::format("{}: there is no camera {}", name_of(node, index), node.camera));
+            fail(gltf_.path, fmt::format("{}: there is no camera {}", gltf_node_name(gltf_, index), node.camera));
         const tinygltf::Camera& from = gltf_.model.cameras[std::size_t(node.camera)];
         Camera camera;
-        camera.name = !from.name.empty() ? from.name : name_of(node, index);
+        camera.name = !from.name.empty() ? from.name : gltf_node_name(gltf_, index);
         camera.orthographic = from.type == "orthographic";
         const double near_plane = camera.orthographic ? from.orthographic.znear : from.perspective.znear;
         const double far_plane = camera.orthographic ? from.orthographic.zfar : from.perspective.zfar;
@@ -159,9 +140,10 @@ private:
     }
 
     const GltfFile& gltf_;
+    const LoadOptions& options_;
     Scene& scene_;
     Warnings& warnings_;
-    GltfMeshes meshes_;
+    Rig rig_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "core/fail.h"
 #include "core/file_extension.h"
 #include "core/math.h"
+#include "scene/animation_names.h"
 #include "scene/load_gltf.h"
 #include "scene/load_mesh_file.h"
 #include "scene/mesh_repair.h"
@@ -36,6 +37,7 @@ void check(const LoadOptions& options) {
     // The constant is pi rounded to a float, as is the option's default.
     if (!(options.crease_angle >= 0.0f && options.crease_angle <= kPi))
         throw Error(fmt::format("crease angle {}: must be within 0..pi radians", options.crease_angle));
+    if (options.time_s) check_animation_time(*options.time_s);
 }
 
 /// A scene of one solid made of glass.
@@ -61,12 +63,14 @@ Scene glass_scene(Mesh mesh, const LoadOptions& options, bool keep_normals, Warn
 }
 
 Scene load_by_kind(const std::string& source, const LoadOptions& options, Warnings& warnings) {
+    const std::filesystem::path file(source);
+    const std::string extension = lower_extension(file);
+    const bool gltf = !source.starts_with(kShapePrefix) && (extension == ".gltf" || extension == ".glb");
+    if (!gltf && (options.animation || options.time_s)) fail(source, "has no animations");
     if (source.starts_with(kShapePrefix))
         // A shape knows its normals exactly; made ones would only be worse.
         return glass_scene(load_shape(source.substr(kShapePrefix.size())), options, true, warnings);
-    const std::filesystem::path file(source);
-    const std::string extension = lower_extension(file);
-    if (extension == ".gltf" || extension == ".glb") return load_gltf(file, options, warnings);
+    if (gltf) return load_gltf(file, options, warnings);
     if (std::find(kMeshExtensions.begin(), kMeshExtensions.end(), extension) != kMeshExtensions.end()) {
         Mesh mesh = load_mesh_file(file, warnings);
         return glass_scene(std::move(mesh), options, !options.remake_normals, warnings);

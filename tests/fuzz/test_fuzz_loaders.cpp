@@ -1,9 +1,11 @@
 // Small valid files of every kind that is read, damaged at random but always in the same way: each
 // loads or is refused with an Error. Anything else (another exception, a crash, a sanitizer's report)
 // is a bug. A file that is slow to refuse shows as the test's time limit.
+#include "unit/animated_gltf.h"
 #include "unit/gltf_builder.h"
 #include "unit/test_files.h"
 
+#include <pellucid/animation.h>
 #include <pellucid/environment.h>
 #include <pellucid/image.h>
 
@@ -101,6 +103,22 @@ void fuzz(const std::string& name, const std::string& good, const std::function<
 
 void load_checked(const std::string& file) { EXPECT_EQ(broken_promise(load_scene(file)), ""); }
 
+/// At rest and in every animation: a pose is refused or fits the scene.
+void load_posed(const std::string& file) {
+    const Scene scene = load_scene(file);
+    EXPECT_EQ(broken_promise(scene), "");
+    const std::size_t count = animations(scene).size();
+    for (std::size_t animation = 0; animation < count; ++animation) {
+        Scene posed = scene;
+        const Pose pose = pose_at(scene, animation, 1.7);
+        for (const PosedMesh& mesh : pose.meshes) {
+            posed.meshes.at(std::size_t(mesh.mesh)).positions = mesh.positions;
+            posed.meshes.at(std::size_t(mesh.mesh)).normals = mesh.normals;
+        }
+        EXPECT_EQ(broken_promise(posed), "");
+    }
+}
+
 void load_image(const std::string& file) {
     const Image image = read_image(file);
     EXPECT_EQ(image.pixels.size(), std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels));
@@ -188,10 +206,32 @@ GltfBuilder rich_gltf() {
     return b;
 }
 
+/// A skinned bar with morph targets, dense and sparse, and every kind of channel.
+GltfBuilder animated_gltf() {
+    GltfBuilder b = hinged_bar();
+    const int up = b.attribute<float>({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0}, kFloat, "VEC3", 3);
+    const int which = b.view<std::uint8_t>({1, 4});
+    const int values = b.view<float>({0, 0, 1, 0, 0, 2});
+    const int sparse = b.accessor(-1, kFloat, "VEC3", 6,
+                                  {{"sparse",
+                                    {{"count", 2},
+                                     {"indices", {{"bufferView", which}, {"componentType", kUnsignedByte}}},
+                                     {"values", {{"bufferView", values}}}}}});
+    b.root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", up}, {"NORMAL", sparse}}, {{"POSITION", sparse}}};
+    b.root["meshes"][0]["weights"] = {0.5, 0};
+    b.node({{"mesh", 0}, {"weights", {0, 1}}, {"translation", {3, 0, 0}}});
+    b.root["scenes"][0]["nodes"] = {0, 1, 3};
+    add_channel(b, 0, "weights", {0, 1, 2}, {0, 0, 1, 0, 1, 1}, "SCALAR", 1, "STEP");
+    std::vector<float> spline(18);
+    for (std::size_t i = 0; i < spline.size(); ++i) spline[i] = float(i % 5);
+    add_channel(b, 1, "translation", {0, 2}, spline, "VEC3", 3, "CUBICSPLINE", 1);
+    add_channel(b, 3, "scale", {0, 2}, {1, 1, 1, 2, 3, 4}, "VEC3", 3, "LINEAR", 1);
+    return b;
+}
+
 /// As text, with its buffer inside.
-std::string gltf_text() {
+std::string gltf_text(GltfBuilder b) {
     constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    GltfBuilder b = rich_gltf();
     b.bin.resize((b.bin.size() + 2) / 3 * 3);
     std::string base64;
     for (std::size_t i = 0; i < b.bin.size(); i += 3) {
@@ -224,8 +264,10 @@ TEST(FuzzMeshes, ThreeDs) {
         GTEST_SKIP() << "glmark2's cube.3ds is not here; PELLUCID_GLMARK2_MODELS names its folder";
     fuzz("a.3ds", content_of(cube), load_checked);
 }
-TEST(FuzzGltf, Text) { fuzz("a.gltf", gltf_text(), load_checked); }
+TEST(FuzzGltf, Text) { fuzz("a.gltf", gltf_text(rich_gltf()), load_checked); }
 TEST(FuzzGltf, Binary) { fuzz("a.glb", rich_gltf().glb_bytes(), load_checked); }
+TEST(FuzzGltf, AnimatedText) { fuzz("animated.gltf", gltf_text(animated_gltf()), load_posed); }
+TEST(FuzzGltf, AnimatedBinary) { fuzz("animated.glb", animated_gltf().glb_bytes(), load_posed); }
 TEST(FuzzImages, Png) { fuzz("a.png", image_bytes("a.png", 4), load_image, kImageRounds); }
 TEST(FuzzImages, Exr) { fuzz("a.exr", image_bytes("a.exr", 3), load_map, kImageRounds); }
 TEST(FuzzImages, Hdr) { fuzz("a.hdr", hdr_bytes(), load_map, kImageRounds); }

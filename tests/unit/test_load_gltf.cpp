@@ -404,13 +404,6 @@ TEST(LoadGltf, Extensions) {
     EXPECT_EQ(load_error(file), file + ": requires glTF extension KHR_draco_mesh_compression, which is not supported");
 }
 
-TEST(LoadGltf, AnimatedThingsAreDrawnAtRest) {
-    const Scene scene = load_primitive([](GltfBuilder&, json& primitive) {
-        primitive["targets"] = {{{"POSITION", 0}}};
-    });
-    EXPECT_EQ(warnings_with(scene, "rest pose"), 1u);
-}
-
 TEST(LoadGltf, RefractiveMeshesAreRepaired) {
     const TemporaryFolder folder;
     GltfBuilder b;
