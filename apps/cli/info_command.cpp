@@ -1,29 +1,76 @@
 #include "commands.h"
+#include "options.h"
+
+#include "core/fail.h"
 
 #include <pellucid/pellucid.h>
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace pellucid::cli {
+namespace {
+
+struct InfoArguments {
+    std::string scene;
+    SceneArguments how;
+};
+
+void print_devices() {
+    fmt::print("pellucid {}\n", version());
+    const std::vector<DeviceInfo> devices = list_devices();
+    bool usable = false;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        const DeviceInfo& device = devices[i];
+        fmt::print("{}: {} ({}, Vulkan {}{}{})\n", i, device.name, device.type, device.api_version,
+                   device.driver.empty() ? "" : ", ", device.driver);
+        for (const std::string& missing : device.missing) fmt::print("   not usable: lacks {}\n", missing);
+        for (const std::string& absent : device.absent) fmt::print("   without {}\n", absent);
+        usable = usable || device.missing.empty();
+    }
+    if (!usable) throw DeviceError("no usable Vulkan device; a software one comes with Mesa's Vulkan drivers");
+    // The device itself is made as well: a driver may list a device that it then cannot open.
+    fmt::print("default: {}\n", Renderer().device().name);
+}
+
+std::string counted(std::size_t count, const std::string& what, const std::string& plural) {
+    return fmt::format("{} {}", count, count == 1 ? what : plural);
+}
+
+/// What a scene holds, one thing per line; needs no device.
+void print_scene(const InfoArguments& arguments) {
+    const Scene scene = load_scene(arguments.scene, load_options(arguments.how));
+    const Bounds bounds = scene_bounds(scene);
+    const glm::vec3 low = bounds.center - bounds.half_size, high = bounds.center + bounds.half_size;
+    fmt::print("{}: {}, {}, {}\n", arguments.scene, counted(scene.objects.size(), "object", "objects"),
+               counted(scene.meshes.size(), "mesh", "meshes"),
+               counted(scene.triangle_count(), "triangle", "triangles"));
+    fmt::print("box: {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g} m\n", low.x, low.y, low.z, high.x, high.y, high.z);
+    for (const Camera& camera : scene.cameras) fmt::print("camera: {}\n", one_line(camera.name));
+    for (const Light& light : scene.lights) fmt::print("light: {}\n", one_line(light.name));
+    const std::vector<AnimationInfo> known = animations(scene);
+    for (std::size_t i = 0; i < known.size(); ++i)
+        fmt::print("animation {}: {}, {:.6g} s, deforms {}, moves {}\n", i, one_line(known[i].name),
+                   known[i].duration_s, counted(known[i].meshes.size(), "mesh", "meshes"),
+                   counted(known[i].objects.size(), "object", "objects"));
+    print_warnings(scene.warnings);
+}
+
+}  // namespace
 
 void add_info_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("info", "Print the Vulkan devices found and what they lack");
-    command->callback([] {
-        fmt::print("pellucid {}\n", version());
-        const std::vector<DeviceInfo> devices = list_devices();
-        bool usable = false;
-        for (std::size_t i = 0; i < devices.size(); ++i) {
-            const DeviceInfo& device = devices[i];
-            fmt::print("{}: {} ({}, Vulkan {}{}{})\n", i, device.name, device.type, device.api_version,
-                       device.driver.empty() ? "" : ", ", device.driver);
-            for (const std::string& missing : device.missing) fmt::print("   not usable: lacks {}\n", missing);
-            for (const std::string& absent : device.absent) fmt::print("   without {}\n", absent);
-            usable = usable || device.missing.empty();
-        }
-        if (!usable) throw DeviceError("no usable Vulkan device; a software one comes with Mesa's Vulkan drivers");
-        // The device itself is made as well: a driver may list a device that it then cannot open.
-        fmt::print("default: {}\n", Renderer().device().name);
-    });
+    auto arguments = std::make_shared<InfoArguments>();
+    CLI::App* command =
+        app.add_subcommand("info", "Print the Vulkan devices found and what they lack, or what a scene holds");
+    command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    CLI::Option* const scene = command->add_option("scene", arguments->scene, shape_help())->type_name("SCENE");
+    add_scene_options(*command, arguments->how);
+    for (CLI::Option* const option : command->get_options())
+        if (option != scene && option != command->get_help_ptr()) option->needs(scene);
+    command->callback([arguments, scene] { scene->count() > 0 ? print_scene(*arguments) : print_devices(); });
 }
 
 }  // namespace pellucid::cli

@@ -41,6 +41,12 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
         ->capture_default_str()
         ->check(CLI::Range(0.0, 180.0));
     command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");
+    command
+        .add_option("--animation", arguments.animation,
+                    "Animation of a glTF file, by name or number ('pellucid info SCENE' lists them), whose pose is "
+                    "shown; default: the file at rest, or with --time its first animation")
+        ->type_name("NAME|N");
+    add_number(command, "--time", arguments.time_s, "Time in the animation, s, from 0 (default 0)")->type_name("S");
 }
 
 LoadOptions load_options(const SceneArguments& arguments) {
@@ -53,6 +59,8 @@ LoadOptions load_options(const SceneArguments& arguments) {
     if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
     options.crease_angle = radians_from_degrees(float(arguments.crease_angle_deg));
     options.remake_normals = arguments.remake_normals;
+    options.animation = arguments.animation;
+    options.time_s = arguments.time_s;
     return options;
 }
 

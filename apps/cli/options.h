@@ -33,6 +33,8 @@ struct SceneArguments {
     std::optional<double> attenuation_distance;
     double crease_angle_deg = 180.0;
     bool remake_normals = false;
+    std::optional<std::string> animation;
+    std::optional<double> time_s;
 };
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
 LoadOptions load_options(const SceneArguments& arguments);

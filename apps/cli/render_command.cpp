@@ -115,6 +115,8 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"triangles", scene.triangle_count()},
                                 {"covered", result.covered},
                                 {"side_conflicts", result.side_conflicts}};
+    if (arguments.how.animation) json["animation"] = *arguments.how.animation;
+    if (arguments.how.time_s) json["time_s"] = *arguments.how.time_s;
     json["parameters"] = describe_parameters(find_technique(settings.technique), settings.parameters);
     for (std::uint32_t status = 0; status < kStatusCount; ++status) {
         const double share = result.covered > 0 ? double(result.status[status]) / double(result.covered) : 0.0;

@@ -1,7 +1,9 @@
 """Scene files that are missing, damaged or strange."""
+import base64
 import json
 import math
 import os
+import struct
 
 import cli
 from cli import CliTest, TETRAHEDRON
@@ -81,6 +83,69 @@ class SceneFiles(CliTest):
         self.write(name, TETRAHEDRON)
         self.assert_rendered(self.render(name, "--json", "out.json"))
         json.loads(self.read("out.json").decode())
+
+
+class Animations(CliTest):
+    """A triangle that "slide" moves away from where the camera looks, in 2 s, and "rest" leaves alone."""
+
+    def animated(self, **changes):
+        numbers = struct.pack("<9f2f6f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 9, 0, 0)
+        views = [{"buffer": 0, "byteOffset": start, "byteLength": size} for start, size in ((0, 36), (36, 8), (44, 24))]
+        accessors = [{"bufferView": view, "componentType": 5126, "type": kind, "count": count}
+                     for view, kind, count in ((0, "VEC3", 3), (1, "SCALAR", 2), (2, "VEC3", 2))]
+        uri = "data:application/octet-stream;base64," + base64.b64encode(numbers).decode()
+        slide = {"name": "slide", "samplers": [{"input": 1, "output": 2}],
+                 "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}
+        rest = {"name": "rest", "samplers": [], "channels": []}
+        return self.write("a.gltf", gltf(**{"bufferViews": views, "accessors": accessors, "animations": [slide, rest],
+                                            "buffers": [{"byteLength": len(numbers), "uri": uri}], **changes}))
+
+    def picture(self, *arguments):
+        self.assert_rendered(self.render("a.gltf", *arguments))
+        return self.read("out.png")
+
+    def test_pictures(self):
+        self.animated()
+        rest = self.picture()
+        self.assertEqual(rest, self.picture("--animation", "slide"))
+        self.assertEqual(rest, self.picture("--animation", "rest", "--time", "2"))
+        moved = self.picture("--animation", "slide", "--time", "2", "--json", "out.json")
+        self.assertNotEqual(rest, moved)
+        described = json.loads(self.read("out.json"))
+        self.assertEqual((described["animation"], described["time_s"]), ("slide", 2))
+        for same in (["--time", "2"], ["--animation", "0", "--time", "99.5"]):
+            self.assertEqual(moved, self.picture(*same))
+
+    def test_info(self):
+        self.animated()
+        result = self.run_cli("info", "a.gltf")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("a.gltf: 1 object, 1 mesh, 1 triangle\n", result.stdout)
+        self.assertIn("box: 0 0 0 to 1 1 0 m\n", result.stdout)
+        self.assertIn("camera: front\n", result.stdout)
+        self.assertIn("animation 0: slide, 2 s, deforms 0 meshes, moves 1 object\n", result.stdout)
+        self.assertIn("animation 1: rest, 0 s, deforms 0 meshes, moves 0 objects\n", result.stdout)
+        result = self.run_cli("info", "a.gltf", "--animation", "slide", "--time", "1")
+        self.assertIn("box: 4.5 0 0 to 5.5 1 0 m\n", result.stdout)
+
+    def test_refused(self):
+        self.animated()
+        for command in (["render", "-o", "out.png"], ["compare"], ["info"]):
+            for words, arguments in ((["a.gltf", "'walk'", "known: slide, rest"], ["--animation", "walk"]),
+                                     (["'2'", "known: slide, rest"], ["--animation", "2"]),
+                                     (["time -1"], ["--time", "-1"]), (["time -1"], ["--animation", "slide", "--time", "-1"]),
+                                     (["--time", "nan"], ["--time", "nan"]), (["--time", "inf"], ["--time", "inf"]),
+                                     (["--time", "soon"], ["--time", "soon"])):
+                with self.subTest(command=command, arguments=arguments):
+                    self.assert_refused(self.run_cli(command[0], "a.gltf", *command[1:], *arguments), *words)
+        bench = self.run_cli("bench", "a.gltf", "--animation", "walk")  # the head of its table stands before any scene
+        self.assertEqual(bench.returncode, 2)
+        self.assertRegex(bench.stderr, r"\Apellucid: a.gltf: [^\n]*'walk'; known: slide, rest\n\Z")
+        self.assert_refused(self.run_cli("info", "shape:cube", "--time", "1"), "shape:cube", "no animations")
+        self.assert_refused(self.run_cli("info", "--time", "1"), "scene")
+        self.animated(animations=[])
+        self.assert_refused(self.run_cli("info", "a.gltf", "--animation", "slide"), "a.gltf", "no animations")
+        self.assertEqual(self.files(), ["a.gltf"])
 
 
 class Cameras(CliTest):
