@@ -1,5 +1,8 @@
 // Renderer::set_positions(): a deformed mesh is drawn as if the scene had been set with it.
 #include "gpu/gpu_test.h"
+#include "unit/animated_gltf.h"
+
+#include <pellucid/animation.h>
 
 namespace pellucid::test {
 namespace {
@@ -61,11 +64,36 @@ void expect_same(const RenderResult& a, const RenderResult& b, const std::string
 class Deforming : public RendererTest {
 protected:
     std::vector<std::string> drawn() {
-        std::vector<std::string> names = {"one-interface", "wyman-2005", "oliveira-brauwers-2007", "wang-2014", "reference"};
+        std::vector<std::string> names = {"one-interface", "wyman-2005", "oliveira-brauwers-2007", "wang-2014",
+                                          "reference"};
         if (renderer().lacking(find_technique("ray-tracing")).empty()) names.emplace_back("ray-tracing");
         return names;
     }
 };
+
+TEST_F(Deforming, PosesOfAFileAreDrawnAsIfLoadedThere) {
+    const TemporaryFolder folder;
+    GltfBuilder bar = hinged_bar();
+    bar.root["materials"] = {{{"extensions",
+                               {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                                {"KHR_materials_volume", {{"thicknessFactor", 1}}}}}}};
+    bar.root["meshes"][0]["primitives"][0]["material"] = 0;
+    const std::string file = bar.gltf(folder);
+    LoadOptions options;
+    options.time_s = 2.5;
+    const Scene rest = load_scene(file), there = load_scene(file, options);
+    const Pose pose = pose_at(rest, find_animation(rest, "bend"), 2.5);
+
+    renderer().set_scene(rest);
+    const RenderResult before = renderer().render(settings_for("wang-2014"));
+    renderer().set_positions(pose.moved_meshes());
+    const RenderResult posed = renderer().render(settings_for("wang-2014"));
+    renderer().set_scene(there);
+    const RenderResult loaded = renderer().render(settings_for("wang-2014"));
+    EXPECT_GT(posed.covered, 0u);
+    EXPECT_NE(posed.radiance.pixels, before.radiance.pixels);
+    expect_same(posed, loaded, "bar");
+}
 
 TEST_F(Deforming, DrawsWhatAFreshRendererDraws) {
     const Scene rest = scene_of_three();
