@@ -61,6 +61,8 @@ void check_material(const Material& m, const std::string& what, std::size_t imag
     require(finite(m.base_color) && finite(m.emission) && std::isfinite(m.transmission), what,
             "a factor is not finite");
     require(m.ior >= 1.0f && std::isfinite(m.ior), what, "the index of refraction must be at least 1");
+    require(m.dispersion >= 0.0f && std::isfinite(m.dispersion), what,
+            "the dispersion must be finite and not negative");
     require(m.attenuation_distance > 0.0f, what, "the attenuation distance must be above 0");
     const glm::vec3 c = m.attenuation_color;
     require(finite(c) && c.r >= 0.0f && c.g >= 0.0f && c.b >= 0.0f, what,

@@ -238,6 +238,7 @@ TEST_F(RendererSuite, WhatIsBuiltByHandIsChecked) {
     refuse([](Scene& s) { s.objects[0].world_from_object[0] = glm::vec4(0.0f); }, "invertible");
     refuse([](Scene& s) { s.materials[0].base_color_texture.image = 0; }, "image that is not there");
     refuse([](Scene& s) { s.materials[0].ior = 0.5f; }, "index of refraction");
+    refuse([](Scene& s) { s.materials[0].dispersion = -1.0f; }, "dispersion");
     refuse([](Scene& s) { s.images.resize(1); }, "one name per image");
 
     Environment map;
