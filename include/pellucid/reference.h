@@ -30,6 +30,9 @@ struct ExactSettings {
     std::uint32_t max_events = 16;  ///< K: a path of more has Status::kEventLimit; 1..65535
     glm::dvec2 shift_px{0.0};       ///< moves every primary ray from the centre of its pixel, right and down
     std::uint32_t packet = 1;       ///< rays traced together: 1, 4, 8, 16; the result is the same
+    /// Colour channel at whose indices of refraction dispersive glass (Material::dispersion) bends and reflects the
+    /// path: 0 red (C line), 1 green (d line, Material::ior), 2 blue (F line). Without dispersion all are alike.
+    std::uint32_t channel = 1;
 };
 
 /// What the path tracer is asked for.
@@ -80,7 +83,8 @@ public:
 
     /// Unidirectional path tracing with next-event estimation (Kajiya 1986; Veach 1997, chapters 9
     /// and 10). Light of point, spot and directional lights does not come through refracting glass:
-    /// a path can only meet such a light by aiming at it.
+    /// a path can only meet such a light by aiming at it. From the first boundary of dispersive glass on a path
+    /// follows one colour channel.
     PathTracedImage path_trace(const Camera& camera, const Environment& environment, const PathTraceSettings& settings,
                                const Progress& progress = {}) const;
 

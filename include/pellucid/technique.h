@@ -36,8 +36,8 @@ struct TechniqueInfo {
     std::span<const ParameterInfo> parameters;
     /// Traces rays on the CPU: the truth that the others are held against, not a frame's work.
     bool reference = false;
-    /// Its picture has all light: reflections inside, opaque things behind glass, lamps, metal, rough glass.
-    /// RenderSettings::samples are paths per pixel.
+    /// Its picture has all light: reflections inside, opaque things behind glass, lamps, metal, rough glass,
+    /// dispersion. RenderSettings::samples are paths per pixel.
     bool all_light = false;
     /// Gives each of several refracting objects its own medium; otherwise they count as one solid behind
     /// the first surface.

@@ -12,8 +12,9 @@ constexpr SurfaceKinds kMet = only(SurfaceKind::kOpaque) | only(SurfaceKind::kRe
 
 }  // namespace
 
-ExactPath::ExactPath(const Geometry& geometry, std::uint32_t max_events)
-    : geometry_(geometry), max_events_(max_events), inside_(geometry.solids()), beyond_(geometry.solids()) {}
+ExactPath::ExactPath(const Geometry& geometry, std::uint32_t max_events, int channel)
+    : geometry_(geometry), max_events_(max_events), channel_(channel), inside_(geometry.solids()),
+      beyond_(geometry.solids()) {}
 
 void ExactPath::start(const CameraRay& ray, const MediumStack& inside) {
     ray_.origin = ray.origin;
@@ -56,7 +57,7 @@ void ExactPath::travel(const Hit& hit) {
 /// path through the triangle (1 to 4 in 100 reflections in scanned or modelled animals): it leaks out,
 /// and cross() puts it on the far side.
 void ExactPath::bend(const Hit& hit) {
-    const double n_i = inside_.medium().ior, n_t = beyond_.medium().ior;
+    const double n_i = inside_.medium().ior[channel_], n_t = beyond_.medium().ior[channel_];
     const glm::dvec3 outward = geometry_.shading_normal(hit);
     const glm::dvec3 normal = hit.crossing.sense == Sense::kEntering ? outward : -outward;
     const Incidence in = incidence(ray_.direction, normal, n_i, n_t);

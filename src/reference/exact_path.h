@@ -13,7 +13,8 @@ namespace pellucid::reference {
 /// One exact path on its way from surface to surface. Made once per lane and used for many pixels.
 class ExactPath {
 public:
-    ExactPath(const Geometry& geometry, std::uint32_t max_events);
+    /// `channel`: whose indices of refraction it follows, kRed to kBlue.
+    ExactPath(const Geometry& geometry, std::uint32_t max_events, int channel);
 
     /// Starts anew. `inside`: the solids around ray.origin.
     void start(const CameraRay& ray, const MediumStack& inside);
@@ -31,6 +32,7 @@ private:
 
     const Geometry& geometry_;
     std::uint32_t max_events_;
+    int channel_;
     Query ray_;
     MediumStack inside_;              ///< the solids around the origin
     MediumStack beyond_;              ///< those behind the boundaries that are being met

@@ -20,8 +20,8 @@ class Block {
 public:
     Block(const Geometry& geometry, const ExactSettings& settings)
         : geometry_(geometry), settings_(settings), size_(block_size(settings.packet)),
-          paths_(settings.packet, ExactPath(geometry, settings.max_events)), queries_(settings.packet),
-          active_(settings.packet), hits_(settings.packet) {}
+          paths_(settings.packet, ExactPath(geometry, settings.max_events, int(settings.channel))),
+          queries_(settings.packet), active_(settings.packet), hits_(settings.packet) {}
 
     glm::uvec2 size() const { return size_; }
 
@@ -79,6 +79,8 @@ void check_exact_settings(const ExactSettings& s) {
     if (s.packet != 1 && s.packet != 4 && s.packet != 8 && s.packet != 16) {
         throw Error(fmt::format("rays are traced in packets of 1, 4, 8 or 16, not {}", s.packet));
     }
+    if (s.channel > std::uint32_t(kBlue))
+        throw Error(fmt::format("the channels are 0 (red), 1 and 2 (blue), not {}", s.channel));
     if (!std::isfinite(s.shift_px.x) || !std::isfinite(s.shift_px.y)) {
         throw Error("the shift of the primary rays is not finite");
     }

@@ -23,6 +23,7 @@ void check_exact_settings(const ExactSettings& settings);
 /// - A path that starts in glass begins in its medium. One that is in a closed solid and finds no
 ///   surface any more has Status::kMissingLayer: a flaw of the search or of the mesh.
 /// - Thin-walled surfaces do not bend light; their tint is not part of `transmittance`.
+/// - Indices of refraction, and the Fresnel share of all of `transmittance`, are those of settings.channel.
 /// - Without any interface `position` is the eye (orthographic: its point in the camera's plane) and
 ///   `length` 0.
 /// Throws Error for settings or a camera out of range. `threads` 0: all cores.

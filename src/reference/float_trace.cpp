@@ -79,8 +79,8 @@ struct Media {
             around = object;
         }
     }
-    float ior(const Geometry& geometry) const {
-        return inside == kAir ? 1.0f : float(geometry.solids()[std::size_t(inside)].medium.ior);
+    float ior(const Geometry& geometry, int channel) const {
+        return inside == kAir ? 1.0f : float(geometry.solids()[std::size_t(inside)].medium.ior[channel]);
     }
 };
 
@@ -213,8 +213,9 @@ private:
         ++lane.events;
         const glm::vec3 outward =
             glm::normalize(geometry.unnormalized_normal(object, hit.primID[i], hit.u[i], hit.v[i]));
-        lane.direction =
-            bend(lane.direction, entering ? outward : -outward, lane.media.ior(geometry), beyond.ior(geometry));
+        const int channel = int(view_.settings.channel);
+        lane.direction = bend(lane.direction, entering ? outward : -outward, lane.media.ior(geometry, channel),
+                              beyond.ior(geometry, channel));
         // The side follows from the triangle, as in exact(): the interpolated normal may mean another.
         if ((glm::dot(of_triangle, lane.direction) < 0.0f) == (side < 0.0f)) lane.media = beyond;
         return true;

@@ -70,7 +70,7 @@ Geometry::Geometry(const Scene& scene, const TracerOptions& options)
         objects_[i].kind = kind_of(m);
         objects_[i].has_holes = objects_[i].kind != SurfaceKind::kRefractive && m.alpha_cutoff > 0.0f;
         objects_[i].mirrored = glm::determinant(glm::dmat3(scene.objects[i].world_from_object)) < 0.0;
-        solids_[i].medium = {double(m.ior), glm::dvec3(m.sigma_a())};
+        solids_[i].medium = {channel_iors(double(m.ior), double(m.dispersion)), glm::dvec3(m.sigma_a())};
         solids_[i].closed = closed[std::size_t(scene.objects[i].mesh)] != 0;
         place(i, mesh(i).positions, mesh(i).normals);
         attach(i);

@@ -17,11 +17,25 @@
 
 namespace pellucid::reference {
 
+/// Colour channels as components of vectors.
+inline constexpr int kRed = 0, kGreen = 1, kBlue = 2;
+
 /// Index of refraction and absorption of what fills a place.
 struct Medium {
-    double ior = 1.0;
+    glm::dvec3 ior{1.0};      ///< for red, green and blue light
     glm::dvec3 sigma_a{0.0};  ///< absorption coefficient, 1/m
+
+    /// True if colours part at its boundary.
+    bool disperses() const { return ior[kRed] != ior[kBlue]; }
 };
+
+/// Indices of refraction for red, green and blue: `ior` is that at the d line, `dispersion` 20 / V_d as glTF's
+/// KHR_materials_dispersion has it. V_d = (n_d - 1) / (n_F - n_C) gives the spread between blue and red, half of
+/// which the extension ("Implementation") puts on either side of green. No index falls below 1.
+inline glm::dvec3 channel_iors(double ior, double dispersion) {
+    const double spread = (ior - 1.0) * dispersion / 20.0;
+    return {std::max(1.0, ior - 0.5 * spread), ior, ior + 0.5 * spread};
+}
 
 /// Share of the light that is left after a distance, m (Beer-Lambert). No way or no absorption leaves all of it,
 /// whatever the other is.

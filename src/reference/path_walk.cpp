@@ -58,6 +58,7 @@ void PathWalk::start(const CameraRay& ray, const MediumStack& inside) {
     inside_ = inside;
     throughput_ = glm::dvec3(1.0);
     radiance_ = glm::dvec3(0.0);
+    channel_.reset();
     pdf_ = 0.0;
 }
 
@@ -152,7 +153,10 @@ bool PathWalk::meet_solid(const Hit& hit, Random& random) {
     // A solid's base colour tints light once on its way through, where the path comes in, as does the
     // renderer. The same goes for the opaque part: it is a coat of the outside.
     const glm::dvec3 tint = entering ? glm::dvec3(vertex.base) : glm::dvec3(1.0);
-    return scatter(vertex, InterfaceBsdf(inside_.medium().ior, beyond_.medium().ior, double(material.roughness), tint),
+    const Medium here = inside_.medium(), there = beyond_.medium();
+    if (!channel_ && (here.disperses() || there.disperses())) choose_channel(random);
+    const int channel = channel_.value_or(kGreen);  // without dispersion all are alike
+    return scatter(vertex, InterfaceBsdf(here.ior[channel], there.ior[channel], double(material.roughness), tint),
                    random);
 }
 
@@ -195,6 +199,16 @@ bool PathWalk::survives(Random& random) {
     if (!(random.next() < most)) return false;
     throughput_ /= most;
     return true;
+}
+
+/// Leaves the path one channel, with a probability in proportion to what it carries; divided by that, it then
+/// carries there what all three did.
+void PathWalk::choose_channel(Random& random) {
+    const double sum = throughput_.r + throughput_.g + throughput_.b;
+    const double at = random.next() * sum;
+    channel_ = at < throughput_.r ? kRed : at < throughput_.r + throughput_.g ? kGreen : kBlue;
+    throughput_ = glm::dvec3(0.0);
+    throughput_[*channel_] = sum;
 }
 
 /// The path leaves the scene. In an open mesh it may seem to be inside glass of no end, which then does

@@ -13,6 +13,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pellucid::reference {
@@ -35,6 +36,9 @@ struct PathWorld {
 /// combined by the power heuristic. Light that was chosen by its source comes through holes and smooth
 /// panes, but not through refracting glass, so what a path finds behind such glass, or in any perfect
 /// mirror, counts in full.
+///
+/// Colours part at the first boundary of a dispersive medium: the path goes on with one channel, at whose
+/// indices it is refracted from there on.
 class PathWalk {
 public:
     explicit PathWalk(const PathWorld& world)
@@ -77,6 +81,7 @@ private:
     Bsdf opaque_bsdf(const Vertex& vertex) const;
     bool scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random);
     bool survives(Random& random);
+    void choose_channel(Random& random);
 
     void see_environment();
     void add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
@@ -91,6 +96,7 @@ private:
     MediumStack beyond_;  ///< those on the other side of the surface at hand
     glm::dvec3 throughput_{1.0};
     glm::dvec3 radiance_{0.0};
+    std::optional<int> channel_;  ///< the only one that the path still carries; none: all
     /// Density, per steradian, with which the last surface that scattered chose the ray's direction; 0 if
     /// no source can choose this path.
     double pdf_ = 0.0;

@@ -7,6 +7,7 @@
 namespace pellucid {
 
 std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique) {
+    if (technique.all_light) return {};
     std::set<int> used;
     std::size_t refractive = 0, thin = 0, opaque = 0;
     for (const Object& object : scene.objects) {
@@ -23,7 +24,6 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
         if (material.refractive() && material.dispersion > 0.0f) {
             lines.push_back(fmt::format("material {}: dispersion is not drawn", name));
         }
-        if (technique.all_light) continue;
         if (material.transmissive() && material.roughness > 0.0f) {
             lines.push_back(fmt::format("material {}: rough glass is drawn smooth", name));
         }
@@ -34,7 +34,6 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
             lines.push_back(fmt::format("material {}: metal is drawn as a diffuse surface", name));
         }
     }
-    if (technique.all_light) return lines;
     if (refractive > 1 && !technique.many_media) {
         lines.push_back(fmt::format("behind the first surface {} refracting objects count as one solid", refractive));
     }

@@ -232,6 +232,7 @@ TEST(ExactRefraction, RefusesSettingsThatMakeNoSense) {
     refuses({.max_events = 65536});
     refuses({.shift_px = {0.0, std::numeric_limits<double>::quiet_NaN()}});
     refuses({.packet = 2});
+    refuses({.channel = 3});
     Camera flat = camera;
     flat.vertical_fov = 0.0f;
     EXPECT_THROW(tracer.exact(flat, {}), Error);

@@ -14,13 +14,6 @@ namespace {
 
 using namespace test;
 
-Environment uniform(float radiance) {
-    Environment environment;
-    environment.kind = Environment::Kind::kUniform;
-    environment.uniform_radiance = glm::vec3(radiance);
-    return environment;
-}
-
 Scene load_glass(const char* shape, float ior) {
     LoadOptions options;
     options.ior = ior;
@@ -143,16 +136,6 @@ TEST(PathTracer, MetalNeverShinesBrighterThanTheFurnace) {
             EXPECT_GE(seen.radiance.g, roughness < 0.5f ? 0.92f : 0.5f) << "light between facets is lost";
         }
     }
-}
-
-/// Radiance (1, 0, 0) straight along -Z and (0, 1, 0) along +Z: what a slab lets through and throws back.
-Environment two_sides() {
-    Environment environment;
-    environment.kind = Environment::Kind::kMap;
-    environment.map = Image(2, 1, 3);
-    environment.map.at(0, 0)[0] = 1.0f;
-    environment.map.at(1, 0)[1] = 1.0f;
-    return environment;
 }
 
 TEST(PathTracer, SlabReflectsAndTransmitsAsItsSeriesSays) {

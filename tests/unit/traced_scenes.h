@@ -3,6 +3,7 @@
 // Scenes for the exact tracer, and what is asked of its paths.
 #include "test_meshes.h"
 
+#include <pellucid/environment.h>
 #include <pellucid/reference.h>
 #include <pellucid/scene.h>
 
@@ -71,6 +72,25 @@ inline Scene scene_of(Mesh mesh, const Material& material = glass()) {
     Scene scene;
     add(scene, std::move(mesh), material);
     return scene;
+}
+
+inline Environment uniform(float radiance) {
+    Environment environment;
+    environment.kind = Environment::Kind::kUniform;
+    environment.uniform_radiance = glm::vec3(radiance);
+    return environment;
+}
+
+/// Radiance `ahead` straight along -Z and `behind` along +Z: what a slab lets through and throws back.
+inline Environment two_sides(glm::vec3 ahead = {1, 0, 0}, glm::vec3 behind = {0, 1, 0}) {
+    Environment environment;
+    environment.kind = Environment::Kind::kMap;
+    environment.map = Image(2, 1, 3);
+    for (int c = 0; c < 3; ++c) {
+        environment.map.at(0, 0)[c] = ahead[c];
+        environment.map.at(1, 0)[c] = behind[c];
+    }
+    return environment;
 }
 
 /// An orthographic camera whose rays all run along `direction`, the middle one through `target`.
