@@ -33,14 +33,15 @@ struct Texture {
 struct Material {
     std::string name;
 
-    glm::vec4 base_color{1.0f};  ///< linear RGB 0..1, alpha 0..1; tints what is transmitted
-    Texture base_color_texture;  ///< multiplies base_color; its image is sRGB-encoded
-    float metallic = 0.0f;       ///< 0..1
-    float roughness = 0.0f;      ///< perceptual, 0..1
-    glm::vec3 emission{0.0f};    ///< linear radiance, emissive strength included
-    Texture emission_texture;    ///< multiplies emission; its image is sRGB-encoded
-    float alpha_cutoff = 0.0f;   ///< fragments with less alpha are left out; 0 keeps all
-    bool unlit = false;          ///< shows base_color itself
+    glm::vec4 base_color{1.0f};          ///< linear RGB 0..1, alpha 0..1; tints what is transmitted
+    Texture base_color_texture;          ///< multiplies base_color; its image is sRGB-encoded
+    float metallic = 0.0f;               ///< 0..1
+    float roughness = 0.0f;              ///< perceptual, 0..1; the square root of the width of the GGX lobe
+    Texture metallic_roughness_texture;  ///< green multiplies roughness, blue metallic (linear)
+    glm::vec3 emission{0.0f};            ///< linear radiance, emissive strength included
+    Texture emission_texture;            ///< multiplies emission; its image is sRGB-encoded
+    float alpha_cutoff = 0.0f;           ///< fragments with less alpha are left out; 0 keeps all
+    bool unlit = false;                  ///< shows base_color itself
     bool double_sided = false;
 
     float transmission = 0.0f;          ///< 0..1; share of the light that enters instead of scattering at the surface

@@ -19,9 +19,10 @@ struct TracedView {
 struct Frame {
     Workspace& workspace;
     const GpuScene& scene;
-    const Buffer& constants;         ///< one gpu::FrameConstants, bound as "Frame"
-    const GpuImage& environment;     ///< map, or one texel if the environment is a formula
-    std::uint32_t environment_kind;  ///< pellucid::Environment::Kind
+    const Buffer& constants;               ///< one gpu::FrameConstants, bound as "Frame"
+    const GpuImage& environment;           ///< map, or one texel if the environment is a formula
+    const GpuImage& filtered_environment;  ///< see gpu/environment_images.h; what stands in for it if !scene.rough
+    std::uint32_t environment_kind;        ///< pellucid::Environment::Kind
     vk::Extent2D extent;
     const TracedView* traced = nullptr;  ///< for techniques that trace on the CPU; null for others
 };

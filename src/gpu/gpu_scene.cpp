@@ -109,6 +109,10 @@ gpu::MaterialRecord material_record(const Material& material, TextureTable& text
     record.base_color_texture = textures.add(material.base_color_texture, true);
     record.emission_texture = textures.add(material.emission_texture, true);
     record.transmission_texture = textures.add(material.transmission_texture, false);
+    record.metallic_roughness_texture = textures.add(material.metallic_roughness_texture, false);
+    record.metallic = material.metallic;
+    record.roughness = material.roughness;
+    record.dispersion = material.dispersion;
     return record;
 }
 
@@ -149,6 +153,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
                             std::uint32_t(object_records.size())};
         auto& list = material.refractive() ? refractive : material.transmissive() ? thin_walled : opaque;
         list.push_back(call);
+        rough = rough || (material.transmissive() ? material.roughness > 0.0f : !material.unlit);
         if (material.refractive()) {
             const bool textured = material.base_color_texture.image >= 0 || material.transmission_texture.image >= 0;
             if (textured || !mesh.colors.empty()) textured_refractive.push_back(call);

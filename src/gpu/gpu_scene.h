@@ -48,6 +48,7 @@ struct GpuScene {
     std::vector<DrawCall> textured_refractive;   ///< those of them whose surface varies in colour or transmission
     std::vector<DrawCall> thin_walled;           ///< transmissive surfaces that do not bend light
     std::vector<DrawCall> opaque;
+    bool rough = false;  ///< something reflects or refracts a blurred environment
     Bounds bounds;
     std::vector<glm::vec3> refractive_corners;  ///< corners of the refractive objects' boxes, world
     std::optional<SceneTopology> topology;  ///< see prepare_topology()

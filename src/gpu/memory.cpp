@@ -1,5 +1,7 @@
 #include "gpu/memory.h"
 
+#include "core/math.h"
+
 #include <pellucid/error.h>
 
 #include <fmt/format.h>
@@ -213,6 +215,14 @@ void upload(const Device& device, const GpuImage& image, std::uint32_t layer, st
             change_layout(commands, image, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eGeneral);
         });
     });
+}
+
+void upload_rgb(const Device& device, const GpuImage& destination, const Image& image) {
+    std::vector<glm::vec4> texels(std::size_t(image.width) * std::size_t(image.height));
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        texels[i] = glm::vec4(image.pixels[3 * i], image.pixels[3 * i + 1], image.pixels[3 * i + 2], 1.0f);
+    }
+    upload(device, destination, 0, std::as_bytes(std::span(texels)));
 }
 
 std::vector<std::byte> download(const Device& device, const GpuImage& image, std::uint32_t layer) {

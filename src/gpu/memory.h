@@ -2,6 +2,8 @@
 
 #include "gpu/device.h"
 
+#include <pellucid/image.h>
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -73,6 +75,9 @@ std::uint32_t texel_size(vk::Format format);
 /// Fills a device buffer (from byte `offset` on) or one layer of an image from host memory, and waits for it.
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize offset = 0);
 void upload(const Device& device, const GpuImage& image, std::uint32_t layer, std::span<const std::byte> data);
+
+/// Fills an RGBA32F image with `image`, RGB of the same size; alpha is 1.
+void upload_rgb(const Device& device, const GpuImage& destination, const Image& image);
 
 /// One layer of an image, tightly packed rows from the top, after all submitted work.
 std::vector<std::byte> download(const Device& device, const GpuImage& image, std::uint32_t layer);

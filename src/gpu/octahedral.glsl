@@ -8,18 +8,25 @@ vec2 sign_not_zero(vec2 v) {
     return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }
 
-// The length of n does not matter, as long as it is not 0.
-uint pack_direction(vec3 n) {
+// Place of a direction in the square -1..1. The length of n does not matter, as long as it is not 0.
+vec2 octahedral_from_direction(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
-    if (n.z < 0.0) p = (1.0 - abs(p.yx)) * sign_not_zero(p);
-    return packSnorm2x16(p);
+    return n.z < 0.0 ? (1.0 - abs(p.yx)) * sign_not_zero(p) : p;
+}
+
+// The point of the octahedron abs(x) + abs(y) + abs(z) = 1 at such a place; not of unit length.
+vec3 octahedron_point(vec2 p) {
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * sign_not_zero(n.xy);
+    return n;
+}
+
+uint pack_direction(vec3 n) {
+    return packSnorm2x16(octahedral_from_direction(n));
 }
 
 vec3 unpack_unit_vector(uint packed) {
-    vec2 p = unpackSnorm2x16(packed);
-    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * sign_not_zero(n.xy);
-    return normalize(n);
+    return normalize(octahedron_point(unpackSnorm2x16(packed)));
 }
 
 #endif

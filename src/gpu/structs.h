@@ -23,6 +23,13 @@ using uint = std::uint32_t;
 #define PELLUCID_TEXTURE_SRGB 2u
 #define PELLUCID_TEXTURE_SECOND_SET 4u
 
+// The environment's pyramid (environment_pyramid.glsl) and its filtered levels (filter_levels.glsl), texels.
+#define PELLUCID_PYRAMID_SIZE 512
+#define PELLUCID_PYRAMID_LEVELS 8
+#define PELLUCID_FILTER_SIZE 256
+#define PELLUCID_FILTER_LEVELS 8
+#define PELLUCID_FILTER_WIDTH 608  // of all levels side by side
+
 struct FrameConstants {
     mat4 view_from_world;
     mat4 world_from_view;
@@ -66,6 +73,10 @@ struct MaterialRecord {
     uint base_color_texture;
     uint emission_texture;
     uint transmission_texture;
+    uint metallic_roughness_texture;
+    float metallic;
+    float roughness;  // perceptual
+    float dispersion;
     uint reserved0;
 };
 
@@ -86,7 +97,7 @@ struct TextureRecord {
 #ifdef __cplusplus
 static_assert(sizeof(FrameConstants) == 3 * 64 + 16 + 3 * 16 + 16 + 9 * 16);
 static_assert(sizeof(ObjectRecord) == 144);
-static_assert(sizeof(MaterialRecord) == 80);
+static_assert(sizeof(MaterialRecord) == 96);
 static_assert(sizeof(TextureRecord) == 64);
 }  // namespace pellucid::gpu
 #endif

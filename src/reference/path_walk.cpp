@@ -126,9 +126,12 @@ void PathWalk::emit(const Vertex& vertex) {
 }
 
 Bsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
-    const Material& material = vertex.material;
-    return OpaqueBsdf(glm::dvec3(vertex.base), double(material.metallic), double(material.roughness),
-                      double(material.ior));
+    const auto [metallic, roughness] = metallic_roughness(world_.scene, vertex.material, vertex.attributes);
+    return OpaqueBsdf(glm::dvec3(vertex.base), double(metallic), double(roughness), double(vertex.material.ior));
+}
+
+double PathWalk::roughness_at(const Vertex& vertex) const {
+    return double(metallic_roughness(world_.scene, vertex.material, vertex.attributes).roughness);
 }
 
 /// Glass with probability `transmission`, else the opaque surface that is mixed into it.
@@ -146,7 +149,6 @@ bool PathWalk::meet_solid(const Hit& hit, Random& random) {
         return true;
     }
     const Vertex vertex = vertex_at(interface, ray_.direction);
-    const Material& material = vertex.material;
     const bool entering = interface.crossing.sense == Sense::kEntering;
     if (entering) emit(vertex);
     if (entering && !transmits(vertex, random)) return scatter(vertex, opaque_bsdf(vertex), random);
@@ -156,15 +158,13 @@ bool PathWalk::meet_solid(const Hit& hit, Random& random) {
     const Medium here = inside_.medium(), there = beyond_.medium();
     if (!channel_ && (here.disperses() || there.disperses())) choose_channel(random);
     const int channel = channel_.value_or(kGreen);  // without dispersion all are alike
-    return scatter(vertex, InterfaceBsdf(here.ior[channel], there.ior[channel], double(material.roughness), tint),
-                   random);
+    return scatter(vertex, InterfaceBsdf(here.ior[channel], there.ior[channel], roughness_at(vertex), tint), random);
 }
 
 bool PathWalk::meet_pane(const Vertex& vertex, Random& random) {
     emit(vertex);
     if (!transmits(vertex, random)) return scatter(vertex, opaque_bsdf(vertex), random);
-    return scatter(vertex,
-                   PaneBsdf(double(vertex.material.ior), double(vertex.material.roughness), glm::dvec3(vertex.base)),
+    return scatter(vertex, PaneBsdf(double(vertex.material.ior), roughness_at(vertex), glm::dvec3(vertex.base)),
                    random);
 }
 
@@ -274,7 +274,7 @@ glm::dvec3 PathWalk::pane_transmittance(Query query) {
         const Hit hit = world_.geometry.intersect(query);
         if (!hit.found) return share;
         const Vertex pane = vertex_at(hit, query.direction);
-        const PaneBsdf bsdf(double(pane.material.ior), double(pane.material.roughness), glm::dvec3(pane.base));
+        const PaneBsdf bsdf(double(pane.material.ior), roughness_at(pane), glm::dvec3(pane.base));
         if (!bsdf.only_mirrors()) return glm::dvec3(0.0);
         share *= bsdf.straight_through(-glm::dot(pane.normal, query.direction)) *
                  double(transmission(world_.scene, pane.material, pane.attributes));

@@ -79,6 +79,7 @@ private:
     void emit(const Vertex& vertex);
     bool transmits(const Vertex& vertex, Random& random) const;
     Bsdf opaque_bsdf(const Vertex& vertex) const;
+    double roughness_at(const Vertex& vertex) const;
     bool scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random);
     bool survives(Random& random);
     void choose_channel(Random& random);

@@ -110,4 +110,10 @@ float transmission(const Scene& scene, const Material& material, const SurfaceAt
                          sample_texture(scene, material.transmission_texture, Encoding::kLinear, attributes).r);
 }
 
+MetallicRoughness metallic_roughness(const Scene& scene, const Material& material,
+                                     const SurfaceAttributes& attributes) {
+    const glm::vec4 texel = sample_texture(scene, material.metallic_roughness_texture, Encoding::kLinear, attributes);
+    return {to_unit_range(material.metallic * texel.b), to_unit_range(material.roughness * texel.g)};
+}
+
 }  // namespace pellucid::reference

@@ -36,6 +36,12 @@ glm::vec3 emission(const Scene& scene, const Material& material, const SurfaceAt
 /// Transmission with its texture, 0..1.
 float transmission(const Scene& scene, const Material& material, const SurfaceAttributes& attributes);
 
+struct MetallicRoughness {
+    float metallic, roughness;  ///< 0..1
+};
+/// Both with their texture.
+MetallicRoughness metallic_roughness(const Scene& scene, const Material& material, const SurfaceAttributes& attributes);
+
 /// Whether the alpha test leaves this point of the surface out.
 inline bool cut_out(const Material& material, const glm::vec4& base) { return base.a < material.alpha_cutoff; }
 

@@ -1,5 +1,6 @@
 #include <pellucid/renderer.h>
 
+#include "gpu/environment_images.h"
 #include "render/aovs.h"
 #include "render/approximations.h"
 #include "render/camera_constants.h"
@@ -54,25 +55,6 @@ void check_settings(const RenderSettings& settings, const Device& device) {
     check_aov_names(settings.aovs);
 }
 
-/// Fills an RGBA32F image with `image`, RGB of the same size.
-void upload_rgb(const Device& device, const GpuImage& destination, const Image& image) {
-    std::vector<glm::vec4> texels(std::size_t(image.width) * std::size_t(image.height));
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        texels[i] = glm::vec4(image.pixels[3 * i], image.pixels[3 * i + 1], image.pixels[3 * i + 2], 1.0f);
-    }
-    upload(device, destination, 0, std::as_bytes(std::span(texels)));
-}
-
-GpuImage upload_environment(const Device& device, const Environment& environment) {
-    const bool map = environment.kind == Environment::Kind::kMap;
-    const Image image = map ? environment.map : Image(1, 1, 3);
-    GpuImage result(device, "the environment map", vk::Format::eR32G32B32A32Sfloat,
-                    {std::uint32_t(image.width), std::uint32_t(image.height)}, 1,
-                    vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
-    upload_rgb(device, result, image);
-    return result;
-}
-
 Image rgb_image(vk::Extent2D extent, const std::vector<std::byte>& data, float scale) {
     Image image(int(extent.width), int(extent.height), 3);
     for (std::size_t i = 0; i < std::size_t(extent.width) * extent.height; ++i) {
@@ -119,6 +101,8 @@ struct Renderer::Impl {
     std::optional<GpuScene> scene;
     Environment environment;
     std::optional<GpuImage> environment_map;
+    std::optional<GpuImage> filtered_environment;     // of `environment`; made once a scene needs it
+    std::optional<GpuImage> no_filtered_environment;  // for scenes that do not
     std::optional<Buffer> constants;
     std::optional<Camera> camera;        // set by the caller
     std::optional<Camera> scene_camera;  // the scene's first
@@ -143,7 +127,16 @@ struct Renderer::Impl {
                           RenderResult& result);
     void set_constants(const RenderSettings& settings, glm::vec2 jitter);
     Camera camera_for(const RenderSettings& settings) const;
+    const GpuImage& filtered_environment_for_scene();
 };
+
+const GpuImage& Renderer::Impl::filtered_environment_for_scene() {
+    if (filtered_environment) return *filtered_environment;
+    if (scene->rough)
+        return filtered_environment.emplace(filter_environment(workspace, recorder, environment, *environment_map));
+    if (!no_filtered_environment) no_filtered_environment.emplace(pellucid::no_filtered_environment(device));
+    return *no_filtered_environment;
+}
 
 Camera Renderer::Impl::camera_for(const RenderSettings& settings) const {
     if (camera) return *camera;
@@ -292,6 +285,7 @@ void Renderer::set_positions(const std::vector<MovedMesh>& moved) {
 
 void Renderer::set_environment(const Environment& environment) {
     check_environment(environment);
+    impl_->filtered_environment.reset();
     impl_->environment_map = upload_environment(impl_->device, environment);
     impl_->environment = environment;
     gpu::FrameConstants& values = impl_->environment_constants;
@@ -316,6 +310,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
                       *impl.scene,
                       *impl.constants,
                       *impl.environment_map,
+                      impl.filtered_environment_for_scene(),
                       std::uint32_t(impl.environment.kind),
                       {settings.width, settings.height}};
     impl.workspace.trim();

@@ -54,12 +54,14 @@ void check_mesh(const Mesh& mesh, const std::string& what) {
 }
 
 void check_material(const Material& m, const std::string& what, std::size_t images) {
-    for (const Texture* texture : {&m.base_color_texture, &m.emission_texture, &m.transmission_texture}) {
+    for (const Texture* texture :
+         {&m.base_color_texture, &m.emission_texture, &m.transmission_texture, &m.metallic_roughness_texture}) {
         require(texture->image < int(images), what, "a texture refers to an image that is not there");
         require(texture->texcoord_set == 0 || texture->texcoord_set == 1, what, "texture coordinate sets are 0 and 1");
     }
-    require(finite(m.base_color) && finite(m.emission) && std::isfinite(m.transmission), what,
-            "a factor is not finite");
+    require(finite(m.base_color) && finite(m.emission) && std::isfinite(m.transmission) && std::isfinite(m.metallic) &&
+                std::isfinite(m.roughness),
+            what, "a factor is not finite");
     require(m.ior >= 1.0f && std::isfinite(m.ior), what, "the index of refraction must be at least 1");
     require(m.dispersion >= 0.0f && std::isfinite(m.dispersion), what,
             "the dispersion must be finite and not negative");

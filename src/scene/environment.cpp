@@ -82,7 +82,7 @@ Environment load_map(const std::string& file, std::string* warning) {
 
 glm::vec3 texel(const Image& map, int x, int y) { return glm::make_vec3(map.at(x, y)); }
 
-/// Twin of map_radiance in shade/environment.glsl.
+/// Twin of map_radiance in gpu/environment.glsl.
 glm::vec3 map_radiance(const Image& map, glm::vec3 direction) {
     const glm::vec2 size(map.width, map.height);
     const glm::vec2 position = formulas::equirect_from_direction(direction) * size - 0.5f;

@@ -2,7 +2,7 @@
 #define PELLUCID_SCENE_ENVIRONMENT_FORMULAS_GLSL
 
 // The environments that are formulas rather than maps, written once in the common part of GLSL and
-// of C++ with GLM: shaders include this through shade/environment.glsl, the CPU through
+// of C++ with GLM: shaders include this through gpu/environment.glsl, the CPU through
 // scene/environment.cpp, so that both see the same light. Hence the `f` after every number.
 //
 // `d` is a unit direction pointing away from the scene, +Y up; the default camera looks along -Z.

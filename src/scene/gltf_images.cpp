@@ -57,13 +57,4 @@ int GltfImages::index(int gltf_image, const std::string& user) {
     return index = static_cast<int>(scene_.images.size()) - 1;
 }
 
-std::optional<std::vector<double>> GltfImages::mean(int gltf_image, const std::string& user) {
-    const std::optional<Image> image = decode(gltf_image, user);
-    if (!image) return std::nullopt;
-    std::vector<double> sums(std::size_t(image->channels), 0.0);
-    for (std::size_t i = 0; i < image->pixels.size(); ++i) sums[i % sums.size()] += double(image->pixels[i]);
-    for (double& sum : sums) sum /= double(image->width) * double(image->height);
-    return sums;
-}
-
 }  // namespace pellucid

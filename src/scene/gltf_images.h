@@ -19,9 +19,6 @@ public:
     /// Index into Scene::images, -1 with a warning that names `user` if it cannot be decoded.
     int index(int gltf_image, const std::string& user);
 
-    /// Mean of each channel; nothing (with a warning) if it cannot be decoded.
-    std::optional<std::vector<double>> mean(int gltf_image, const std::string& user);
-
     /// Warns if the image cannot be had, without decoding it.
     void expect(int gltf_image, const std::string& user);
 

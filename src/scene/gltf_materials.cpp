@@ -93,7 +93,7 @@ private:
         material.base_color_texture = texture(pbr.baseColorTexture, "base colour");
         material.metallic = in_range(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
         material.roughness = in_range(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
-        average_metallic_roughness(pbr.metallicRoughnessTexture, material);
+        material.metallic_roughness_texture = texture(pbr.metallicRoughnessTexture, "metallic-roughness");
 
         const double strength =
             in_range(Properties(from.extensions, "KHR_materials_emissive_strength").number("emissiveStrength", 1.0),
@@ -104,16 +104,6 @@ private:
         if (material.emission != glm::vec3(0.0f)) material.emission_texture = texture(from.emissiveTexture, "emission");
         material.unlit = Properties(from.extensions, "KHR_materials_unlit").present();
         material.double_sided = from.doubleSided;
-    }
-
-    /// Material has one number each for metalness and roughness: the texture's mean stands for it.
-    void average_metallic_roughness(const tinygltf::TextureInfo& info, Material& material) {
-        if (info.index < 0) return;
-        const auto mean = images_.mean(image_of(info), user_);
-        if (!mean || mean->size() < 3) return;
-        material.roughness *= static_cast<float>(std::clamp((*mean)[1], 0.0, 1.0));
-        material.metallic *= static_cast<float>(std::clamp((*mean)[2], 0.0, 1.0));
-        warnings_.add(fmt::format("{}: metallic-roughness texture replaced by its mean", user_));
     }
 
     void read_alpha(const tinygltf::Material& from, Material& material) {

@@ -16,7 +16,7 @@ layout(set = 0, binding = 2, rgba16f) readonly uniform image2DArray thin_tint;
 layout(set = 0, binding = 3, rgba16f) readonly uniform image2DArray thin_reflection;
 layout(set = 0, binding = 4, rgba32f) writeonly uniform image2DArray radiance;
 
-#include "shade/environment_lookup.glsl"
+#include "gpu/environment_lookup.glsl"
 
 vec3 world_view_direction(ivec2 texel) {
     return mat3(frame.world_from_view) * camera_ray(vec2(texel) + 0.5).direction;

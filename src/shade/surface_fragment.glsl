@@ -9,7 +9,7 @@
 layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Textures { TextureRecord textures[]; };
 layout(set = 0, binding = 4) uniform texture2DArray texture_pages;
-#include "shade/texture.glsl"
+#include "gpu/texture.glsl"
 
 layout(location = 0) in vec3 world_normal;
 layout(location = 1) in vec4 texcoords;

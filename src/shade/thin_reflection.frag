@@ -4,7 +4,7 @@
 
 layout(set = 0, binding = 7) uniform texture2D environment_map;
 #include "gpu/diffuse.glsl"
-#include "shade/environment_lookup.glsl"
+#include "gpu/environment_lookup.glsl"
 
 layout(location = 0) out vec4 out_radiance;
 

@@ -79,9 +79,8 @@ protected:
     std::span<const DrawCall> solids() const { return scene_->refractive; }
 
     Frame frame() {
-        return {workspace(), *scene_,
-                *constants_, workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1}),
-                0,           extent_};
+        const GpuImage& none = workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1});
+        return {workspace(), *scene_, *constants_, none, none, 0, extent_};
     }
     Opaque opaque_surfaces(float depth) {
         const GpuImage& image = workspace().image("opaque depth", vk::Format::eR32Sfloat, extent_);

@@ -105,8 +105,8 @@ inline std::string broken_promise(const Scene& scene) {
     }
     if (scene.images.size() != scene.image_names.size()) return "image names";
     for (const Material& material : scene.materials)
-        for (const Texture& texture :
-             {material.base_color_texture, material.emission_texture, material.transmission_texture})
+        for (const Texture& texture : {material.base_color_texture, material.emission_texture,
+                                       material.transmission_texture, material.metallic_roughness_texture})
             if (texture.image >= int(scene.images.size())) return material.name + ": image";
     for (const std::string& warning : scene.warnings)
         if (warning.empty() || warning.find('\n') != warning.npos) return "a warning is not one line";

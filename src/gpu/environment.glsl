@@ -1,5 +1,5 @@
-#ifndef PELLUCID_SHADE_ENVIRONMENT_GLSL
-#define PELLUCID_SHADE_ENVIRONMENT_GLSL
+#ifndef PELLUCID_GPU_ENVIRONMENT_GLSL
+#define PELLUCID_GPU_ENVIRONMENT_GLSL
 
 // Light from infinitely far away; twin of scene/environment.cpp.
 // `vec3 procedural_radiance(uint kind, vec3 uniform_radiance, vec3 d)` comes with the formulas.

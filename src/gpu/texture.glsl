@@ -1,5 +1,5 @@
-#ifndef PELLUCID_SHADE_TEXTURE_GLSL
-#define PELLUCID_SHADE_TEXTURE_GLSL
+#ifndef PELLUCID_GPU_TEXTURE_GLSL
+#define PELLUCID_GPU_TEXTURE_GLSL
 
 // Sampling textures from the scene's texture pages: bilinear with each texture's own wrapping.
 // Needs: textures (TextureRecord[]), texture_pages (texture2DArray).

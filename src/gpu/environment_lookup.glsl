@@ -1,8 +1,8 @@
-#ifndef PELLUCID_SHADE_ENVIRONMENT_LOOKUP_GLSL
-#define PELLUCID_SHADE_ENVIRONMENT_LOOKUP_GLSL
+#ifndef PELLUCID_GPU_ENVIRONMENT_LOOKUP_GLSL
+#define PELLUCID_GPU_ENVIRONMENT_LOOKUP_GLSL
 
 // Radiance of the environment that is set. Needs: frame, environment_map (texture2D).
-#include "shade/environment.glsl"
+#include "gpu/environment.glsl"
 
 // Programs that are made for one kind of environment define PELLUCID_ENVIRONMENT_KIND: some drivers run all kinds
 // for every pixel otherwise.

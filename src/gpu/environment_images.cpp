@@ -1,0 +1,77 @@
+#include "gpu/environment_images.h"
+
+#include "gpu/structs.h"
+
+#include <algorithm>
+
+namespace pellucid {
+namespace {
+
+constexpr std::uint32_t kSampleEnvironment[] = {
+#include "sample_environment.comp.inc"
+};
+constexpr std::uint32_t kHalveEnvironment[] = {
+#include "halve_environment.comp.inc"
+};
+constexpr std::uint32_t kFilterEnvironment[] = {
+#include "filter_environment.comp.inc"
+};
+
+constexpr auto kFormat = vk::Format::eR32G32B32A32Sfloat;
+constexpr std::uint32_t kPyramidSize = PELLUCID_PYRAMID_SIZE, kFilterSize = PELLUCID_FILTER_SIZE;
+
+GpuImage sampled_image(const Device& device, const char* name, vk::Extent2D extent) {
+    using Usage = vk::ImageUsageFlagBits;
+    return {device, name, kFormat, extent, 1, Usage::eSampled | Usage::eStorage | Usage::eTransferSrc};
+}
+
+/// Samples along the side of a texel of the pyramid: closer than the map's texels, so that none is missed.
+std::uint32_t samples_per_side(const Environment& environment) {
+    constexpr std::uint32_t kOfFormula = 4, kLeast = 4, kMost = 32;
+    if (environment.kind != Environment::Kind::kMap) return kOfFormula;
+    // The widest texels, in the middle of an octahedron's face, see sqrt(3 sqrt(3)) * 2 / size radians.
+    constexpr float kTexelsAround = 2.7563f * float(kPyramidSize);  // 2 pi / that
+    return std::clamp(std::uint32_t(2.0f * float(environment.map.width) / kTexelsAround), kLeast, kMost);
+}
+
+}  // namespace
+
+GpuImage upload_environment(const Device& device, const Environment& environment) {
+    const bool map = environment.kind == Environment::Kind::kMap;
+    const Image image = map ? environment.map : Image(1, 1, 3);
+    GpuImage result(device, "the environment map", kFormat, {std::uint32_t(image.width), std::uint32_t(image.height)},
+                    1, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
+    upload_rgb(device, result, image);
+    return result;
+}
+
+GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Environment& environment,
+                            const GpuImage& map) {
+    const Device& device = workspace.device();
+    const GpuImage pyramid =
+        sampled_image(device, "the environment's pyramid", {kPyramidSize + kPyramidSize / 2, kPyramidSize});
+    GpuImage filtered = sampled_image(device, "the filtered environment", {PELLUCID_FILTER_WIDTH, kFilterSize});
+
+    struct Push {
+        glm::vec4 uniform_radiance;
+        std::uint32_t samples;
+    };
+    const Push push{glm::vec4(environment.uniform_radiance, 0.0f), samples_per_side(environment)};
+    recorder.compute(
+        workspace.compute({"sample_environment.comp", kSampleEnvironment}, {std::uint32_t(environment.kind)}),
+        {reads_layer("environment_map", map, 0), writes("pyramid", pyramid)}, push, {kPyramidSize, kPyramidSize});
+    for (std::int32_t level = 1; level < PELLUCID_PYRAMID_LEVELS; ++level) {
+        recorder.compute(workspace.compute({"halve_environment.comp", kHalveEnvironment}),
+                         {updates("pyramid", pyramid)}, level, {kPyramidSize >> level, kPyramidSize >> level});
+    }
+    recorder.compute(workspace.compute({"filter_environment.comp", kFilterEnvironment}),
+                     {reads_layer("pyramid", pyramid, 0), writes("filtered_environment", filtered)}, filtered.extent());
+    recorder.submit_and_wait();
+    return filtered;
+}
+
+GpuImage no_filtered_environment(const Device& device) {
+    return sampled_image(device, "no filtered environment", {1, 1});
+}
+
+}  // namespace pellucid

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "gpu/recorder.h"
+#include "gpu/workspace.h"
+
+#include <pellucid/environment.h>
+
+namespace pellucid {
+
+/// The environment's map, or one black texel if it is a formula; bound as "environment_map".
+GpuImage upload_environment(const Device& device, const Environment& environment);
+
+/// The environment as rough surfaces reflect it, for gpu/filtered_environment.glsl. `map` is what
+/// upload_environment() made of it. Waits for the device; nothing may be in recording.
+GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Environment& environment,
+                            const GpuImage& map);
+
+/// What stands in for it where nothing is rough; undefined.
+GpuImage no_filtered_environment(const Device& device);
+
+}  // namespace pellucid

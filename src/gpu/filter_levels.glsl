@@ -1,0 +1,19 @@
+#ifndef PELLUCID_GPU_FILTER_LEVELS_GLSL
+#define PELLUCID_GPU_FILTER_LEVELS_GLSL
+
+// Where octahedral maps of the filtered environment lie in their image: side by side from the left. Level l is for
+// perceptual roughness l / PELLUCID_FILTER_LEVELS, l = 1 .. PELLUCID_FILTER_LEVELS.
+
+const int kFilterHalvings = 3;  // from the first level on each is half as wide as the one before, then all are alike
+
+int filter_level_size(int level) {
+    return PELLUCID_FILTER_SIZE >> min(level - 1, kFilterHalvings);
+}
+
+ivec2 filter_level_corner(int level) {
+    int halved = min(level - 1, kFilterHalvings);
+    int before = 2 * PELLUCID_FILTER_SIZE - (2 * PELLUCID_FILTER_SIZE >> halved);
+    return ivec2(before + (level - 1 - halved) * (PELLUCID_FILTER_SIZE >> kFilterHalvings), 0);
+}
+
+#endif
