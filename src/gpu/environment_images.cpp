@@ -17,6 +17,10 @@ constexpr std::uint32_t kFilterEnvironment[] = {
 #include "filter_environment.comp.inc"
 };
 
+constexpr std::uint32_t kTabulateFacets[] = {
+#include "tabulate_facets.comp.inc"
+};
+
 constexpr auto kFormat = vk::Format::eR32G32B32A32Sfloat;
 constexpr std::uint32_t kPyramidSize = PELLUCID_PYRAMID_SIZE, kFilterSize = PELLUCID_FILTER_SIZE;
 
@@ -66,6 +70,9 @@ GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Envi
     }
     recorder.compute(workspace.compute({"filter_environment.comp", kFilterEnvironment}),
                      {reads_layer("pyramid", pyramid, 0), writes("filtered_environment", filtered)}, filtered.extent());
+    recorder.compute(workspace.compute({"tabulate_facets.comp", kTabulateFacets}),
+                     {writes("filtered_environment", filtered)},
+                     {PELLUCID_FACET_TABLE_SIZE, PELLUCID_FACET_TABLE_SIZE});
     recorder.submit_and_wait();
     return filtered;
 }

@@ -9,6 +9,7 @@
 #include "gpu/environment_pyramid.glsl"
 #include "gpu/filter_levels.glsl"
 #include "gpu/octahedral_map.glsl"
+#include "gpu/spread_points.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -23,11 +24,6 @@ mat3 frame_around(vec3 n) {
     float s = n.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (s + n.z), b = n.x * n.y * a;
     return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
-}
-
-// Number i of `count` points spread over the unit square (Hammersley).
-vec2 spread_point(uint i, uint count) {
-    return vec2((float(i) + 0.5) / float(count), float(bitfieldReverse(i)) * 2.3283064e-10);
 }
 
 vec3 mean_over_lobe(vec3 direction, float roughness, uint count) {

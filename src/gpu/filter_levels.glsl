@@ -16,4 +16,9 @@ ivec2 filter_level_corner(int level) {
     return ivec2(before + (level - 1 - halved) * (PELLUCID_FILTER_SIZE >> kFilterHalvings), 0);
 }
 
+// Below the last levels: what facets reflect in all, by cosine to the viewer (x) and roughness (y), both 0..1 from the
+// middle of the first texel to that of the last; see tabulate_facets.comp.
+const int kFacetTableSize = PELLUCID_FACET_TABLE_SIZE;
+const ivec2 kFacetTableCorner = ivec2(7 * PELLUCID_FILTER_SIZE / 4, PELLUCID_FILTER_SIZE >> kFilterHalvings);
+
 #endif

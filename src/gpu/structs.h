@@ -28,7 +28,8 @@ using uint = std::uint32_t;
 #define PELLUCID_PYRAMID_LEVELS 8
 #define PELLUCID_FILTER_SIZE 256
 #define PELLUCID_FILTER_LEVELS 8
-#define PELLUCID_FILTER_WIDTH 608  // of all levels side by side
+#define PELLUCID_FILTER_WIDTH 608     // of all levels side by side
+#define PELLUCID_FACET_TABLE_SIZE 32  // side of the table of what facets reflect
 
 struct FrameConstants {
     mat4 view_from_world;

@@ -30,9 +30,6 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
         if (material.transmissive() && material.emission != glm::vec3(0.0f)) {
             lines.push_back(fmt::format("material {}: the emission of glass is not drawn", name));
         }
-        if (!material.transmissive() && !material.unlit && material.metallic > 0.0f) {
-            lines.push_back(fmt::format("material {}: metal is drawn as a diffuse surface", name));
-        }
     }
     if (refractive > 1 && !technique.many_media) {
         lines.push_back(fmt::format("behind the first surface {} refracting objects count as one solid", refractive));

@@ -1,8 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shade/surface_fragment.glsl"
-#include "gpu/diffuse.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
+layout(set = 0, binding = 5) uniform texture2D environment_map;
+layout(set = 0, binding = 6) uniform texture2D filtered_environment;
+#include "gpu/opaque_surface.glsl"
 #include "layers/objects.glsl"
 
 layout(location = 0) out vec4 out_radiance;
@@ -14,12 +16,9 @@ void main() {
     vec4 base = base_color(material);
     if (base.a < material.alpha_cutoff) discard;
 
-    vec3 radiance = base.rgb;
-    if ((material.flags & PELLUCID_MATERIAL_UNLIT) == 0u) {
-        vec3 emission = material.emission.rgb * sample_texture(material.emission_texture, texcoords.xy, texcoords.zw).rgb;
-        radiance = diffuse_radiance(base.rgb, facing_normal(world_view_direction())) + emission;
-    }
-    out_radiance = vec4(radiance, 1.0);
+    vec3 view_direction = world_view_direction();
+    out_radiance = vec4(opaque_material_radiance(material, base.rgb, texcoords.xy, texcoords.zw,
+                                                 facing_normal(view_direction), -view_direction), 1.0);
     out_depth = eye_depth();
     out_object = find_object(triangle);
     gl_FragDepth = out_depth * frame.depth_scale;

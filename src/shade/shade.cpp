@@ -67,12 +67,14 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
                                          {&object, 0, clear_to({0u, 0u, 0u, 0u})}},
                               .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
                               .scissor = {}};
-    recorder.draw(program,
-                  {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                   reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
-                   reads("Appearance", frame.scene.appearance), reads("Materials", frame.scene.materials),
-                   reads("Textures", frame.scene.textures), reads("texture_pages", frame.scene.texture_pages)},
-                  target, frame.scene.opaque);
+    recorder.draw(
+        program,
+        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
+         reads("Vertices", frame.scene.vertices), reads("Appearance", frame.scene.appearance),
+         reads("Materials", frame.scene.materials), reads("Textures", frame.scene.textures),
+         reads("texture_pages", frame.scene.texture_pages), reads_layer("environment_map", frame.environment, 0),
+         reads_layer("filtered_environment", frame.filtered_environment, 0)},
+        target, frame.scene.opaque);
     return {radiance, depth, object};
 }
 

@@ -16,9 +16,11 @@ Mesh square(float z, float half) {
     return mesh;
 }
 
+/// Without a coat, which an index of 1 does not have.
 Material painted(glm::vec3 color, bool unlit = false) {
     Material material;
     material.base_color = glm::vec4(color, 1.0f);
+    material.ior = 1.0f;
     material.unlit = unlit;
     return material;
 }
