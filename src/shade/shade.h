@@ -7,8 +7,8 @@
 
 namespace pellucid {
 
-/// Draws opaque objects: base colour as a diffuse reflector under the environment's irradiance
-/// (no shadows, no highlights), unlit materials as they are, emission added.
+/// Draws opaque objects as glTF's metallic-roughness materials under the environment (gpu/opaque_surface.glsl), as if each
+/// point of a surface saw all of it: no shadows, no light from other surfaces. Unlit materials as they are, emission added.
 Opaque draw_opaque(Recorder& recorder, const Frame& frame);
 
 /// What textures on the nearest refracting surface, and thin walls in front, do to light on its way.

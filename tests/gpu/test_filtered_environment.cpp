@@ -116,5 +116,49 @@ TEST_F(FilteredEnvironment, KeepsTheLightThatThereIs) {
     }
 }
 
+/// Share per steradian of the light at `angle` (radians) from the middle of the lobe of GGX reflection that is seen along
+/// the normal: density of facets, and what others do not shadow; not normalised.
+double lobe(double roughness, double angle) {
+    const double alpha2 = std::pow(roughness, 4.0), s = std::sin(0.5 * angle), c = std::cos(0.5 * angle);
+    const double spread = s * s + alpha2 * c * c, tangent = std::tan(angle);
+    return alpha2 / (spread * spread) / (1.0 + std::sqrt(1.0 + alpha2 * tangent * tangent));
+}
+
+// A sun of one texel shows the lobe itself: as round and smooth as it is, without a speck of its own. Samples are
+// means over squares, and levels have texels of up to 6 degrees: seen are 11% of the peak.
+TEST_F(FilteredEnvironment, SmallSunIsSpreadByTheLobe) {
+    constexpr int kWidth = 1024, kSteps = 4000, kAround = 24;
+    constexpr double kPiDouble = 3.141592653589793;
+    const Environment environment = sun_map(kWidth);
+    set(environment);
+    const double texel = 2.0 * kPiDouble / kWidth, down = (kWidth / 8 + 0.5) * texel;
+    const double longitude = (kWidth / 3 + 0.5) * texel - kPiDouble;
+    const glm::vec3 sun(std::sin(down) * std::cos(longitude), std::cos(down), std::sin(down) * std::sin(longitude));
+    const double light = (2e4 - 0.25) * texel * texel * std::sin(down);
+    const glm::vec3 across = glm::normalize(glm::cross(sun, glm::vec3(1, 0, 0))), along = glm::cross(sun, across);
+
+    for (const float roughness : {0.25f, 0.375f, 0.5f, 0.75f, 1.0f}) {
+        double whole = 0.0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double angle = (i + 0.5) / kSteps * 0.5 * kPiDouble;
+            whole += lobe(roughness, angle) * 2.0 * kPiDouble * std::sin(angle) * 0.5 * kPiDouble / kSteps;
+        }
+        const double peak = light * lobe(roughness, 0.0) / whole;
+        for (const double share : {0.0, 0.5, 1.0, 2.0, 4.0}) {  // of the lobe's half width
+            const double angle = std::min(share * 2.0 * double(roughness * roughness), 1.5);
+            std::vector<glm::vec3> directions;
+            for (int i = 0; i < kAround; ++i) {
+                const auto turn = float(2.0 * kPiDouble * i / kAround);
+                directions.push_back(float(std::cos(angle)) * sun +
+                                     float(std::sin(angle)) * (std::cos(turn) * across + std::sin(turn) * along));
+            }
+            for (const glm::vec3& seen : look(directions, roughness)) {
+                EXPECT_NEAR(double(seen.g) - 0.25, light * lobe(roughness, angle) / whole, 0.15 * peak)
+                    << "roughness " << roughness << ", " << angle << " rad from the sun, peak " << peak;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace pellucid::test
