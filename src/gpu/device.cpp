@@ -112,7 +112,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     if (!features.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
         info.missing.push_back("synchronization2");
     // kay_greenberg_1979.comp binds the most images, wyman_2005.comp the most buffers.
-    constexpr std::uint32_t kStorageImages = 11, kStorageBuffers = 16;
+    constexpr std::uint32_t kStorageImages = 11, kStorageBuffers = 24;
     if (properties.limits.maxPerStageDescriptorStorageImages < kStorageImages) {
         info.missing.push_back(fmt::format("{} storage images per shader stage (it has {})", kStorageImages,
                                            properties.limits.maxPerStageDescriptorStorageImages));

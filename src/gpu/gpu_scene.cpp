@@ -155,6 +155,8 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
         list.push_back(call);
         rough = rough || (material.transmissive() ? material.roughness > 0.0f : !material.unlit);
         if (material.refractive()) {
+            rough_glass = rough_glass || material.roughness > 0.0f;
+            dispersive = dispersive || material.dispersion > 0.0f;
             const bool textured = material.base_color_texture.image >= 0 || material.transmission_texture.image >= 0;
             if (textured || !mesh.colors.empty()) textured_refractive.push_back(call);
         }

@@ -47,6 +47,8 @@ struct GpuScene {
     std::vector<DrawCall> refractive;            ///< solids of glass
     std::vector<DrawCall> textured_refractive;   ///< those of them whose surface varies in colour or transmission
     std::vector<DrawCall> thin_walled;           ///< transmissive surfaces that do not bend light
+    bool rough_glass = false;                    ///< some refracting object is rough
+    bool dispersive = false;                     ///< some refracting object disperses
     std::vector<DrawCall> opaque;
     bool rough = false;  ///< something reflects or refracts a blurred environment
     Bounds bounds;

@@ -48,7 +48,7 @@ struct FrameConstants {
     uint height;
     uint object_count;
     uint environment_kind;
-    uint reserved0;
+    uint sample_index;  // of the picture, 0 on
     uint reserved1;
     vec4 environment_uniform;
     vec4 irradiance[9];  // spherical harmonics, see irradiance_coefficients()

@@ -1,5 +1,8 @@
 #include "layers/layers.h"
 
+#include <cstring>
+#include <utility>
+
 namespace pellucid {
 
 Layers LayerSource::build(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request) {
@@ -17,18 +20,44 @@ Layers LayerSource::build(Recorder& recorder, const Frame& frame, const Opaque& 
     return gather(recorder, frame, opaque, request);
 }
 
+std::uint32_t LayerSource::room(const std::string& name, std::uint32_t guess) {
+    Room& room = rooms_[name];
+    if (room.capacity == 0) room.capacity = guess;
+    return room.capacity;
+}
+
+void LayerSource::measure_room(Recorder& recorder, const Frame& frame, const std::string& name, const Buffer& counter) {
+    const Buffer& counted = frame.workspace.buffer(name + " counted", sizeof(std::uint32_t), true);
+    recorder.copy(counter, counted, sizeof(std::uint32_t));
+    rooms_.at(name).counted = &counted;
+}
+
+bool LayerSource::must_enlarge_rooms() {
+    bool enlarged = false;
+    for (auto& [name, room] : rooms_) {
+        if (room.counted == nullptr) continue;
+        std::uint32_t needed = 0;
+        std::memcpy(&needed, std::exchange(room.counted, nullptr)->mapped(), sizeof(needed));
+        if (needed <= room.capacity) continue;
+        room.capacity = needed + needed / 4;
+        enlarged = true;
+    }
+    return enlarged;
+}
+
 bool LayerSource::must_repeat(const Frame& frame) {
+    const bool enlarged = must_enlarge_rooms();
     switch (builder_) {
         case LayerBuilder::kDepthPeeling:
-            return false;
+            return enlarged;
         case LayerBuilder::kDualDepthPeeling:
-            return must_peel_more(frame);
+            return must_peel_more(frame) || enlarged;
         case LayerBuilder::kCompute:
-            return must_enlarge_map(frame);
+            return must_enlarge_map(frame) || enlarged;
         case LayerBuilder::kSinglePass:
             break;
     }
-    return must_enlarge_pool(frame);
+    return must_enlarge_pool(frame) || enlarged;
 }
 
 }  // namespace pellucid

@@ -6,6 +6,7 @@
 
 #include <pellucid/renderer.h>
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -86,6 +87,10 @@ public:
     /// Lists every triangle of the scene in the texels of a projection.
     SurfaceMap map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
                             const MapProjection& projection);
+    /// How many items of `name` a frame has room for, at first `guess`; what a frame counted is the next one's guess.
+    std::uint32_t room(const std::string& name, std::uint32_t guess);
+    /// The first word of `counter` is how many there were, once the frame has run.
+    void measure_room(Recorder& recorder, const Frame& frame, const std::string& name, const Buffer& counter);
     /// After the frame has run: true if something did not fit. What build() does next will, and the frame must be
     /// recorded again. Throws Error if the device has no room for it.
     bool must_repeat(const Frame& frame);
@@ -97,6 +102,7 @@ private:
     Layers peel_dual(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     Layers gather(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     Layers select_from_map(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
+    bool must_enlarge_rooms();
     bool must_peel_more(const Frame& frame);
     bool must_enlarge_pool(const Frame& frame);
     bool must_enlarge_map(const Frame& frame);
@@ -106,6 +112,11 @@ private:
     std::uint32_t geometry_passes_ = 0;
     FragmentPool pool_;
     DualPeeling dual_;
+    struct Room {
+        std::uint32_t capacity = 0;
+        const Buffer* counted = nullptr;  ///< on the host; in this frame
+    };
+    std::map<std::string, Room> rooms_;
     MapPool map_pool_;
     std::optional<SurfaceMap> map_;
     bool mapped_ = false;  ///< in this frame

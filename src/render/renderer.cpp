@@ -114,7 +114,8 @@ struct Renderer::Impl {
     /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
     /// the pass times. `progress` is of this sample.
     std::vector<PassTime> run_frame(Frame frame, const FrameSettings& chosen, const RenderSettings& settings,
-                                    glm::vec2 jitter, const Progress& progress, std::optional<FrameImages>& images);
+                                    std::uint32_t sample, const Progress& progress,
+                                    std::optional<FrameImages>& images);
     struct Picture {
         const GpuImage& radiance;
         float scale;  ///< that makes it the mean over the samples
@@ -125,7 +126,7 @@ struct Renderer::Impl {
     /// The picture of a technique that shades its own paths.
     Picture trace_picture(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
                           RenderResult& result);
-    void set_constants(const RenderSettings& settings, glm::vec2 jitter);
+    void set_constants(const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample);
     Camera camera_for(const RenderSettings& settings) const;
     const GpuImage& filtered_environment_for_scene();
 };
@@ -177,18 +178,20 @@ void Renderer::Impl::prepare(const FrameSettings& chosen, const Progress& progre
     chosen.technique.prepare({device, cpu.scene(), *scene, cache, threads, progress, warnings}, chosen.parameters);
 }
 
-void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jitter) {
+void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample) {
     gpu::FrameConstants values = environment_constants;
     pellucid::set_camera(values, camera_for(settings), settings.width, settings.height, jitter, scene->bounds,
                          scene->refractive_corners);
     values.object_count = scene->object_count;
+    values.sample_index = sample;
     std::memcpy(constants->mapped(), &values, sizeof(values));
 }
 
 std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings& chosen,
-                                                const RenderSettings& settings, glm::vec2 jitter,
+                                                const RenderSettings& settings, std::uint32_t sample,
                                                 const Progress& progress, std::optional<FrameImages>& images) {
-    set_constants(settings, jitter);
+    const glm::vec2 jitter = frame.samples > 1 ? sample_jitter(sample) : glm::vec2(0.0f);
+    set_constants(settings, jitter, sample);
     std::optional<TracedView> traced;
     if (chosen.technique.info.reference) {
         traced.emplace(TracedView{cpu.tracer(), camera_for(settings), jitter, progress});
@@ -209,7 +212,7 @@ Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const
     std::optional<FrameImages> images;
     const bool alone = draws && settings.samples == 1;
     std::vector<PassTime> times =
-        run_frame(frame, chosen, settings, {0.0f, 0.0f}, alone ? settings.progress : Progress(), images);
+        run_frame(frame, chosen, settings, 0, alone ? settings.progress : Progress(), images);
     gpu::FrameConstants view{};
     std::memcpy(&view, constants->mapped(), sizeof(view));
     read_back(device, *images, view, scene->first_triangles, settings, result);
@@ -220,12 +223,14 @@ Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const
         return {images->radiance, 1.0f};
     }
     const GpuImage* sum = nullptr;
+    Frame sampled = frame;
+    sampled.samples = settings.samples;
     const double share = 1.0 / double(settings.samples);
     for (std::uint32_t sample = 0; sample < settings.samples; ++sample) {
         const auto progress = [&](double done) {
             if (settings.progress) settings.progress((double(sample) + done) * share);
         };
-        times = run_frame(frame, chosen, settings, sample_jitter(sample), progress, images);
+        times = run_frame(sampled, chosen, settings, sample, progress, images);
         // Submitted apart: a frame that overflowed was drawn twice, and counts once.
         sum = &accumulate(recorder, frame, images->radiance, sample);
         for (PassTime& time : recorder.submit_and_wait()) times.push_back(std::move(time));

@@ -10,6 +10,7 @@ layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
 layout(constant_id = 3) const bool kTextured = false;      // some glass varies in colour or transmission
 layout(constant_id = 4) const bool kPathRadiance = false;  // paths pick up radiance
+layout(constant_id = 5) const bool kReflected = false;     // and what the first surface reflects
 
 layout(std430, set = 0, binding = 5) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Materials { MaterialRecord materials[]; };
@@ -20,6 +21,7 @@ layout(set = 0, binding = 10, rgba32f) readonly uniform image2DArray exit_direct
 layout(set = 0, binding = 11, rgba32f) readonly uniform image2DArray transmittance;
 layout(set = 0, binding = 12, r32ui) readonly uniform uimage2DArray path_events;
 layout(set = 0, binding = 13, rgba32f) readonly uniform image2DArray path_radiance;
+layout(set = 0, binding = 14, rgba32f) readonly uniform image2DArray reflected_radiance;
 
 #include "layers/objects.glsl"
 #include "gpu/diffuse.glsl"
@@ -39,7 +41,8 @@ vec3 glass_radiance(ivec3 at, vec3 view_direction, vec3 normal, uint triangle) {
     vec3 transmitted = transmitted_radiance(at);
     if (back_face(triangle)) return tint.rgb * transmitted;  // seen from inside: no outer reflection
     float reflectance = fresnel_dielectric(-dot(view_direction, normal), 1.0 / material.ior);
-    vec3 reflected = reflectance * environment_radiance(reflect_direction(view_direction, normal));
+    vec3 reflected = kReflected ? imageLoad(reflected_radiance, at).rgb
+                                : reflectance * environment_radiance(reflect_direction(view_direction, normal));
     vec3 scattered = (1.0 - reflectance) * diffuse_radiance(tint.rgb, normal);
     return reflected + mix(scattered, tint.rgb * transmitted, tint.a);
 }

@@ -138,6 +138,8 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
     const GpuImage& path_radiance =
         refraction.radiance ? *refraction.radiance : workspace.image("no radiance", kRadianceFormat, {1, 1});
 
+    const GpuImage& reflected = refraction.reflected ? *refraction.reflected : path_radiance;
+
     const Recorder::Scope scope(recorder, "shade");
     recorder.compute(
         workspace.compute({"background.comp", kBackground},
@@ -149,14 +151,14 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
     recorder.compute_indirect(
         workspace.compute({"shade.comp", kShade},
                           {frame.environment_kind, analysis, thin_walls, any(frame.scene.textured_refractive),
-                           refraction.radiance ? 1u : 0u}),
+                           refraction.radiance ? 1u : 0u, refraction.reflected ? 1u : 0u}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads_layer("environment_map", frame.environment, 0),
          reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
          reads("PixelList", layers.covered), reads("glass_tint", look.glass_tint), reads("thin_tint", look.thin_tint),
          reads("thin_reflection", look.thin_reflection), reads("exit_direction", refraction.exit_direction),
          reads("transmittance", refraction.transmittance), reads("path_events", refraction.events),
-         reads("path_radiance", path_radiance), writes("radiance", radiance)},
+         reads("path_radiance", path_radiance), reads("reflected_radiance", reflected), writes("radiance", radiance)},
         layers.covered);
     return radiance;
 }

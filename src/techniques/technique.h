@@ -23,6 +23,9 @@ struct Refraction {
     /// RGBA32F: radiance picked up on the way, that of an opaque object at the end included, as it reaches the eye;
     /// a: 1 where such an object hides the environment. Null: none anywhere.
     const GpuImage* radiance = nullptr;
+    /// RGBA32F: radiance that the first surface reflects, as it reaches the eye. Null: the environment's, which shade()
+    /// looks up.
+    const GpuImage* reflected = nullptr;
     bool everywhere = false;  ///< pixels without glass hold the view ray, and what it meets
 };
 /// `with_radiance`: for techniques that pick up radiance.

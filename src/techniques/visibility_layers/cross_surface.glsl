@@ -1,14 +1,17 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_CROSS_SURFACE_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_CROSS_SURFACE_GLSL
 
-// What a path does at a surface. Needs: path_state.glsl, gpu/vertices.glsl, objects, materials, solids, find_object().
+// What a path does at a surface. Needs: path_state.glsl, gpu/vertices.glsl, objects, materials, solids, find_object(),
+// threshold, most_branches, branch_capacity.
 #include "gpu/object_traits.glsl"
+#include "techniques/visibility_layers/microfacets.glsl"
 
 // A point of a triangle, in the world.
 struct Surface {
     vec3 position;
     vec3 normal;      // unit, interpolated, outward
     vec3 geometric;   // of the triangle itself, outward, any length
+    uint material;
 };
 
 Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
@@ -23,39 +26,120 @@ Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
                                                       weights.z * vertex_normal(v.z));
     vec3 geometric = cross(edge_b, edge_c) * (o.mirrored != 0u ? -1.0 : 1.0);
     return Surface(a + weights.y * edge_b + weights.z * edge_c,
-                   normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric);
+                   normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material);
 }
 
-MaterialRecord filling_material(uint rank) { return materials[solids[rank]]; }
-float filling_ior(uint rank) { return rank == kAir ? 1.0 : filling_material(rank).ior; }
+MaterialRecord filling_material(uint rank) { return materials[kOneObject ? objects[0].material : solids[rank]]; }
 
-// Refracts the path, or reflects it totally.
-void bend(inout Path path, vec3 outward, bool leaving, float n_i, float n_t) {
-    vec3 n = leaving ? -outward : outward;
-    float eta = n_i / n_t;
+// Per channel; without dispersion all are alike.
+vec3 filling_iors(uint rank) {
+    if (rank == kAir) return vec3(1.0);
+    MaterialRecord material = filling_material(rank);
+    return kDispersive ? ior_per_channel(material.ior, material.dispersion) : vec3(material.ior);
+}
+
+bool refracts_apart(vec3 iors) { return kDispersive && (iors.r != iors.g || iors.b != iors.g); }
+
+// Whether a path that carries so much may branch once more.
+bool may_branch(uint i, vec3 weight) {
+    return waiting[i].y < most_branches && max(weight.r, max(weight.g, weight.b)) > threshold;
+}
+
+// After the direction has changed at a boundary: the interpolated normal can send a path to the other side of the
+// triangle than it means to. It is where it goes.
+void settle(vec3 direction, Surface surface, bool leaving, uint rank, uint here, uint there) {
+    set_entered(rank, (dot(direction, surface.geometric) > 0.0) == leaving ? there : here);
+}
+
+void branch_off(uint i, Path path, vec3 direction, vec3 weight, uint own_mark, Surface surface, bool leaving, uint rank,
+                uint here, uint there) {
+    uint marked = mark;
+    mark = own_mark;
+    path.direction = direction;
+    path.transmittance = weight;
+    settle(direction, surface, leaving, rank, here, there);
+    push_branch(i, path, branch_capacity);
+    mark = marked;
+}
+
+// Meets the boundary between two media: refracts, or reflects totally. What is reflected besides branches off; where
+// it carries too little for that, its light goes on with what is refracted, so that none is lost.
+void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, uint rank, uint here, uint there, vec3 n_i, vec3 n_t,
+                   bool first) {
+    vec3 n = leaving ? -surface.normal : surface.normal;
+    MaterialRecord material = materials[surface.material];
+    uint channel = mark & kChannelMask;
+    uint c = channel == 0u ? 1u : channel - 1u;  // the direction is green's, unless the path has another channel
+    float eta = n_i[c] / n_t[c];
+    if (kStochastic && kRough && material.roughness > 0.0) n = sampled_normal(n, path, material.roughness);
     float cos_theta_i = -dot(path.direction, n);
     path.side_conflict = path.side_conflict || cos_theta_i < 0.0;
     ++path.events;
-    vec3 incident = path.direction;
-    if (refract_direction(incident, n, eta, path.direction)) path.transmittance *= 1.0 - fresnel_dielectric(cos_theta_i, eta);
-    else ++path.reflections;  // refract_direction has left the reflected direction
+    vec3 incident = path.direction, carried = path.transmittance, refracted;
+    bool total = !refract_direction(incident, n, eta, refracted);
+    float reflectance = total ? 1.0 : fresnel_dielectric(cos_theta_i, eta);
+    float alpha = kRough ? material.roughness * material.roughness : 0.0;
+    float bending = 0.5 * (max(n_i[c], n_t[c]) / min(n_i[c], n_t[c]) - 1.0);  // of a facet's tilt, beside reflection
+    if (total) ++path.reflections;
+    path.direction = refracted;  // under total reflection that is the reflected direction
+    vec3 tint = leaving || first ? vec3(1.0) : material.base_color.rgb * material.transmission;
+
+    if (kStochastic) {
+        bool reflects = !total && random_number(path.events) < reflectance;
+        if (reflects) path.direction = reflect_direction(incident, n);
+        else if (!total) path.transmittance *= tint;
+        if (reflects && first) mark |= kOuterBranch;
+    } else if (!total) {
+        if (kTree) {
+            bool apart = channel == 0u && refracts_apart(n_i) || refracts_apart(n_t) && channel == 0u;
+            if (apart && may_branch(i, carried)) {
+                for (uint other = 0u; other < 3u; other += 2u) {
+                    vec3 way;
+                    float other_eta = n_i[other] / n_t[other], cosine = cos_theta_i;
+                    if (!refract_direction(incident, n, other_eta, way)) continue;  // the reflection below has it all
+                    vec3 only = vec3(other == 0u, 0.0, other == 2u);
+                    uint own = (mark & ~(kChannelMask | kMainPath)) | (other + 1u);
+                    branch_off(i, path, way, carried * tint * only * (1.0 - fresnel_dielectric(cosine, other_eta)), own, surface,
+                               leaving, rank, here, there);
+                }
+                mark |= 2u;
+            }
+            vec3 reflected = carried * reflectance;
+            if ((mark & kChannelMask) != channel) {  // red and blue reflect a little less and more
+                reflected = carried * vec3(fresnel_dielectric(cos_theta_i, n_i.r / n_t.r), reflectance,
+                                           fresnel_dielectric(cos_theta_i, n_i.b / n_t.b));
+            }
+            if (may_branch(i, reflected)) {
+                uint own = (mark & ~(kChannelMask | kMainPath)) | channel | (first ? kOuterBranch : 0u);
+                uint kept = mark;
+                mark = own;
+                widen(alpha);
+                own = mark;
+                mark = kept;
+                branch_off(i, path, reflect_direction(incident, n), reflected, own, surface, leaving, rank, here, there);
+                path.transmittance *= 1.0 - reflectance;
+            }
+            if ((mark & kChannelMask) != channel) path.transmittance *= vec3(0.0, 1.0, 0.0);
+        } else {
+            path.transmittance *= 1.0 - reflectance;
+        }
+        path.transmittance *= tint;
+    }
+    if (kRough && !kStochastic && alpha > 0.0) widen(total ? alpha : alpha * bending);
+    settle(path.direction, surface, leaving, rank, here, there);
 }
 
-// Crosses the boundary of a solid on which the path now stands. The interpolated normal can send it to the other
-// side of the triangle than it means to: it is where it goes.
-void cross_surface(inout Path path, Surface surface, uint traits, bool leaving) {
-    uint rank = rank_of(traits), count = entered(rank);
+// Crosses the boundary of a solid on which the path now stands.
+void cross_surface(uint i, inout Path path, Surface surface, uint traits, bool leaving, bool first) {
+    uint rank = rank_of(traits);
+    if ((traits & kClosed) == 0u) set_entered(rank, leaving ? 1u : 0u);  // its normal alone says where the path is
+    uint here = entered(rank), there = leaving ? max(here, 1u) - 1u : here + 1u;
     uint before = filling_rank();
-    bool closed = (traits & kClosed) != 0u;
-    if (!closed) set_entered(rank, leaving ? 1u : 0u);
-    before = filling_rank();
-    uint around = entered(rank);
-    set_entered(rank, leaving ? max(around, 1u) - 1u : around + 1u);
+    set_entered(rank, there);
     uint beyond = filling_rank();
-    if (beyond == before) return;
-    bend(path, surface.normal, leaving, filling_ior(before), filling_ior(beyond));
-    bool left = dot(path.direction, surface.geometric) > 0.0;
-    if (left != leaving) set_entered(rank, around);  // reflected
+    if (beyond != before) {
+        meet_boundary(i, path, surface, leaving, rank, here, there, filling_iors(before), filling_iors(beyond), first);
+    }
 }
 
 #endif

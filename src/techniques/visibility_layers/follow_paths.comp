@@ -1,24 +1,21 @@
 #version 460
-// Takes every path on to the next surface, and past it; where there is none the path ends.
+// Takes every path on to the next surface, and past it if that is glass; where there is none, or an opaque one, the
+// path ends.
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/visibility_layers/visibility_bindings.glsl"
 #include "layers/surface_map.glsl"
 
+layout(std430, set = 0, binding = 4) readonly buffer Solids { uint solids[]; };  // per rank: its material
 layout(std430, set = 0, binding = 14) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 15) readonly buffer MapTriangles { vec4 map_triangles[]; };
 layout(std430, set = 0, binding = 16) readonly buffer Texels { TexelRecords texels[]; };
 layout(std430, set = 0, binding = 17) readonly buffer Records { uvec4 records[]; };
 layout(std430, set = 0, binding = 22) readonly buffer Pyramid { uvec4 pyramid[]; };
+PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
+PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
 
-layout(set = 0, binding = 5, rgba32f) writeonly uniform image2DArray exit_direction;
-layout(set = 0, binding = 6, rgba32f) writeonly uniform image2DArray exit_position;
-layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray transmittance;
-layout(set = 0, binding = 8, r32ui) writeonly uniform uimage2DArray path_events;
-
-layout(push_constant) uniform Push {
-    uint last;         // 1: paths that meet another surface have too many events
-    float t_min;       // m; surfaces that far behind are ahead, by the rounding of their places
-};
+#include "techniques/visibility_layers/path_state.glsl"
+#include "techniques/visibility_layers/cross_surface.glsl"
 
 // Rays enter and leave a solid in turn, so a surface that the path stands on is never met again.
 bool can_meet(uint traits, bool leaving, uint triangle) {
@@ -28,40 +25,44 @@ bool can_meet(uint traits, bool leaving, uint triangle) {
 
 #include "layers/surface_walk.glsl"
 
-void finish(ivec2 texel, Path path, float object) {
-    ivec3 at = ivec3(texel, 0);
-    imageStore(exit_direction, at, vec4(path.direction, path.length_inside));
-    imageStore(exit_position, at, vec4(path.position, object));
-    imageStore(transmittance, at, vec4(path.transmittance, 1.0));
-    imageStore(path_events, at, uvec4(pack_events(path)));
+// A pane that bends no light: its two faces and the reflections between them are one factor.
+void pass_pane(inout Path path, Surface surface) {
+    MaterialRecord material = materials[surface.material];
+    float once = fresnel_dielectric(abs(dot(path.direction, surface.normal)), 1.0 / material.ior);
+    path.transmittance *= (1.0 - 2.0 * once / (1.0 + once)) * material.base_color.rgb * material.transmission;
 }
 
 void main() {
     ivec2 texel;
     if (!listed_pixel(texel)) return;
     uint i = uint(texel.y) * frame.width + uint(texel.x);
+    seed = hash(uvec3(texel, 1u)).x;
     Path path = load_path(i);
     bool in_map, gave_up;
     uint visits = 0u;
-    SurfaceHit hit = find_surface(maps[0], path.position, path.direction, t_min, in_map, gave_up, visits);
+    SurfaceHit hit = find_surface(maps[0], path.position, path.direction, -coincidence, in_map, gave_up, visits);
     uint rank = filling_rank();
-    if (hit.t >= kFarthest) {
-        if (rank != kAir) path.status = gave_up ? kStatusStepLimit : kStatusMissingLayer;
-        finish(texel, path, kEndsInEnvironment);
-        return;
-    }
-    if (last != 0u) {
+    bool found = hit.t < kFarthest;
+    if (!found && rank != kAir) path.status = gave_up ? kStatusStepLimit : kStatusMissingLayer;
+    bool glass = refractive(hit.traits);
+    if (found && glass && path.events >= max_events) {
         path.status = kStatusEventLimit;
-        finish(texel, path, kEndsInEnvironment);
+        found = false;
+    }
+    if (!found) {
+        save_path(i, path);
+        append_ended(texel);
         return;
     }
-    uint object = find_object(hit.triangle);
-    Surface surface = surface_at(hit.triangle, object, path.position, path.direction);
-    float way = distance(path.position, surface.position);
-    if (rank != kAir) travel(path, way, filling_material(rank).sigma_a.rgb);
+    Surface surface = surface_at(hit.triangle, object_of(hit.triangle), path.position, path.direction);
+    if (rank != kAir) travel(path, distance(path.position, surface.position), filling_material(rank).sigma_a.rgb);
     path.position = surface.position;
     standing = hit.triangle;
-    cross_surface(path, surface, hit.traits, hit.leaving);
+    bool ends = (hit.traits & kKindMask) == kOpaqueKind;
+    if (ends) mark |= kMetOpaque;
+    else if (!glass) pass_pane(path, surface);
+    else cross_surface(i, path, surface, hit.traits, hit.leaving, false);
     save_path(i, path);
-    append_next(texel);
+    if (ends) append_ended(texel);
+    else append_next(texel);
 }

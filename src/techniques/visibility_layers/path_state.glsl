@@ -1,15 +1,16 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_PATH_STATE_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_PATH_STATE_GLSL
 
-// Paths between two passes, one per pixel; in world space.
+// Paths between two passes: one per pixel is on its way, those that have branched off it wait; in world space.
 // Needs: techniques/refraction.glsl.
-
-layout(constant_id = 0) const uint kMediumWords = 1u;  // of PathMedia per path: eight solids each
 
 layout(std430, set = 0, binding = 10) buffer PathPlaces { vec4 path_places[]; };    // w: bits of the triangle there
 layout(std430, set = 0, binding = 11) buffer PathWays { vec4 path_ways[]; };        // direction; length inside, m
 layout(std430, set = 0, binding = 12) buffer PathWeights { vec4 path_weights[]; };  // transmittance; bits of the events
-layout(std430, set = 0, binding = 13) buffer PathMedia { uint path_media[]; };
+layout(std430, set = 0, binding = 13) buffer PathMedia { uint path_media[]; };      // the solids around it, and its mark
+// What waits: per pixel the last branch's number + 1, and how many there have been; per branch kBranchWords.
+layout(std430, set = 0, binding = 23) buffer Waiting { uvec2 waiting[]; };
+layout(std430, set = 0, binding = 24) buffer Branches { uint branch_count, branch_reserved[3]; uvec4 branches[]; };
 
 // The solids around a path: per rank, in four bits, how often it was entered more than left.
 uint media[kMediumWords];
@@ -34,20 +35,70 @@ uint filling_rank() {
 
 uint standing;  // the triangle that the path stands on
 
-Path load_path(uint i) {
-    vec4 place = path_places[i], way = path_ways[i], weight = path_weights[i];
+// What is known of a path besides: its colour channel, where it belongs, and how far rough surfaces have spread it.
+uint mark;
+const uint kChannelMask = 3u;   // 0: all channels, 1 to 3: red, green, blue
+const uint kMainPath = 4u;      // the one that Refraction is about
+const uint kOuterBranch = 8u;   // reflected by the first surface, before the glass
+const uint kMetOpaque = 16u;    // it has ended on the opaque triangle on which it stands
+
+float spread() { return float(mark >> 16) / 65535.0; }  // alpha of the lobe that it stands for, 0..1
+void widen(float alpha) {
+    float sum = min(sqrt(spread() * spread() + alpha * alpha), 1.0);
+    mark = (mark & 0xffffu) | uint(sum * 65535.0 + 0.5) << 16;
+}
+
+Path unpack_path(vec4 place, vec4 way, vec4 weight) {
     uint word = floatBitsToUint(weight.w);
     standing = floatBitsToUint(place.w);
-    for (uint w = 0u; w < kMediumWords; ++w) media[w] = path_media[i * kMediumWords + w];
     return Path(place.xyz, way.xyz, weight.rgb, way.w, word & 0xfffu, (word >> 12) & 0xfffu, (word >> 24) & 0xfu,
                 ((word >> 28) & 1u) != 0u);
+}
+
+Path load_path(uint i) {
+    for (uint w = 0u; w < kMediumWords; ++w) media[w] = path_media[i * (kMediumWords + 1u) + w];
+    mark = path_media[i * (kMediumWords + 1u) + kMediumWords];
+    return unpack_path(path_places[i], path_ways[i], path_weights[i]);
 }
 
 void save_path(uint i, Path path) {
     path_places[i] = vec4(path.position, uintBitsToFloat(standing));
     path_ways[i] = vec4(path.direction, path.length_inside);
     path_weights[i] = vec4(path.transmittance, uintBitsToFloat(pack_events(path)));
-    for (uint w = 0u; w < kMediumWords; ++w) path_media[i * kMediumWords + w] = media[w];
+    for (uint w = 0u; w < kMediumWords; ++w) path_media[i * (kMediumWords + 1u) + w] = media[w];
+    path_media[i * (kMediumWords + 1u) + kMediumWords] = mark;
+}
+
+const uint kBranchVectors = 4u + (kMediumWords + 1u) / 4u;  // the path's three, then media, mark and the next branch
+
+// Lets a path wait behind pixel i's. False: there is no room (counted: the host makes more).
+bool push_branch(uint i, Path path, uint capacity) {
+    uint number = atomicAdd(branch_count, 1u);
+    if (number >= capacity) return false;
+    uint at = number * kBranchVectors;
+    branches[at] = floatBitsToUint(vec4(path.position, uintBitsToFloat(standing)));
+    branches[at + 1u] = floatBitsToUint(vec4(path.direction, path.length_inside));
+    branches[at + 2u] = uvec4(floatBitsToUint(path.transmittance), pack_events(path));
+    uvec4 words = uvec4(waiting[i].x, mark, 0u, 0u);
+    for (uint w = 0u; w < kMediumWords; ++w) {
+        words[(w + 2u) % 4u] = media[w];
+        if ((w + 2u) % 4u == 3u || w + 1u == kMediumWords) branches[at + 3u + (w + 2u) / 4u] = words;
+    }
+    waiting[i] = uvec2(number + 1u, waiting[i].y + 1u);
+    return true;
+}
+
+// The branch that has come last. False: none waits.
+bool pop_branch(uint i, out Path path) {
+    uint head = waiting[i].x;
+    if (head == 0u) return false;
+    uint at = (head - 1u) * kBranchVectors;
+    uvec4 weight = branches[at + 2u], words = branches[at + 3u];
+    path = unpack_path(uintBitsToFloat(branches[at]), uintBitsToFloat(branches[at + 1u]), uintBitsToFloat(weight));
+    waiting[i].x = words.x;
+    mark = words.y;
+    for (uint w = 0u; w < kMediumWords; ++w) media[w] = branches[at + 3u + (w + 2u) / 4u][(w + 2u) % 4u];
+    return true;
 }
 
 #endif

@@ -1,9 +1,17 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_VISIBILITY_BINDINGS_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_VISIBILITY_BINDINGS_GLSL
 
-// What the passes of this technique share.
+// What the passes of this technique share. Programs are made for what there is in the scene.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
+
+layout(constant_id = 0) const uint kMediumWords = 1u;     // of PathMedia per path: eight solids each
+layout(constant_id = 1) const bool kOneObject = false;    // whose record is then the same for all paths
+layout(constant_id = 2) const bool kTree = false;         // what is reflected is followed, too
+layout(constant_id = 3) const bool kStochastic = false;   // one way at random
+layout(constant_id = 4) const bool kDispersive = false;   // some glass disperses
+layout(constant_id = 5) const bool kRough = false;        // some glass is rough
+
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };
 #include "gpu/vertices.glsl"
@@ -15,11 +23,16 @@ layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord 
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
-layout(std430, set = 0, binding = 4) readonly buffer Solids { uint solids[]; };  // per rank: its material
-PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
+// Twin of Push in visibility_layers.cpp.
+layout(push_constant) uniform Push {
+    uint max_events;       // K: paths that meet one more surface end
+    uint most_branches;    // that leave the paths of a pixel
+    float threshold;       // what carries less does not branch off
+    uint branch_capacity;
+    float coincidence;     // m: by so much the places of surfaces are uncertain
+    uint closing;          // 1: the last pass; all that waits ends where it is
+};
 
-#include "techniques/visibility_layers/path_state.glsl"
-#include "techniques/visibility_layers/cross_surface.glsl"
+uint object_of(uint triangle) { return kOneObject ? 0u : find_object(triangle); }
 
 #endif

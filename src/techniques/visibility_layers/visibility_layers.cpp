@@ -2,6 +2,7 @@
 
 #include "layers/pixel_list.h"
 
+#include <algorithm>
 #include <array>
 
 namespace pellucid {
@@ -13,57 +14,167 @@ constexpr std::uint32_t kBeginPaths[] = {
 constexpr std::uint32_t kFollowPaths[] = {
 #include "follow_paths.comp.inc"
 };
+constexpr std::uint32_t kEndPaths[] = {
+#include "end_paths.comp.inc"
+};
 
 constexpr std::array kParameters = {
-    ParameterInfo{"layers", "", 8, 1, 4095, true, "unused yet"},
-    ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed"},
+    ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed along a path"},
+    ParameterInfo{"branches", "", -1, -1, 255, true,
+                  "reflected ways followed per pixel and sample; -1: none in a picture of one sample, 16 otherwise"},
+    ParameterInfo{"threshold", "", 0.01, 0, 1, false, "share of the light that a reflected way carries at least"},
+    ParameterInfo{"one-branch", "", 0, 0, 1, true,
+                  "1: each sample takes one way at random, refracted or reflected, and through rough glass one facet"},
+};
+
+/// Passes beyond those of the longest path, for each branch: most branches leave soon.
+constexpr std::uint32_t kPassesPerBranch = 4;
+
+/// Twin of Push in visibility_bindings.glsl.
+struct Push {
+    std::uint32_t max_events, most_branches;
+    float threshold;
+    std::uint32_t branch_capacity;
+    float coincidence;
+    std::uint32_t closing;
+};
+
+enum class Ways { kTransmitted, kTree, kStochastic };
+
+class Paths {
+public:
+    Paths(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters)
+        : recorder_(recorder), frame_(frame), layers_(layers), topology_(*frame.scene.topology),
+          refraction_(clear_refraction(recorder, frame, true)) {
+        const double given = parameters["branches"];
+        const bool many = frame.samples > 1;
+        push_.max_events = parameters.whole("events");
+        push_.most_branches = given >= 0.0 ? std::uint32_t(given) : many ? 16 : 0;
+        push_.threshold = float(parameters["threshold"]);
+        push_.coincidence = 1e-6f * (glm::length(frame.scene.bounds.center) + frame.scene.bounds.radius);
+        ways_ = parameters.whole("one-branch") != 0 ? Ways::kStochastic
+                : push_.most_branches > 0           ? Ways::kTree
+                                                    : Ways::kTransmitted;
+        if (ways_ == Ways::kStochastic) push_.most_branches = 0;
+        push_.branch_capacity =
+            ways_ == Ways::kTree ? layers.source.room("branches", std::uint32_t(pixels() / 4 + 1024)) : 1;
+        words_ = std::max((topology_.solids + 7) / 8, 1u);
+        const std::uint32_t vectors = 4 + (words_ + 1) / 4;  // kBranchVectors of path_state.glsl
+        branches_ = &frame.workspace.buffer("branches", 16 + std::uint64_t(push_.branch_capacity) * vectors * 16);
+    }
+
+    Refraction follow() {
+        begin();
+        const std::uint32_t passes = push_.max_events + push_.most_branches * kPassesPerBranch + 1;
+        // Ends that lead to nothing else are done all at once.
+        const bool at_once = ways_ != Ways::kTree && frame_.scene.opaque.empty();
+        for (std::uint32_t pass = 0; pass < passes; ++pass) {
+            if (pass == 0 || !at_once) ended_ = &start_pixel_list(recorder_, frame_, "ended paths");
+            follow(pass);
+            if (!at_once) end(*ended_, false);
+        }
+        if (at_once) end(*ended_, false);
+        end(*next_, true);
+        if (ways_ == Ways::kTree) layers_.source.measure_room(recorder_, frame_, "branches", *branches_);
+        Refraction refraction = refraction_;
+        if (ways_ != Ways::kTransmitted) refraction.reflected = &reflected_;
+        return refraction;
+    }
+
+private:
+    std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
+
+    std::array<std::uint32_t, 8> constants() const {
+        const GpuScene& scene = frame_.scene;
+        return {words_,
+                scene.object_count == 1 ? 1u : 0u,
+                ways_ == Ways::kTree ? 1u : 0u,
+                ways_ == Ways::kStochastic ? 1u : 0u,
+                scene.dispersive ? 1u : 0u,
+                scene.rough_glass ? 1u : 0u,
+                frame_.environment_kind,
+                scene.opaque.empty() ? 0u : 1u};
+    }
+    const Program& program(ShaderCode shader) {
+        const auto c = constants();
+        return frame_.workspace.compute(shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
+    }
+
+    void begin() {
+        const GpuScene& scene = frame_.scene;
+        if (ways_ == Ways::kTree) recorder_.fill(*branches_, 0);
+        next_ = &start_pixel_list(recorder_, frame_, "paths 0");
+        recorder_.compute_indirect(
+            program({"begin_paths.comp", kBeginPaths}),
+            {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
+             reads("Indices", scene.indices), reads("Vertices", scene.vertices), reads("Traits", topology_.traits),
+             reads("Solids", topology_.materials), reads("layer_triangle", layers_.triangle),
+             reads("PixelList", layers_.covered), updates("NextList", *next_), updates("PathPlaces", places_),
+             updates("PathWays", ways_buffer_), updates("PathWeights", weights_), updates("PathMedia", media_),
+             updates("Waiting", waiting_), updates("Branches", *branches_),
+             writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)},
+            push_, layers_.covered);
+    }
+
+    void follow(std::uint32_t pass) {
+        const GpuScene& scene = frame_.scene;
+        const SurfaceMap& map = layers_.source.view_map();
+        const Buffer& list = *next_;
+        next_ = &start_pixel_list(recorder_, frame_, pass % 2 == 0 ? "paths 1" : "paths 0");
+        recorder_.compute_indirect(
+            program({"follow_paths.comp", kFollowPaths}),
+            {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
+             reads("Indices", scene.indices), reads("Vertices", scene.vertices), reads("Solids", topology_.materials),
+             reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
+             updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
+             updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_),
+             reads("Maps", *map.maps), reads("MapTriangles", *map.triangles), reads("Texels", *map.texels),
+             reads("Records", *map.records), reads("Pyramid", *map.pyramid)},
+            push_, list);
+    }
+
+    void end(const Buffer& list, bool closing) {
+        const GpuScene& scene = frame_.scene;
+        Push push = push_;
+        push.closing = closing ? 1 : 0;
+        recorder_.compute_indirect(
+            program({"end_paths.comp", kEndPaths}),
+            {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
+             reads("Indices", scene.indices), reads("Vertices", scene.vertices), reads("PixelList", list),
+             updates("NextList", closing ? *ended_ : *next_), updates("PathPlaces", places_),
+             updates("PathWays", ways_buffer_), updates("PathWeights", weights_), updates("PathMedia", media_),
+             updates("Waiting", waiting_), updates("Branches", *branches_), reads("Textures", scene.textures),
+             reads("texture_pages", scene.texture_pages), reads("Appearance", scene.appearance),
+             reads_layer("environment_map", frame_.environment, 0),
+             reads_layer("filtered_environment", frame_.filtered_environment, 0),
+             writes("exit_direction", refraction_.exit_direction), writes("exit_position", refraction_.exit_position),
+             writes("transmittance", refraction_.transmittance), writes("path_events", refraction_.events),
+             updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
+            push, list);
+    }
+
+    Recorder& recorder_;
+    const Frame& frame_;
+    const Layers& layers_;
+    const SceneTopology& topology_;
+    Refraction refraction_;
+    Ways ways_ = Ways::kTransmitted;
+    Push push_{};
+    std::uint32_t words_ = 1;
+    const Buffer& places_ = frame_.workspace.buffer("path places", pixels() * 16);
+    const Buffer& ways_buffer_ = frame_.workspace.buffer("path ways", pixels() * 16);
+    const Buffer& weights_ = frame_.workspace.buffer("path weights", pixels() * 16);
+    const Buffer& media_ = frame_.workspace.buffer("path media", pixels() * 4 * (std::max((topology_.solids + 7) / 8, 1u) + 1));
+    const Buffer& waiting_ = frame_.workspace.buffer("waiting branches", pixels() * 8);
+    const Buffer* branches_ = nullptr;
+    const GpuImage& reflected_ = frame_.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame_.extent);
+    const Buffer* next_ = nullptr;
+    const Buffer* ended_ = nullptr;
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
-    const SurfaceMap& map = layers.source.view_map();
-    const SceneTopology& topology = *frame.scene.topology;
     const Recorder::Scope scope(recorder, "trace");
-    const Refraction refraction = clear_refraction(recorder, frame);
-    Workspace& workspace = frame.workspace;
-    const std::uint64_t pixels = std::uint64_t(frame.extent.width) * frame.extent.height;
-    const Buffer& places = workspace.buffer("path places", pixels * 16);
-    const Buffer& ways = workspace.buffer("path ways", pixels * 16);
-    const Buffer& weights = workspace.buffer("path weights", pixels * 16);
-    const std::uint32_t words = std::max((topology.solids + 7) / 8, 1u);
-    const Buffer& media = workspace.buffer("path media", pixels * 4 * words);
-    const Buffer* next = &start_pixel_list(recorder, frame, "paths 0");
-    recorder.compute_indirect(
-        workspace.compute({"begin_paths.comp", kBeginPaths}, {words}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials), reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices), reads("Traits", topology.traits), reads("Solids", topology.materials),
-         reads("layer_triangle", layers.triangle), reads("PixelList", layers.covered), updates("NextList", *next),
-         updates("PathPlaces", places), updates("PathWays", ways), updates("PathWeights", weights),
-         updates("PathMedia", media)},
-        layers.covered);
-    struct Push {
-        std::uint32_t last;
-        float t_min;
-    };
-    const float rounding = 1e-6f * (glm::length(frame.scene.bounds.center) + frame.scene.bounds.radius);
-    const std::uint32_t events = parameters.whole("events");
-    for (std::uint32_t event = 1; event <= events; ++event) {
-        const Buffer& list = *next;
-        next = &start_pixel_list(recorder, frame, event % 2 == 0 ? "paths 0" : "paths 1");
-        recorder.compute_indirect(
-            workspace.compute({"follow_paths.comp", kFollowPaths}, {words}),
-            {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-             reads("Materials", frame.scene.materials), reads("Indices", frame.scene.indices),
-             reads("Vertices", frame.scene.vertices), reads("Traits", topology.traits),
-             reads("Solids", topology.materials), reads("PixelList", list), updates("NextList", *next),
-             updates("PathPlaces", places), updates("PathWays", ways), updates("PathWeights", weights),
-             updates("PathMedia", media), reads("Maps", *map.maps), reads("MapTriangles", *map.triangles),
-             reads("Texels", *map.texels), reads("Records", *map.records), reads("Pyramid", *map.pyramid),
-             writes("exit_direction", refraction.exit_direction), writes("exit_position", refraction.exit_position),
-             writes("transmittance", refraction.transmittance), writes("path_events", refraction.events)},
-            Push{event == events ? 1u : 0u, -rounding}, list);
-    }
-    return refraction;
+    return Paths(recorder, frame, layers, parameters).follow();
 }
 
 }  // namespace

@@ -1,0 +1,102 @@
+#version 460
+// Paths that have come to their end: what light comes from there; then the pixel's next branch, if one waits.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "techniques/visibility_layers/visibility_bindings.glsl"
+
+layout(constant_id = 6) const uint kEnvironmentKind = 0u;
+layout(constant_id = 7) const bool kOpaqueObjects = false;  // there are some
+#define PELLUCID_ENVIRONMENT_KIND kEnvironmentKind
+
+layout(std430, set = 0, binding = 3) readonly buffer Textures { TextureRecord textures[]; };
+layout(set = 0, binding = 4) uniform texture2DArray texture_pages;
+layout(set = 0, binding = 5, rgba32f) writeonly uniform image2DArray exit_direction;
+layout(set = 0, binding = 6, rgba32f) writeonly uniform image2DArray exit_position;
+layout(set = 0, binding = 9, rgba32f) writeonly uniform image2DArray transmittance;
+layout(set = 0, binding = 14, r32ui) writeonly uniform uimage2DArray path_events;
+layout(set = 0, binding = 7, rgba32f) uniform image2DArray path_radiance;
+layout(set = 0, binding = 8, rgba32f) uniform image2DArray reflected_radiance;
+layout(set = 0, binding = 15) uniform texture2D environment_map;
+layout(set = 0, binding = 16) uniform texture2D filtered_environment;
+layout(std430, set = 0, binding = 17) readonly buffer Appearance { float appearance[]; };
+PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
+
+#include "techniques/visibility_layers/path_state.glsl"
+#include "gpu/opaque_surface.glsl"
+
+// Of the opaque surface that the path stands on; a: its alpha less the cutoff, below 0 where there is a hole.
+vec4 opaque_light(Path path) {
+    uint object = object_of(standing);
+    ObjectRecord o = objects[object];
+    uint corner = o.first_corner + 3u * (standing - o.first_triangle);
+    uvec3 v = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);
+    vec3 a = (o.world_from_object * vec4(vertex_position(v.x), 1.0)).xyz;
+    vec3 edge_b = (o.world_from_object * vec4(vertex_position(v.y), 1.0)).xyz - a;
+    vec3 edge_c = (o.world_from_object * vec4(vertex_position(v.z), 1.0)).xyz - a;
+    vec3 w = corner_weights(path.direction, a - path.position, edge_b, edge_c);
+    vec3 normal = mat3(o.world_from_object_normal) *
+                  (w.x * vertex_normal(v.x) + w.y * vertex_normal(v.y) + w.z * vertex_normal(v.z));
+    if (!(dot(normal, normal) > 1e-30)) normal = cross(edge_b, edge_c);
+    normal = normalize(normal);
+    vec4 texcoords = vec4(0.0), color = vec4(0.0);
+    for (int k = 0; k < 3; ++k) {
+        uint at = 5u * v[k];
+        texcoords += w[k] * vec4(appearance[at], appearance[at + 1u], appearance[at + 2u], appearance[at + 3u]);
+        color += w[k] * unpackUnorm4x8(floatBitsToUint(appearance[at + 4u]));
+    }
+    MaterialRecord material = materials[o.material];
+    vec4 base = material.base_color * color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
+    vec3 light = opaque_material_radiance(material, base.rgb, texcoords.xy, texcoords.zw,
+                                          faceforward(normal, path.direction, normal), -path.direction);
+    return vec4(light, base.a - material.alpha_cutoff);
+}
+
+vec3 environment_light(Path path) {
+    if (kRough && spread() > 0.0) return filtered_environment_radiance(path.direction, sqrt(spread()));
+    return environment_radiance(path.direction);
+}
+
+void store_result(ivec2 texel, Path path) {
+    ivec3 at = ivec3(texel, 0);
+    float object = (mark & kMetOpaque) != 0u ? float(object_of(standing)) : kEndsInEnvironment;
+    imageStore(exit_direction, at, vec4(path.direction, path.length_inside));
+    imageStore(exit_position, at, vec4(path.position, object));
+    imageStore(transmittance, at, vec4(path.transmittance, 1.0));
+    imageStore(path_events, at, uvec4(pack_events(path)));
+}
+
+void add_light(ivec2 texel, vec3 light) {
+    ivec3 at = ivec3(texel, 0);
+    if ((mark & kOuterBranch) != 0u) imageStore(reflected_radiance, at, imageLoad(reflected_radiance, at) + vec4(light, 0.0));
+    else imageStore(path_radiance, at, vec4(imageLoad(path_radiance, at).rgb + light, 1.0));
+}
+
+void main() {
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
+    uint i = uint(texel.y) * frame.width + uint(texel.x);
+    Path path = load_path(i);
+    if (kOpaqueObjects && closing == 0u && (mark & kMetOpaque) != 0u) {
+        vec4 light = opaque_light(path);
+        if (light.a < 0.0) {  // a hole: the path goes on
+            mark &= ~kMetOpaque;
+            save_path(i, path);
+            append_next(texel);
+            return;
+        }
+        if ((mark & kMainPath) != 0u) store_result(texel, path);
+        add_light(texel, path.transmittance * light.rgb);
+    } else {
+        if ((mark & kMainPath) != 0u) {
+            if (closing != 0u) path.status = kStatusEventLimit;
+            store_result(texel, path);
+        }
+        if (kTree || kStochastic) add_light(texel, path.transmittance * environment_light(path));
+    }
+    if (closing != 0u) {
+        while (pop_branch(i, path)) add_light(texel, path.transmittance * environment_light(path));
+    } else if (pop_branch(i, path)) {
+        save_path(i, path);
+        append_next(texel);
+    }
+}
