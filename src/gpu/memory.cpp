@@ -112,6 +112,7 @@ std::uint32_t texel_size(vk::Format format) {
         case vk::Format::eR16G16B16A16Sfloat:
             return 8;
         case vk::Format::eR32G32B32A32Sfloat:
+        case vk::Format::eR32G32B32A32Uint:
             return 16;
         default:
             throw std::logic_error("texel_size: unexpected format " + vk::to_string(format));
@@ -119,8 +120,17 @@ std::uint32_t texel_size(vk::Format format) {
 }
 
 Buffer::Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::BufferUsageFlags usage,
-               bool host_visible)
-    : name_(std::move(name)), size_(std::max<vk::DeviceSize>(size, 4)), id_(next_resource_id()) {
+               bool host_visible, vk::Format texels)
+    : name_(std::move(name)), texels_(texels), size_(std::max<vk::DeviceSize>(size, 4)), id_(next_resource_id()) {
+    if (texels != vk::Format::eUndefined) {
+        const vk::DeviceSize most = vk::DeviceSize(device.limits().maxTexelBufferElements) * texel_size(texels);
+        if (size_ > most) {
+            throw Error(fmt::format("{} needs {} MiB in one texel buffer; {} allows {} MiB", name_, size_ >> 20,
+                                    device.info().name, most >> 20));
+        }
+        size_ = std::max<vk::DeviceSize>(size_, texel_size(texels));
+        usage |= vk::BufferUsageFlagBits::eUniformTexelBuffer;
+    }
     const bool addressed = bool(usage & vk::BufferUsageFlagBits::eShaderDeviceAddress);  // then it is not bound
     if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && !addressed && size_ > device.max_storage_binding()) {
         throw Error(fmt::format("{} needs {} MiB in one storage buffer; {} allows {} MiB", name_, size_ >> 20,
@@ -134,6 +144,9 @@ Buffer::Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::
     memory_ = allocate(device, name_, buffer_.getMemoryRequirements(), required, preferred,
                        addressed ? vk::MemoryAllocateFlagBits::eDeviceAddress : vk::MemoryAllocateFlags{});
     buffer_.bindMemory(*memory_, 0);
+    if (texels != vk::Format::eUndefined) {
+        texel_view_ = device.handle().createBufferView({.buffer = *buffer_, .format = texels, .range = VK_WHOLE_SIZE});
+    }
     if (addressed) address_ = device.handle().getBufferAddress({.buffer = *buffer_});
     if (host_visible) mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
 }

@@ -18,8 +18,9 @@ using ResourceId = std::uint64_t;
 class Buffer {
 public:
     Buffer() = default;
+    /// `texels`: the format in which shaders may also read it as a texel buffer.
     Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::BufferUsageFlags usage,
-           bool host_visible = false);
+           bool host_visible = false, vk::Format texels = vk::Format::eUndefined);
 
     vk::Buffer handle() const { return *buffer_; }
     vk::DeviceSize size() const { return size_; }
@@ -29,11 +30,16 @@ public:
     std::byte* mapped() const { return mapped_; }
     /// Device address; 0 unless `usage` has eShaderDeviceAddress, which needs Device::ray_tracing().
     vk::DeviceAddress address() const { return address_; }
+    /// eUndefined: it is no texel buffer.
+    vk::Format texels() const { return texels_; }
+    vk::BufferView texel_view() const { return *texel_view_; }
 
 private:
     std::string name_;
     vk::raii::DeviceMemory memory_ = nullptr;  // outlives buffer_
     vk::raii::Buffer buffer_ = nullptr;
+    vk::raii::BufferView texel_view_ = nullptr;
+    vk::Format texels_ = vk::Format::eUndefined;
     vk::DeviceSize size_ = 0;
     ResourceId id_ = 0;
     std::byte* mapped_ = nullptr;

@@ -30,8 +30,9 @@ void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
         const std::uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
         const auto same =
             std::find_if(slots_.begin(), slots_.end(), [&](const BindingSlot& s) { return s.binding == binding; });
-        const bool never_written =
-            type == vk::DescriptorType::eSampledImage || type == vk::DescriptorType::eAccelerationStructureKHR;
+        const bool never_written = type == vk::DescriptorType::eSampledImage ||
+                                   type == vk::DescriptorType::eUniformTexelBuffer ||
+                                   type == vk::DescriptorType::eAccelerationStructureKHR;
         const bool writable = !never_written && !flags.get(spv::DecorationNonWritable);
         const bool readable = !flags.get(spv::DecorationNonReadable);
         if (same == slots_.end()) {
@@ -52,7 +53,9 @@ void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
         add(r, vk::DescriptorType::eStorageImage, compiler.get_decoration_bitset(r.id));
     }
     for (const auto& r : resources.separate_images) {
-        add(r, vk::DescriptorType::eSampledImage, compiler.get_decoration_bitset(r.id));
+        const bool texels = compiler.get_type(r.type_id).image.dim == spv::DimBuffer;
+        add(r, texels ? vk::DescriptorType::eUniformTexelBuffer : vk::DescriptorType::eSampledImage,
+            compiler.get_decoration_bitset(r.id));
     }
     for (const auto& r : resources.acceleration_structures) {
         add(r, vk::DescriptorType::eAccelerationStructureKHR, compiler.get_decoration_bitset(r.id));

@@ -29,7 +29,8 @@ vk::PipelineStageFlags2 stages_of(const BindingSlot& slot) {
 
 vk::AccessFlags2 access_of(const BindingSlot& slot, Access access) {
     if (slot.type == vk::DescriptorType::eAccelerationStructureKHR) return AccessBit::eAccelerationStructureReadKHR;
-    const bool sampled = slot.type == vk::DescriptorType::eSampledImage;
+    const bool sampled =
+        slot.type == vk::DescriptorType::eSampledImage || slot.type == vk::DescriptorType::eUniformTexelBuffer;
     const vk::AccessFlags2 read = sampled ? AccessBit::eShaderSampledRead : AccessBit::eShaderStorageRead;
     vk::AccessFlags2 flags;
     if (access != Access::kWrite) flags |= read;
@@ -57,11 +58,16 @@ const Binding& binding_of(const Program& program, const BindingSlot& slot, std::
         throw std::logic_error(
             fmt::format("{}: the shader declares '{}', the pass binds no such name", program.name(), slot.name));
     }
-    const bool wants_buffer = slot.type == vk::DescriptorType::eStorageBuffer;
+    const bool wants_texels = slot.type == vk::DescriptorType::eUniformTexelBuffer;
+    const bool wants_buffer = slot.type == vk::DescriptorType::eStorageBuffer || wants_texels;
     const bool wants_structure = slot.type == vk::DescriptorType::eAccelerationStructureKHR;
     if (wants_buffer != (match->buffer != nullptr) || wants_structure != (match->structure != nullptr)) {
         throw std::logic_error(fmt::format("{}: the shader declares '{}' as {}, the pass binds the other kind",
                                            program.name(), slot.name, vk::to_string(slot.type)));
+    }
+    if (wants_texels && match->buffer->texels() == vk::Format::eUndefined) {
+        throw std::logic_error(fmt::format("{}: the shader reads '{}' as a texel buffer, '{}' is none", program.name(),
+                                           slot.name, match->buffer->name()));
     }
     check_access(program, slot, *match);
     return *match;
@@ -130,9 +136,11 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
     const vk::DescriptorSetLayout layout = program.set_layout();
     for (bool fresh = false;; ++descriptor_pool_) {
         if (descriptor_pool_ == descriptor_pools_.size()) {
-            std::vector<vk::DescriptorPoolSize> sizes = {{vk::DescriptorType::eStorageBuffer, kDescriptorsPerPool},
-                                                         {vk::DescriptorType::eStorageImage, kDescriptorsPerPool},
-                                                         {vk::DescriptorType::eSampledImage, kDescriptorsPerPool}};
+            std::vector<vk::DescriptorPoolSize> sizes = {
+                {vk::DescriptorType::eStorageBuffer, kDescriptorsPerPool},
+                {vk::DescriptorType::eStorageImage, kDescriptorsPerPool},
+                {vk::DescriptorType::eSampledImage, kDescriptorsPerPool},
+                {vk::DescriptorType::eUniformTexelBuffer, kDescriptorsPerPool}};
             if (device_.ray_tracing()) {
                 sizes.push_back({vk::DescriptorType::eAccelerationStructureKHR, kSetsPerPool});
             }
@@ -163,6 +171,7 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
     std::vector<vk::WriteDescriptorSet> set_writes;
     std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
     std::vector<vk::DescriptorImageInfo> images(bindings.size());
+    std::vector<vk::BufferView> texels(bindings.size());
     std::vector<vk::AccelerationStructureKHR> structures(bindings.size());
     std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structure_writes(bindings.size());
     const vk::DescriptorSet set = allocate_set(program);
@@ -172,7 +181,11 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
         vk::WriteDescriptorSet& write = set_writes.emplace_back(vk::WriteDescriptorSet{
             .dstSet = set, .dstBinding = slot.binding, .descriptorCount = 1, .descriptorType = slot.type});
         ResourceId id = 0;
-        if (binding.buffer) {
+        if (slot.type == vk::DescriptorType::eUniformTexelBuffer) {
+            texels[i] = binding.buffer->texel_view();
+            write.pTexelBufferView = &texels[i];
+            id = binding.buffer->id();
+        } else if (binding.buffer) {
             buffers[i] =
                 vk::DescriptorBufferInfo{.buffer = binding.buffer->handle(), .offset = 0, .range = VK_WHOLE_SIZE};
             write.pBufferInfo = &buffers[i];

@@ -54,12 +54,13 @@ const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::E
         .first->second.resource;
 }
 
-const Buffer& Workspace::buffer(std::string_view name, vk::DeviceSize size, bool host_visible) {
+const Buffer& Workspace::buffer(std::string_view name, vk::DeviceSize size, bool host_visible, vk::Format texels) {
     auto found = buffers_.find(name);
     if (found != buffers_.end()) {
-        if (found->second.resource.size() == size && (found->second.resource.mapped() != nullptr) == host_visible) {
+        const Buffer& buffer = found->second.resource;
+        if (buffer.size() == size && (buffer.mapped() != nullptr) == host_visible && buffer.texels() == texels) {
             found->second.used = true;
-            return found->second.resource;
+            return buffer;
         }
         buffers_.erase(found);
     }
@@ -68,7 +69,7 @@ const Buffer& Workspace::buffer(std::string_view name, vk::DeviceSize size, bool
         .emplace(std::string(name), Entry<Buffer>{Buffer(device_, std::string(name), size,
                                                          Usage::eStorageBuffer | Usage::eIndirectBuffer |
                                                              Usage::eTransferSrc | Usage::eTransferDst,
-                                                         host_visible)})
+                                                         host_visible, texels)})
         .first->second.resource;
 }
 

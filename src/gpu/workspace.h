@@ -28,7 +28,8 @@ public:
 
     /// Contents are undefined until written in this frame.
     const GpuImage& image(std::string_view name, vk::Format format, vk::Extent2D extent, std::uint32_t layers = 1);
-    const Buffer& buffer(std::string_view name, vk::DeviceSize size, bool host_visible = false);
+    const Buffer& buffer(std::string_view name, vk::DeviceSize size, bool host_visible = false,
+                         vk::Format texels = vk::Format::eUndefined);
     /// There is one at a time: of the scene and the use asked for last.
     SceneHierarchy& hierarchy(const GpuScene& scene, StructureUse use);
 

@@ -37,8 +37,8 @@ constexpr std::uint32_t kReduceTexels[] = {
 #include "reduce_texels.comp.inc"
 };
 
-constexpr std::uint32_t kGroup = 64;           // of the shaders that go through triangles
-constexpr vk::DeviceSize kRecordSize = 16;     // SurfaceRecord
+constexpr std::uint32_t kGroup = 64;        // of the shaders that go through triangles
+constexpr vk::DeviceSize kRecordSize = 16;  // SurfaceRecord
 constexpr vk::DeviceSize kTileSize = 8;
 constexpr vk::DeviceSize kNodeSize = 16;
 constexpr vk::DeviceSize kTriangleSize = 48;
@@ -78,11 +78,14 @@ MapRecord record_of(const MapProjection& projection) {
     return record;
 }
 
-const Buffer& counts_on_host(const Frame& frame) { return frame.workspace.buffer("map counts", sizeof(MapCount), true); }
+const Buffer& counts_on_host(const Frame& frame) {
+    return frame.workspace.buffer("map counts", sizeof(MapCount), true);
+}
 
 std::uint32_t largest(const Device& device, vk::DeviceSize item) {
     const vk::DeviceSize bytes = std::min<vk::DeviceSize>(device.max_storage_binding(), device.max_allocation());
-    return std::uint32_t(std::min<vk::DeviceSize>(bytes / item, 0x7ffffffeu));
+    return std::uint32_t(
+        std::min<vk::DeviceSize>(bytes / item, std::min(device.limits().maxTexelBufferElements, 0x7ffffffeu)));
 }
 
 }  // namespace
@@ -102,12 +105,16 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     std::memcpy(maps.mapped(), &record, sizeof(record));
 
     const std::uint64_t nodes = (4ull << (record.log2_width + record.log2_height)) / 3 + 1;
-    const SurfaceMap map{projection,
-                         &maps,
-                         &workspace.buffer("map triangles", std::max<std::uint64_t>(scene.triangle_count, 1) * kTriangleSize),
-                         &workspace.buffer("map texels", texels * 2 * sizeof(std::uint32_t)),
-                         &workspace.buffer("map records", map_pool_.records * kRecordSize),
-                         &workspace.buffer("map pyramid", nodes * kNodeSize)};
+    const auto texel_buffer = [&](const char* name, vk::DeviceSize size) -> const Buffer& {
+        return workspace.buffer(name, size, false, vk::Format::eR32G32B32A32Uint);
+    };
+    const SurfaceMap map{
+        projection,
+        &maps,
+        &texel_buffer("map triangles", std::max<std::uint64_t>(scene.triangle_count, 1) * kTriangleSize),
+        &workspace.buffer("map texels", texels * 2 * sizeof(std::uint32_t), false, vk::Format::eR32G32Uint),
+        &texel_buffer("map records", map_pool_.records * kRecordSize),
+        &texel_buffer("map pyramid", nodes * kNodeSize)};
     const Buffer& counters = workspace.buffer("map counters", sizeof(MapCount));
     const Buffer& found = workspace.buffer("map records found", map_pool_.records * kRecordSize);
     const Buffer& groups = workspace.buffer("map workgroups", 3 * sizeof(std::uint32_t));
@@ -123,21 +130,22 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
         std::uint32_t triangle_count, record_capacity, tile_capacity, row;
         float steep, crease;
     };
-    recorder.compute(workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}),
-                     {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-                      reads("Vertices", scene.vertices), reads("Maps", maps), reads("Neighbors", topology.neighbors),
-                      writes("MapTriangles", *map.triangles),
-                      updates("MapCounters", counters), updates("Texels", *map.texels), writes("Found", found), writes("Tiles", tiles)},
-                     Push{std::uint32_t(scene.triangle_count), map_pool_.records, map_pool_.tiles, row, kSteep, kCrease},
-                     {row, rows});
+    recorder.compute(
+        workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}),
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+         reads("Vertices", scene.vertices), reads("Maps", maps), reads("Neighbors", topology.neighbors),
+         writes("MapTriangles", *map.triangles), updates("MapCounters", counters), updates("Texels", *map.texels),
+         writes("Found", found), writes("Tiles", tiles)},
+        Push{std::uint32_t(scene.triangle_count), map_pool_.records, map_pool_.tiles, row, kSteep, kCrease},
+        {row, rows});
     const Program& dispatch = workspace.compute({"dispatch_map.comp", kDispatchMap});
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
                      std::array{0u, map_pool_.tiles, row_groups}, {1, 1});
-    recorder.compute_indirect(workspace.compute({"rasterise_tiles.comp", kRasteriseTiles}),
-                              {reads("Maps", maps), reads("MapTriangles", *map.triangles),
-                               updates("MapCounters", counters), updates("Texels", *map.texels), writes("Found", found),
-                               reads("Tiles", tiles)},
-                              std::array{map_pool_.records, map_pool_.tiles}, groups);
+    recorder.compute_indirect(
+        workspace.compute({"rasterise_tiles.comp", kRasteriseTiles}),
+        {reads("Maps", maps), reads("MapTriangles", *map.triangles), updates("MapCounters", counters),
+         updates("Texels", *map.texels), writes("Found", found), reads("Tiles", tiles)},
+        std::array{map_pool_.records, map_pool_.tiles}, groups);
     recorder.compute(workspace.compute({"place_texels.comp", kPlaceTexels}),
                      {reads("Maps", maps), updates("MapCounters", counters), updates("Texels", *map.texels)},
                      {(projection.extent.width + 3) / 4, (projection.extent.height + 3) / 4});
@@ -175,7 +183,8 @@ bool LayerSource::must_enlarge_map(const Frame& frame) {
         if (needed <= room) return;
         const std::uint32_t most = largest(device, item);
         if (needed > most) {
-            throw Error(fmt::format("{} {} in the picture; {} has room for {}", needed, what, device.info().name, most));
+            throw Error(
+                fmt::format("{} {} in the picture; {} has room for {}", needed, what, device.info().name, most));
         }
         room = std::uint32_t(std::min<std::uint64_t>(most, std::uint64_t(needed) + needed / 4));
     };

@@ -2,6 +2,7 @@
 #define PELLUCID_LAYERS_SURFACE_MAP_GLSL
 
 // What a surface map is made of (surface_map.h).
+#extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/structs.h"
 
 // Twin of MapRecord in surface_map.cpp.

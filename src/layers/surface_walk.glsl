@@ -18,7 +18,7 @@ const uint kMostNeighbors = 16u; // triangles walked across
 const float kFarthest = 1e30;
 
 SurfaceRecord read_record(uint number) {
-    uvec4 words = records[number];
+    uvec4 words = texelFetch(records, int(number));
     return SurfaceRecord(words.x, words.y, words.z, words.w);
 }
 
@@ -102,7 +102,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
             float q_out = ray.a.z + s_out * ray.way.z;
             low = int(clamp(min(here.z, q_out) * kDepthSteps - 1.0, 0.0, kDepthSteps));
             high = int(clamp(max(here.z, q_out) * kDepthSteps + 2.0, 0.0, kDepthSteps));
-            ivec4 ranges = ivec4(pyramid[node_index(map, level, cell)]);
+            ivec4 ranges = ivec4(texelFetch(pyramid, node_index(map, level, cell)));
             bool passes = any(lessThanEqual(max(ranges & 0xffff, ivec4(low)), min((ranges >> 16) & 0xffff, ivec4(high))));
             if (!passes) {
                 s = s_out;
@@ -118,8 +118,8 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         if (!at_leaf) break;
         float t_max = distance_at(ray, min(s_out + nudge, 1.0));
         t_max += 1e-5 * abs(t_max);
-        TexelRecords own = texels[int(map.first_head) + cell.y * int(map.width) + cell.x];
-        uint number = own.first, end = own.first + own.count;
+        uvec2 own = texelFetch(texels, int(map.first_head) + cell.y * int(map.width) + cell.x).xy;
+        uint number = own.x, end = own.x + own.y;
         SurfaceRecord record;
         uint triangle = PELLUCID_NO_TRIANGLE, before, left;
         for (;;) {
@@ -130,8 +130,9 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
                 left = (record.triangle & kContinues) != 0u ? kMostNeighbors : 0u;
             }
             if (triangle == PELLUCID_NO_TRIANGLE) break;
-            vec4 a = map_triangles[3u * triangle], b = map_triangles[3u * triangle + 1u],
-                 c = map_triangles[3u * triangle + 2u];
+            int at = 3 * int(triangle);
+            vec4 a = uintBitsToFloat(texelFetch(map_triangles, at)), b = uintBitsToFloat(texelFetch(map_triangles, at + 1)),
+                 c = uintBitsToFloat(texelFetch(map_triangles, at + 2));
             vec3 p = cross(direction, c.xyz), from_corner = origin - a.xyz, q = cross(from_corner, b.xyz);
             float determinant = dot(b.xyz, p);  // minus the speed along the outward normal
             vec3 weights;

@@ -7,10 +7,10 @@
 
 layout(std430, set = 0, binding = 4) readonly buffer Solids { uint solids[]; };  // per rank: its material
 layout(std430, set = 0, binding = 14) readonly buffer Maps { MapRecord maps[]; };
-layout(std430, set = 0, binding = 15) readonly buffer MapTriangles { vec4 map_triangles[]; };
-layout(std430, set = 0, binding = 16) readonly buffer Texels { TexelRecords texels[]; };
-layout(std430, set = 0, binding = 17) readonly buffer Records { uvec4 records[]; };
-layout(std430, set = 0, binding = 22) readonly buffer Pyramid { uvec4 pyramid[]; };
+layout(set = 0, binding = 15) uniform utextureBuffer map_triangles;
+layout(set = 0, binding = 16) uniform utextureBuffer texels;
+layout(set = 0, binding = 17) uniform utextureBuffer records;
+layout(set = 0, binding = 22) uniform utextureBuffer pyramid;
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
 

@@ -128,8 +128,8 @@ private:
              reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
              updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
              updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_),
-             reads("Maps", *map.maps), reads("MapTriangles", *map.triangles), reads("Texels", *map.texels),
-             reads("Records", *map.records), reads("Pyramid", *map.pyramid)},
+             reads("Maps", *map.maps), reads("map_triangles", *map.triangles), reads("texels", *map.texels),
+             reads("records", *map.records), reads("pyramid", *map.pyramid)},
             push_, list);
     }
 
