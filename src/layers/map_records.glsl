@@ -8,7 +8,7 @@ layout(std430, set = 0, binding = 6) buffer Texels { TexelRecords texels[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Found { uvec4 found[]; };  // texel, number there, triangle, range
 
 void append_record(MapRecord map, ivec2 texel, uint triangle, uint range, uint capacity) {
-    uint index = uint(int(map.first_head) + texel.y * int(map.width) + texel.x);
+    uint index = map.first_head + uint(texel_order(map, texel));
     uint number = atomicAdd(texels[index].count, 1u);
     uint i = atomicAdd(counts.records, 1u);  // counted even if there is no room: the host then makes more
     if (i < capacity) found[i] = uvec4(index, number, triangle, range);

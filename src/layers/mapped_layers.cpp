@@ -42,7 +42,8 @@ MapProjection view_projection(const Frame& frame) {
     }
     const glm::mat4 map_from_view = glm::transpose(glm::mat4(x, y, q, w));
     const glm::vec4 forward = -view.world_from_view[2];
-    return {map_from_view * view.view_from_world, parallel ? glm::vec4(-glm::vec3(forward), 0.0f) : view.world_from_view[3],
+    return {map_from_view * view.view_from_world,
+            parallel ? glm::vec4(-glm::vec3(forward), 0.0f) : view.world_from_view[3],
             parallel ? 0.5f : view.near_plane, frame.extent};
 }
 
@@ -60,15 +61,15 @@ Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, cons
     recorder.clear(images.triangle, vk::ClearColorValue(std::array{PELLUCID_NO_TRIANGLE, 0u, 0u, 0u}));
     const Buffer& any = start_pixel_list(recorder, frame, "mapped pixels");
     recorder.compute(frame.workspace.compute({"list_mapped.comp", kListMapped}),
-                     {reads("Texels", *map_->texels), updates("PixelList", any)},
-                     std::array{frame.extent.width, frame.extent.height}, frame.extent);
+                     {reads("Texels", *map_->texels), reads("Maps", *map_->maps), updates("PixelList", any)},
+                     frame.extent);
     recorder.compute_indirect(
         frame.workspace.compute({"select_mapped.comp", kSelectMapped}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices), reads("PixelList", any), reads("MapTriangles", *map_->triangles),
-         reads("Records", *map_->records), reads("Texels", *map_->texels), reads("opaque_depth", opaque.depth),
-         writes("layer_depth", images.depth), writes("layer_triangle", images.triangle),
-         writes("layer_normal", images.normal)},
+         reads("Vertices", frame.scene.vertices), reads("PixelList", any), reads("Maps", *map_->maps),
+         reads("MapTriangles", *map_->triangles), reads("Records", *map_->records), reads("Texels", *map_->texels),
+         reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
+         writes("layer_triangle", images.triangle), writes("layer_normal", images.normal)},
         std::array{request.count, request.hidden_by_opaque ? 1u : 0u, first_triangle, end_triangle}, any);
     const Buffer& covered = list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE,
                                         request.name + " pixels", 0, frame.extent.height);

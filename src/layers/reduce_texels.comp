@@ -14,9 +14,10 @@ void main() {
     uvec2 cell = gl_GlobalInvocationID.xy;
     if (cell.x >= 1u << (map.log2_width - level) || cell.y >= 1u << (map.log2_height - level)) return;
     uvec4 ranges = uvec4(kNoRange);
-    for (uint child = 0u; child < 4u; ++child) {
-        uvec4 below = pyramid[node_index(map, int(level) - 1, ivec2(2u * cell + uvec2(child & 1u, child >> 1)))];
+    int order = texel_order(map, ivec2(cell << level));
+    for (int child = 0; child < 4; ++child) {
+        uvec4 below = pyramid[node_index(map, int(level) - 1, order) + child];
         for (int i = 0; i < 4; ++i) insert_range(ranges, below[i]);
     }
-    pyramid[node_index(map, int(level), ivec2(cell))] = ranges;
+    pyramid[node_index(map, int(level), order)] = ranges;
 }

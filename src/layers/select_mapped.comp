@@ -16,6 +16,7 @@ layout(local_size_x = PELLUCID_LIST_GROUP) in;
 layout(std430, set = 0, binding = 2) readonly buffer MapTriangles { vec4 map_triangles[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Records { uvec4 records[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Texels { TexelRecords texels[]; };
+layout(std430, set = 0, binding = 9) readonly buffer Maps { MapRecord maps[]; };
 layout(set = 0, binding = 4, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 5, r32f) writeonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 7, r32ui) writeonly uniform uimage2DArray layer_triangle;
@@ -54,7 +55,7 @@ void main() {
     Ray view = camera_ray(vec2(texel) + 0.5);
     vec3 origin = (frame.world_from_view * vec4(view.origin, 1.0)).xyz;
     vec3 direction = mat3(frame.world_from_view) * view.direction;
-    TexelRecords own = texels[uint(texel.y) * frame.width + uint(texel.x)];
+    TexelRecords own = texels[texel_order(maps[0], texel)];
     Fragment fragment = kNoFragment;
     for (uint layer = 0u; layer < layer_count; ++layer) {
         fragment = nearest_behind(own, origin, direction, -view.direction.z, fragment, layer == 0u);

@@ -15,9 +15,10 @@ void main() {
     uvec2 texel = gl_GlobalInvocationID.xy;
     if (texel.x >= 1u << map.log2_width || texel.y >= 1u << map.log2_height) return;
     uvec4 ranges = uvec4(kNoRange);
+    int order = texel_order(map, ivec2(texel));
     if (texel.x < map.width && texel.y < map.height) {
-        TexelRecords own = texels[map.first_head + texel.y * map.width + texel.x];
+        TexelRecords own = texels[int(map.first_head) + order];
         for (uint i = 0u; i < own.count; ++i) insert_range(ranges, records[own.first + i].x);
     }
-    pyramid[node_index(map, 0, ivec2(texel))] = ranges;
+    pyramid[node_index(map, 0, order)] = ranges;
 }

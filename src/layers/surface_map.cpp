@@ -95,16 +95,16 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     Workspace& workspace = frame.workspace;
     const GpuScene& scene = frame.scene;
     const Device& device = workspace.device();
-    const std::uint64_t texels = std::uint64_t(projection.extent.width) * projection.extent.height;
+    const MapRecord record = record_of(projection);
+    const std::uint64_t texels = 1ull << (record.log2_width + record.log2_height);
     if (map_pool_.records == 0) {
         map_pool_.records = std::uint32_t(std::min<std::uint64_t>(4 * texels, largest(device, kRecordSize)));
         map_pool_.tiles = std::uint32_t(std::min<std::uint64_t>(texels / 4 + 1024, largest(device, kTileSize)));
     }
-    const MapRecord record = record_of(projection);
     const Buffer& maps = workspace.buffer("map projections", sizeof(MapRecord), true);
     std::memcpy(maps.mapped(), &record, sizeof(record));
 
-    const std::uint64_t nodes = (4ull << (record.log2_width + record.log2_height)) / 3 + 1;
+    const std::uint64_t nodes = 4 * texels / 3 + 1;
     const auto texel_buffer = [&](const char* name, vk::DeviceSize size) -> const Buffer& {
         return workspace.buffer(name, size, false, vk::Format::eR32G32B32A32Uint);
     };
@@ -148,7 +148,7 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
         std::array{map_pool_.records, map_pool_.tiles}, groups);
     recorder.compute(workspace.compute({"place_texels.comp", kPlaceTexels}),
                      {reads("Maps", maps), updates("MapCounters", counters), updates("Texels", *map.texels)},
-                     {(projection.extent.width + 3) / 4, (projection.extent.height + 3) / 4});
+                     {std::uint32_t((texels + 15) / 16), 1});
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
                      std::array{1u, map_pool_.records, row_groups}, {1, 1});
     recorder.compute_indirect(

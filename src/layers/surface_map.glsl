@@ -50,9 +50,20 @@ int level_start(MapRecord map, int level) {
     return int(map.first_node) + (starts & ~((4 << log2_area >> 2 * level) - 1));
 }
 
-int node_index(MapRecord map, int level, ivec2 cell) {
-    return level_start(map, level) + (cell.y << (int(map.log2_width) - level)) + cell.x;
+// Texels lie along a Z curve, so that blocks of them are together in memory and the parent of texel or node i is i / 4.
+int texel_order(MapRecord map, ivec2 texel) {
+    int side = int(min(map.log2_width, map.log2_height));
+    ivec2 block = texel >> side;
+    ivec2 spread = texel & ((1 << side) - 1);
+    spread = (spread | spread << 8) & 0x00ff00ff;
+    spread = (spread | spread << 4) & 0x0f0f0f0f;
+    spread = (spread | spread << 2) & 0x33333333;
+    spread = (spread | spread << 1) & 0x55555555;
+    return (block.x | block.y) << 2 * side | spread.y << 1 | spread.x;
 }
+
+// The node of a level over a texel.
+int node_index(MapRecord map, int level, int order) { return level_start(map, level) + (order >> 2 * level); }
 
 uint map_levels(MapRecord map) { return min(map.log2_width, map.log2_height) + 1u; }
 

@@ -79,36 +79,36 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
     in_map = map_ray(map, origin, direction, ray);
     if (!in_map) return hit;
     vec2 inverse = 1.0 / mix(ray.way.xy, vec2(1e-9), lessThan(abs(ray.way.xy), vec2(1e-9)));
-    vec2 ahead = vec2(greaterThan(ray.way.xy, vec2(0.0)));
+    ivec2 ahead = -ivec2(greaterThan(ray.way.xy, vec2(0.0)));
     float nudge = kNudge * min(abs(inverse.x), abs(inverse.y));
     int top = int(map_levels(map)) - 1, level = 0;
     vec2 last_texel = vec2(map.width, map.height) - 1.0;
     float s = 0.0;
+    ivec2 texel = ivec2(clamp(ray.a.xy, vec2(0.0), last_texel));
+    int order = texel_order(map, texel);
     uint budget = 4096u;
     while (s < 1.0 && budget > 0u) {
-        ivec2 cell;
         int low, high;
         float s_out;
         bool at_leaf = false;
         while (s < 1.0 && !at_leaf && budget > 0u) {
             --budget;
             ++visits;
-            vec3 here = ray.a + s * ray.way;
-            cell = ivec2(clamp(here.xy, vec2(0.0), last_texel)) >> level;
-            vec2 edge = (vec2(cell) + ahead) * float(1 << level);
-            vec2 to_edge = (edge - ray.a.xy) * inverse;
+            int side = 1 << level;
+            vec2 to_edge = (vec2((texel & -side) + (ahead & side)) - ray.a.xy) * inverse;
             s_out = min(min(to_edge.x, to_edge.y) + nudge, 1.0);
             s_out = max(s_out, s + 0.5 * nudge);
-            float q_out = ray.a.z + s_out * ray.way.z;
-            low = int(clamp(min(here.z, q_out) * kDepthSteps - 1.0, 0.0, kDepthSteps));
-            high = int(clamp(max(here.z, q_out) * kDepthSteps + 2.0, 0.0, kDepthSteps));
-            ivec4 ranges = ivec4(texelFetch(pyramid, node_index(map, level, cell)));
+            float q_in = ray.a.z + s * ray.way.z, q_out = ray.a.z + s_out * ray.way.z;
+            low = int(min(q_in, q_out) * kDepthSteps - 1.0);
+            high = int(max(q_in, q_out) * kDepthSteps + 2.0);
+            ivec4 ranges = ivec4(texelFetch(pyramid, node_index(map, level, order)));
             bool passes = any(lessThanEqual(max(ranges & 0xffff, ivec4(low)), min((ranges >> 16) & 0xffff, ivec4(high))));
             if (!passes) {
                 s = s_out;
-                vec2 next = clamp(ray.a.xy + s * ray.way.xy, vec2(0.0), last_texel);
-                ivec2 parent = ivec2(next) >> (level + 1);
-                if (level < top && parent != cell >> 1) ++level;
+                texel = ivec2(clamp(ray.a.xy + s * ray.way.xy, vec2(0.0), last_texel));
+                int next = texel_order(map, texel);
+                if (level < top && (next ^ order) >> 2 * level > 3) ++level;
+                order = next;
             } else if (level > 0) {
                 --level;
             } else {
@@ -118,7 +118,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         if (!at_leaf) break;
         float t_max = distance_at(ray, min(s_out + nudge, 1.0));
         t_max += 1e-5 * abs(t_max);
-        uvec2 own = texelFetch(texels, int(map.first_head) + cell.y * int(map.width) + cell.x).xy;
+        uvec2 own = texelFetch(texels, int(map.first_head) + order).xy;
         uint number = own.x, end = own.x + own.y;
         SurfaceRecord record;
         uint triangle = PELLUCID_NO_TRIANGLE, before, left;
@@ -152,6 +152,8 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         }
         if (hit.t < kFarthest) break;
         s = s_out;
+        texel = ivec2(clamp(ray.a.xy + s * ray.way.xy, vec2(0.0), last_texel));
+        order = texel_order(map, texel);
     }
     gave_up = budget == 0u;
     return hit;
