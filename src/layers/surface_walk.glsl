@@ -35,6 +35,24 @@ struct SurfaceHit {
     bool leaving;    // along the outward normal
 };
 
+const SurfaceHit kNoHit = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
+
+// Programs that have to know which surfaces of two objects lie at one place define PELLUCID_FINDS_SECOND as whether
+// they do.
+#ifndef PELLUCID_FINDS_SECOND
+#define PELLUCID_FINDS_SECOND false
+#endif
+SurfaceHit second_hit;  // behind the nearest, of another object, as far as it was seen
+
+void take_nearer(inout SurfaceHit hit, SurfaceHit candidate) {
+    bool nearer = candidate.t < hit.t;
+    if (PELLUCID_FINDS_SECOND && candidate.traits != hit.traits) {
+        if (nearer) second_hit = hit;
+        else if (candidate.t < second_hit.t) second_hit = candidate;
+    }
+    if (nearer) hit = candidate;
+}
+
 // Keeps [t_low, t_high] where start + t rate >= 0.
 void clip(float start, float rate, inout float t_low, inout float t_high) {
     float t = -start / rate;
@@ -73,7 +91,8 @@ float way_at(MapRay ray, float t) {
 
 // The nearest surface beyond `t_min`, m; `status` tells what became of the ray if there is none.
 SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, out bool in_map, out bool gave_up, inout uint visits) {
-    SurfaceHit hit = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
+    SurfaceHit hit = kNoHit;
+    second_hit = kNoHit;
     MapRay ray;
     gave_up = false;
     in_map = map_ray(map, origin, direction, ray);
@@ -143,8 +162,8 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
             uint next = floatBitsToUint(weights.x == least ? b.w : weights.y == least ? c.w : a.w);
             bool inside = least >= -kSlack || (next == before && least > -0.01);
             bool leaving = determinant < 0.0;
-            if (inside && t > t_min && t <= t_max && t < hit.t && can_meet(record.traits, leaving, triangle))
-                hit = SurfaceHit(t, triangle, record.traits, leaving);
+            if (inside && t > t_min && t <= t_max && can_meet(record.traits, leaving, triangle))
+                take_nearer(hit, SurfaceHit(t, triangle, record.traits, leaving));
             bool on = !inside && left > 0u && next != before && abs(t) < kFarthest;
             before = triangle;
             triangle = on ? next : PELLUCID_NO_TRIANGLE;

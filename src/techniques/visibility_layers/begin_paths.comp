@@ -39,7 +39,12 @@ void main() {
     }
     path.position = surface.position;
     standing = triangle;
-    cross_surface(i, path, surface, own_traits, leaving, !leaving);
+    note_here();
+    step_across(own_traits, leaving);
+    note_there();
+    uint beyond = filling_rank();
+    if (leaving) meet_boundary(i, path, surface, true, filling_iors(rank_of(own_traits)), filling_iors(beyond), false);
+    else meet_boundary(i, path, surface, false, vec3(1.0), filling_iors(beyond), true);
     save_path(i, path);
     append_next(texel);
 }

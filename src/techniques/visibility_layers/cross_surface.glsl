@@ -45,27 +45,29 @@ bool may_branch(uint i, vec3 weight) {
     return waiting[i].y < most_branches && max(weight.r, max(weight.g, weight.b)) > threshold;
 }
 
+// The solids around the path on this side and on the other side of the boundary at hand.
+uint media_here[kMediumWords], media_there[kMediumWords];
+
 // After the direction has changed at a boundary: the interpolated normal can send a path to the other side of the
 // triangle than it means to. It is where it goes.
-void settle(vec3 direction, Surface surface, bool leaving, uint rank, uint here, uint there) {
-    set_entered(rank, (dot(direction, surface.geometric) > 0.0) == leaving ? there : here);
+void settle(vec3 direction, Surface surface, bool leaving) {
+    bool through = (dot(direction, surface.geometric) > 0.0) == leaving;
+    for (uint w = 0u; w < kMediumWords; ++w) media[w] = through ? media_there[w] : media_here[w];
 }
 
-void branch_off(uint i, Path path, vec3 direction, vec3 weight, uint own_mark, Surface surface, bool leaving, uint rank,
-                uint here, uint there) {
+void branch_off(uint i, Path path, vec3 direction, vec3 weight, uint own_mark, Surface surface, bool leaving) {
     uint marked = mark;
     mark = own_mark;
     path.direction = direction;
     path.transmittance = weight;
-    settle(direction, surface, leaving, rank, here, there);
+    settle(direction, surface, leaving);
     push_branch(i, path, branch_capacity);
     mark = marked;
 }
 
 // Meets the boundary between two media: refracts, or reflects totally. What is reflected besides branches off; where
 // it carries too little for that, its light goes on with what is refracted, so that none is lost.
-void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, uint rank, uint here, uint there, vec3 n_i, vec3 n_t,
-                   bool first) {
+void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, vec3 n_i, vec3 n_t, bool first) {
     vec3 n = leaving ? -surface.normal : surface.normal;
     MaterialRecord material = materials[surface.material];
     uint channel = mark & kChannelMask;
@@ -100,7 +102,7 @@ void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, uint 
                     vec3 only = vec3(other == 0u, 0.0, other == 2u);
                     uint own = (mark & ~(kChannelMask | kMainPath)) | (other + 1u);
                     branch_off(i, path, way, carried * tint * only * (1.0 - fresnel_dielectric(cosine, other_eta)), own, surface,
-                               leaving, rank, here, there);
+                               leaving);
                 }
                 mark |= 2u;
             }
@@ -116,7 +118,7 @@ void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, uint 
                 widen(alpha);
                 own = mark;
                 mark = kept;
-                branch_off(i, path, reflect_direction(incident, n), reflected, own, surface, leaving, rank, here, there);
+                branch_off(i, path, reflect_direction(incident, n), reflected, own, surface, leaving);
                 path.transmittance *= 1.0 - reflectance;
             }
             if ((mark & kChannelMask) != channel) path.transmittance *= vec3(0.0, 1.0, 0.0);
@@ -126,20 +128,27 @@ void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, uint 
         path.transmittance *= tint;
     }
     if (kRough && !kStochastic && alpha > 0.0) widen(total ? alpha : alpha * bending);
-    settle(path.direction, surface, leaving, rank, here, there);
+    settle(path.direction, surface, leaving);
 }
 
-// Crosses the boundary of a solid on which the path now stands.
-void cross_surface(uint i, inout Path path, Surface surface, uint traits, bool leaving, bool first) {
+// Takes the solids around the path to the other side of a boundary; a surface that is not closed has no count to keep:
+// its normal alone says where the path is.
+void step_across(uint traits, bool leaving) {
     uint rank = rank_of(traits);
-    if ((traits & kClosed) == 0u) set_entered(rank, leaving ? 1u : 0u);  // its normal alone says where the path is
-    uint here = entered(rank), there = leaving ? max(here, 1u) - 1u : here + 1u;
-    uint before = filling_rank();
-    set_entered(rank, there);
-    uint beyond = filling_rank();
-    if (beyond != before) {
-        meet_boundary(i, path, surface, leaving, rank, here, there, filling_iors(before), filling_iors(beyond), first);
-    }
+    bool closed = (traits & kClosed) != 0u;
+    uint count = closed ? entered(rank) : leaving ? 1u : 0u;
+    set_entered(rank, leaving ? max(count, 1u) - 1u : count + 1u);
 }
+void note_here() {
+    for (uint w = 0u; w < kMediumWords; ++w) media_here[w] = media[w];
+}
+void note_there() {
+    for (uint w = 0u; w < kMediumWords; ++w) media_there[w] = media[w];
+}
+// Of an open surface: what its normal says.
+void correct_side(uint traits, bool leaving) {
+    if ((traits & kClosed) == 0u) set_entered(rank_of(traits), leaving ? 1u : 0u);
+}
+
 
 #endif

@@ -23,6 +23,7 @@ bool can_meet(uint traits, bool leaving, uint triangle) {
     return (entered(rank_of(traits)) > 0u) == leaving;
 }
 
+#define PELLUCID_FINDS_SECOND kTouching
 #include "layers/surface_walk.glsl"
 
 // A pane that bends no light: its two faces and the reflections between them are one factor.
@@ -30,6 +31,13 @@ void pass_pane(inout Path path, Surface surface) {
     MaterialRecord material = materials[surface.material];
     float once = fresnel_dielectric(abs(dot(path.direction, surface.normal)), 1.0 / material.ior);
     path.transmittance *= (1.0 - 2.0 * once / (1.0 + once)) * material.base_color.rgb * material.transmission;
+}
+
+const float kApart = 16.0;  // coincidences along a ray, which may graze
+
+int boundary_rank(SurfaceHit hit, uint before, uint beyond) {
+    uint rank = rank_of(hit.traits);
+    return rank == before || rank == beyond ? int(rank) : -1;
 }
 
 void main() {
@@ -54,14 +62,38 @@ void main() {
         append_ended(texel);
         return;
     }
+    // Where boundaries of two objects lie at one place, the order in which they are found is chance: both are crossed
+    // at once. What a solid stands on is outside of it.
+    bool touching = false;
+    if (kTouching && second_hit.t - hit.t <= kApart * coincidence) {
+        bool second_is_glass = refractive(second_hit.traits);
+        touching = glass && second_is_glass;
+        if (glass != second_is_glass && (glass ? !hit.leaving : second_hit.leaving)) {
+            hit = second_hit;
+            glass = second_is_glass;
+        }
+    }
+    uint before = rank, beyond = rank;
+    if (glass) {
+        correct_side(hit.traits, hit.leaving);
+        if (touching) correct_side(second_hit.traits, second_hit.leaving);
+        before = filling_rank();
+        note_here();
+        step_across(hit.traits, hit.leaving);
+        if (touching) step_across(second_hit.traits, second_hit.leaving);
+        note_there();
+        beyond = filling_rank();
+        // Of the solids whose media meet here, the one that displaces the other has the boundary.
+        if (touching && boundary_rank(second_hit, before, beyond) > boundary_rank(hit, before, beyond)) hit = second_hit;
+    }
     Surface surface = surface_at(hit.triangle, object_of(hit.triangle), path.position, path.direction);
-    if (rank != kAir) travel(path, distance(path.position, surface.position), filling_material(rank).sigma_a.rgb);
+    if (before != kAir) travel(path, distance(path.position, surface.position), filling_material(before).sigma_a.rgb);
     path.position = surface.position;
     standing = hit.triangle;
     bool ends = (hit.traits & kKindMask) == kOpaqueKind;
     if (ends) mark |= kMetOpaque;
     else if (!glass) pass_pane(path, surface);
-    else cross_surface(i, path, surface, hit.traits, hit.leaving, false);
+    else if (beyond != before) meet_boundary(i, path, surface, hit.leaving, filling_iors(before), filling_iors(beyond), false);
     save_path(i, path);
     if (ends) append_ended(texel);
     else append_next(texel);

@@ -84,7 +84,7 @@ public:
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::array<std::uint32_t, 8> constants() const {
+    std::array<std::uint32_t, 9> constants() const {
         const GpuScene& scene = frame_.scene;
         return {words_,
                 scene.object_count == 1 ? 1u : 0u,
@@ -93,11 +93,12 @@ private:
                 scene.dispersive ? 1u : 0u,
                 scene.rough_glass ? 1u : 0u,
                 frame_.environment_kind,
-                scene.opaque.empty() ? 0u : 1u};
+                scene.opaque.empty() ? 0u : 1u,
+                topology_.all_alone ? 0u : 1u};
     }
     const Program& program(ShaderCode shader) {
         const auto c = constants();
-        return frame_.workspace.compute(shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
+        return frame_.workspace.compute(shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]});
     }
 
     void begin() {
