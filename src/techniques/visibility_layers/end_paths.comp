@@ -22,10 +22,22 @@ layout(std430, set = 0, binding = 17) readonly buffer Appearance { float appeara
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 
 #include "techniques/visibility_layers/path_state.glsl"
+#include "techniques/visibility_layers/microfacets.glsl"
 #include "gpu/opaque_surface.glsl"
 
-// Of the opaque surface that the path stands on; a: its alpha less the cutoff, below 0 where there is a hole.
-vec4 opaque_light(Path path) {
+// Light by which a bounced path accounts for a direction: blurred, so that a small sun does not show as noise.
+const float kBounceRoughness = 0.5;
+vec3 bounce_light(vec3 direction) { return filtered_environment_radiance(direction, kBounceRoughness); }
+
+struct OpaqueLight {
+    vec3 radiance;  // as if the surface stood alone under the environment
+    float alpha;    // less the cutoff: below 0 where there is a hole
+    vec3 normal;    // unit, on the path's side
+    vec3 diffuse;   // albedo
+};
+
+// Of the opaque surface that the path stands on.
+OpaqueLight opaque_light(Path path) {
     uint object = object_of(standing);
     ObjectRecord o = objects[object];
     uint corner = o.first_corner + 3u * (standing - o.first_triangle);
@@ -48,10 +60,45 @@ vec4 opaque_light(Path path) {
     vec4 base = material.base_color * color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
     vec3 light = opaque_material_radiance(material, base.rgb, texcoords.xy, texcoords.zw,
                                           faceforward(normal, path.direction, normal), -path.direction);
-    return vec4(light, base.a - material.alpha_cutoff);
+    bool unlit = (material.flags & PELLUCID_MATERIAL_UNLIT) != 0u;
+    float metallic = material.metallic *
+                     sample_texture(material.metallic_roughness_texture, texcoords.xy, texcoords.zw).b;
+    float root = (material.ior - 1.0) / (material.ior + 1.0);
+    return OpaqueLight(light, base.a - material.alpha_cutoff, faceforward(normal, path.direction, normal),
+                       unlit ? vec3(0.0) : (1.0 - metallic) * (1.0 - root * root) * base.rgb);
+}
+
+void add_light(ivec2 texel, vec3 light) {
+    ivec3 at = ivec3(texel, 0);
+    if ((mark & kOuterBranch) != 0u) imageStore(reflected_radiance, at, imageLoad(reflected_radiance, at) + vec4(light, 0.0));
+    else imageStore(path_radiance, at, vec4(imageLoad(path_radiance, at).rgb + light, 1.0));
+}
+
+// One direction of those from which the surface has been lit, to see what is there instead of the environment. What it
+// then finds counts, less what was assumed: surfaces that stand alone stay as they are, without noise.
+void bounce(ivec2 texel, uint i, Path path, OpaqueLight light) {
+    vec3 weight = path.transmittance * light.diffuse;
+    if ((mark & kBounced) != 0u || waiting[i].y >= most_branches || !(max(weight.r, max(weight.g, weight.b)) > threshold)) return;
+    seed = hash(uvec3(texel, 77u + waiting[i].y)).x;
+    vec2 u = random_numbers(path.events);
+    float radius = sqrt(u.x), angle = 6.283185307 * u.y;
+    vec3 across = normalize(abs(light.normal.z) < 0.9 ? cross(light.normal, vec3(0.0, 0.0, 1.0))
+                                                      : cross(light.normal, vec3(1.0, 0.0, 0.0)));
+    Path ray = path;
+    ray.direction = radius * cos(angle) * across + radius * sin(angle) * cross(light.normal, across) +
+                    sqrt(max(1.0 - u.x, 0.0)) * light.normal;
+    ray.transmittance = weight;
+    uint own = mark;
+    mark = (mark & ~(kMainPath | kMetOpaque)) | kBounced;
+    if (push_branch(i, ray, branch_capacity)) {
+        mark = own;
+        add_light(texel, -weight * bounce_light(ray.direction));
+    }
+    mark = own;
 }
 
 vec3 environment_light(Path path) {
+    if ((mark & kBounced) != 0u) return bounce_light(path.direction);
     if (kRough && spread() > 0.0) return filtered_environment_radiance(path.direction, sqrt(spread()));
     return environment_radiance(path.direction);
 }
@@ -65,27 +112,22 @@ void store_result(ivec2 texel, Path path) {
     imageStore(path_events, at, uvec4(pack_events(path)));
 }
 
-void add_light(ivec2 texel, vec3 light) {
-    ivec3 at = ivec3(texel, 0);
-    if ((mark & kOuterBranch) != 0u) imageStore(reflected_radiance, at, imageLoad(reflected_radiance, at) + vec4(light, 0.0));
-    else imageStore(path_radiance, at, vec4(imageLoad(path_radiance, at).rgb + light, 1.0));
-}
-
 void main() {
     ivec2 texel;
     if (!listed_pixel(texel)) return;
     uint i = uint(texel.y) * frame.width + uint(texel.x);
     Path path = load_path(i);
     if (kOpaqueObjects && closing == 0u && (mark & kMetOpaque) != 0u) {
-        vec4 light = opaque_light(path);
-        if (light.a < 0.0) {  // a hole: the path goes on
+        OpaqueLight light = opaque_light(path);
+        if (light.alpha < 0.0) {  // a hole: the path goes on
             mark &= ~kMetOpaque;
             save_path(i, path);
             append_next(texel);
             return;
         }
         if ((mark & kMainPath) != 0u) store_result(texel, path);
-        add_light(texel, path.transmittance * light.rgb);
+        add_light(texel, path.transmittance * light.radiance);
+        if (kTree) bounce(texel, i, path, light);
     } else {
         if ((mark & kMainPath) != 0u) {
             if (closing != 0u) path.status = kStatusEventLimit;

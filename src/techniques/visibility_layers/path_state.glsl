@@ -41,6 +41,7 @@ const uint kChannelMask = 3u;   // 0: all channels, 1 to 3: red, green, blue
 const uint kMainPath = 4u;      // the one that Refraction is about
 const uint kOuterBranch = 8u;   // reflected by the first surface, before the glass
 const uint kMetOpaque = 16u;    // it has ended on the opaque triangle on which it stands
+const uint kBounced = 32u;      // scattered by an opaque surface: it looks for what hides or lights that surface
 
 float spread() { return float(mark >> 16) / 65535.0; }  // alpha of the lobe that it stands for, 0..1
 void widen(float alpha) {
