@@ -16,16 +16,19 @@ constexpr std::uint32_t kSelectMapped[] = {
 #include "select_mapped.comp.inc"
 };
 
+/// Pixels along a side of a texel; anything near it is as right, see docs/performance.md.
+constexpr std::uint32_t kTexelSide = 2;
+
 }  // namespace
 
-/// The view as a map: texels are pixels. Depth is q = (z - near) / (far - near) where rays are parallel; otherwise
+/// The view as a map: texels are squares of pixels. Depth is q = (z - near) / (far - near) where rays are parallel; otherwise
 /// 1 / z takes the place of z, which keeps lines straight.
 MapProjection view_projection(const Frame& frame) {
     gpu::FrameConstants view{};
     std::memcpy(&view, frame.constants.mapped(), sizeof(view));
     const bool parallel = view.orthographic != 0;
     // Rows give X, Y, Q, W of a view-space position; depth is -z.
-    const float pixel_x = 1.0f / view.film.z, pixel_y = 1.0f / view.film.w;
+    const float pixel_x = 1.0f / (view.film.z * kTexelSide), pixel_y = 1.0f / (view.film.w * kTexelSide);
     glm::vec4 x, y, q, w;
     if (parallel) {
         const float scale = 1.0f / (view.far_plane - view.near_plane);
@@ -44,7 +47,8 @@ MapProjection view_projection(const Frame& frame) {
     const glm::vec4 forward = -view.world_from_view[2];
     return {map_from_view * view.view_from_world,
             parallel ? glm::vec4(-glm::vec3(forward), 0.0f) : view.world_from_view[3],
-            parallel ? 0.5f : view.near_plane, frame.extent};
+            parallel ? 0.5f : view.near_plane,
+            {(frame.extent.width + kTexelSide - 1) / kTexelSide, (frame.extent.height + kTexelSide - 1) / kTexelSide}};
 }
 
 Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, const Opaque& opaque,
@@ -62,7 +66,7 @@ Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, cons
     const Buffer& any = start_pixel_list(recorder, frame, "mapped pixels");
     recorder.compute(frame.workspace.compute({"list_mapped.comp", kListMapped}),
                      {reads("Texels", *map_->texels), reads("Maps", *map_->maps), updates("PixelList", any)},
-                     frame.extent);
+                     std::array{frame.extent.width, frame.extent.height, kTexelSide}, frame.extent);
     recorder.compute_indirect(
         frame.workspace.compute({"select_mapped.comp", kSelectMapped}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
@@ -70,7 +74,7 @@ Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, cons
          reads("MapTriangles", *map_->triangles), reads("Records", *map_->records), reads("Texels", *map_->texels),
          reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
          writes("layer_triangle", images.triangle), writes("layer_normal", images.normal)},
-        std::array{request.count, request.hidden_by_opaque ? 1u : 0u, first_triangle, end_triangle}, any);
+        std::array{request.count, request.hidden_by_opaque ? 1u : 0u, first_triangle, end_triangle, kTexelSide}, any);
     const Buffer& covered = list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE,
                                         request.name + " pixels", 0, frame.extent.height);
     return {images.depth, images.triangle, images.normal, covered, request.count, opaque, *this};
