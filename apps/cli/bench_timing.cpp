@@ -88,6 +88,7 @@ AlternatingTimes time_alternately(Renderer& renderer, RenderSettings settings, i
     while (int(times.frames_ms.size()) < frames) {
         const int missing = frames - int(times.frames_ms.size());
         // One sample alone is drawn otherwise: through pixel centres, without a sum.
+        settings.still = false;
         settings.samples = std::uint32_t(std::clamp(missing, 2, kFramesPerBlock));
         std::vector<std::vector<PassTime>> drawn = renderer.render(settings).frames;
         drawn.resize(std::min(drawn.size(), std::size_t(missing)));

@@ -54,6 +54,9 @@ struct RenderSettings {
     View view = View::kRadiance;
     /// Jittered frames, averaged in linear light. 1 samples pixel centres. AOVs always do.
     std::uint32_t samples = 1;
+    /// False: the samples stand for frames that follow each other, each drawn with what a picture of one sample would
+    /// spend; for timing. A technique may do more for each sample of a still.
+    bool still = true;
     ToneMap tonemap = ToneMap::kNeutral;
     float exposure_ev = 0.0f;       ///< stops; radiance is multiplied by 2^exposure_ev
     std::vector<std::string> aovs;  ///< names of aov_infos() wanted in RenderResult::aovs

@@ -113,8 +113,9 @@ struct Renderer::Impl {
     void prepare(const FrameSettings& chosen, const Progress& progress, std::vector<std::string>& warnings);
     /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
     /// the pass times. `progress` is of this sample.
+    /// `sample`: none for the frame through the centres of the pixels.
     std::vector<PassTime> run_frame(Frame frame, const FrameSettings& chosen, const RenderSettings& settings,
-                                    std::uint32_t sample, const Progress& progress,
+                                    std::optional<std::uint32_t> sample, const Progress& progress,
                                     std::optional<FrameImages>& images);
     struct Picture {
         const GpuImage& radiance;
@@ -188,10 +189,10 @@ void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jit
 }
 
 std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings& chosen,
-                                                const RenderSettings& settings, std::uint32_t sample,
-                                                const Progress& progress, std::optional<FrameImages>& images) {
-    const glm::vec2 jitter = frame.samples > 1 ? sample_jitter(sample) : glm::vec2(0.0f);
-    set_constants(settings, jitter, sample);
+                                                const RenderSettings& settings,
+                                                std::optional<std::uint32_t> sample, const Progress& progress, std::optional<FrameImages>& images) {
+    const glm::vec2 jitter = sample ? sample_jitter(*sample) : glm::vec2(0.0f);
+    set_constants(settings, jitter, sample.value_or(0));
     std::optional<TracedView> traced;
     if (chosen.technique.info.reference) {
         traced.emplace(TracedView{cpu.tracer(), camera_for(settings), jitter, progress});
@@ -212,7 +213,7 @@ Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const
     std::optional<FrameImages> images;
     const bool alone = draws && settings.samples == 1;
     std::vector<PassTime> times =
-        run_frame(frame, chosen, settings, 0, alone ? settings.progress : Progress(), images);
+        run_frame(frame, chosen, settings, std::nullopt, alone ? settings.progress : Progress(), images);
     gpu::FrameConstants view{};
     std::memcpy(&view, constants->mapped(), sizeof(view));
     read_back(device, *images, view, scene->first_triangles, settings, result);
@@ -224,7 +225,7 @@ Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const
     }
     const GpuImage* sum = nullptr;
     Frame sampled = frame;
-    sampled.samples = settings.samples;
+    if (settings.still) sampled.samples = settings.samples;
     const double share = 1.0 / double(settings.samples);
     for (std::uint32_t sample = 0; sample < settings.samples; ++sample) {
         const auto progress = [&](double done) {
