@@ -7,11 +7,15 @@
 layout(std430, set = 0, binding = 6) buffer Texels { TexelRecords texels[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Found { uvec4 found[]; };  // texel, number there, triangle, range
 
-void append_record(MapRecord map, ivec2 texel, uint triangle, uint range, uint capacity) {
-    uint index = map.first_head + uint(texel_order(map, texel));
-    uint number = atomicAdd(texels[index].count, 1u);
-    uint i = atomicAdd(counts.records, 1u);  // counted even if there is no room: the host then makes more
-    if (i < capacity) found[i] = uvec4(index, number, triangle, range);
+// Puts a record into its place of the list, if there is room (places are counted beyond it: the host then makes more)
+// and if the triangle is in the texel; kNoTexel holds the place otherwise.
+void put_record(MapRecord map, uint place, ivec2 texel, uint triangle, uint range, uint capacity, bool covered) {
+    uint index = kNoTexel, number = 0u;
+    if (covered) {
+        index = map.first_head + uint(texel_order(map, texel));
+        number = atomicAdd(texels[index].count, 1u);
+    }
+    if (place < capacity) found[place] = uvec4(index, number, triangle, range);
 }
 
 #endif

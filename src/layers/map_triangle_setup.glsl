@@ -55,25 +55,24 @@ MapCoverage cover(MapRecord map, vec4 p[3]) {
     return c;
 }
 
-// Whether the triangle covers the centre of a texel or, with `touching`, any of it.
-bool covers(MapCoverage c, ivec2 texel, bool touching) {
+// Whether the triangle covers any of a texel.
+bool covers(MapCoverage c, ivec2 texel) {
     vec3 center = vec3(vec2(texel) + 0.5 - c.base, 1.0);
     bool inside = true;
     for (int i = 0; i < 3; ++i) {
-        float reach = touching ? (0.5 + kTexelMargin) * (abs(c.edges[i].x) + abs(c.edges[i].y)) : 0.0;
+        float reach = (0.5 + kTexelMargin) * (abs(c.edges[i].x) + abs(c.edges[i].y));
         inside = inside && dot(c.edges[i], center) + reach >= 0.0;
     }
     return inside;
 }
 
-// Depths of its plane over the texel; those of the triangle alone if nothing continues it there.
-uint depths_in_texel(MapCoverage c, ivec2 texel, bool continues) {
+// Depths of its plane over the texel, as far as the triangle has them.
+uint depths_in_texel(MapCoverage c, ivec2 texel) {
     float middle = dot(c.depth, vec3(vec2(texel) + 0.5 - c.base, 1.0));
     float reach = (0.5 + kTexelMargin) * (abs(c.depth.x) + abs(c.depth.y));
     vec2 range = vec2(middle - reach, middle + reach);
     if (!(range.x <= range.y)) range = c.depth_range;  // edge-on, or NaN
-    if (continues) range += vec2(-0.5, 0.5) * reach;   // neighbours bend away a little
-    else range = vec2(max(range.x, c.depth_range.x), min(range.y, c.depth_range.y));
+    range = vec2(max(range.x, c.depth_range.x), min(range.y, c.depth_range.y));
     if (!(range.x <= range.y)) range = c.depth_range;
     return pack_range(range.x, range.y);
 }

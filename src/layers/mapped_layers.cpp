@@ -71,7 +71,7 @@ Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, cons
         frame.workspace.compute({"select_mapped.comp", kSelectMapped}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
          reads("Vertices", frame.scene.vertices), reads("PixelList", any), reads("Maps", *map_->maps),
-         reads("MapTriangles", *map_->triangles), reads("Records", *map_->records), reads("Texels", *map_->texels),
+         reads("map_triangles", *map_->triangles), reads("records", *map_->records), reads("texels", *map_->texels),
          reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
          writes("layer_triangle", images.triangle), writes("layer_normal", images.normal)},
         std::array{request.count, request.hidden_by_opaque ? 1u : 0u, first_triangle, end_triangle, kTexelSide}, any);

@@ -10,8 +10,8 @@ layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord obje
 layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
-layout(std430, set = 0, binding = 6) readonly buffer Texels { TexelRecords texels[]; };
-layout(std430, set = 0, binding = 7) readonly buffer Found { uvec4 found[]; };
+layout(set = 0, binding = 6) uniform utextureBuffer texels;
+layout(set = 0, binding = 7) uniform utextureBuffer found;
 layout(std430, set = 0, binding = 8) writeonly buffer Records { uvec4 records[]; };
 layout(constant_id = 0) const bool kOneObject = false;
 layout(push_constant) uniform Push { uint capacity; };
@@ -20,8 +20,9 @@ void main() {
     uint group = gl_WorkGroupID.x * gl_NumWorkGroups.y + gl_WorkGroupID.y;
     uint i = group * 64u + gl_LocalInvocationID.x;
     if (i >= min(counts.records, capacity)) return;
-    uvec4 record = found[i];  // texel, number there, triangle, range
-    uint object = kOneObject ? 0u : find_object(record.z & ~kContinues);
-    uint place = texels[record.x].first + record.y;
+    uvec4 record = texelFetch(found, int(i));  // texel, number there, triangle, range
+    if (record.x == kNoTexel) return;
+    uint object = kOneObject ? 0u : find_object(record.z);
+    uint place = texelFetch(texels, int(record.x)).x + record.y;
     if (place < capacity) records[place] = uvec4(record.w, record.z, traits[object], 0u);
 }

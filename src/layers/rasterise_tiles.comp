@@ -21,8 +21,7 @@ void main() {
     uint i = group * 64u + gl_LocalInvocationID.x;
     if (i >= min(counts.tiles, tile_capacity)) return;
     MapRecord map = maps[0];
-    uint word = tiles[i].x, triangle = word & ~kContinues;
-    bool continues = (word & kContinues) != 0u;
+    uint triangle = tiles[i].x;
     ivec2 first = kTile * ivec2(tiles[i].y & 0xffffu, tiles[i].y >> 16);
     vec3 corner = map_triangles[3u * triangle].xyz;
     vec4 p[3] = vec4[3](map.map_from_space * vec4(corner, 1.0),
@@ -32,8 +31,9 @@ void main() {
     ivec2 low = max(first, c.low), high = min(first + kTile - 1, c.high);
     for (int y = low.y; y <= high.y; ++y) {
         for (int x = low.x; x <= high.x; ++x) {
-            if (covers(c, ivec2(x, y), !continues)) {
-                append_record(map, ivec2(x, y), word, depths_in_texel(c, ivec2(x, y), continues), record_capacity);
+            if (covers(c, ivec2(x, y))) {
+                put_record(map, atomicAdd(counts.records, 1u), ivec2(x, y), triangle, depths_in_texel(c, ivec2(x, y)),
+                           record_capacity, true);
             }
         }
     }

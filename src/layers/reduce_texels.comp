@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "layers/surface_map.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 9) buffer Pyramid { uvec4 pyramid[]; };
@@ -11,13 +11,13 @@ layout(push_constant) uniform Push { uint level; };
 
 void main() {
     MapRecord map = maps[0];
-    uvec2 cell = gl_GlobalInvocationID.xy;
-    if (cell.x >= 1u << (map.log2_width - level) || cell.y >= 1u << (map.log2_height - level)) return;
+    int node = int(gl_GlobalInvocationID.x);
+    if (node >= 1 << (map.log2_width + map.log2_height - 2u * level)) return;
+    int below = level_start(map, int(level) - 1) + 4 * node;
     uvec4 ranges = uvec4(kNoRange);
-    int order = texel_order(map, ivec2(cell << level));
     for (int child = 0; child < 4; ++child) {
-        uvec4 below = pyramid[node_index(map, int(level) - 1, order) + child];
-        for (int i = 0; i < 4; ++i) insert_range(ranges, below[i]);
+        uvec4 own = pyramid[below + child];
+        for (int i = 0; i < 4; ++i) insert_range(ranges, own[i]);
     }
-    pyramid[node_index(map, int(level), order)] = ranges;
+    pyramid[level_start(map, int(level)) + node] = ranges;
 }

@@ -13,9 +13,9 @@ layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord obje
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(std430, set = 0, binding = 2) readonly buffer MapTriangles { vec4 map_triangles[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Records { uvec4 records[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Texels { TexelRecords texels[]; };
+layout(set = 0, binding = 2) uniform utextureBuffer map_triangles;
+layout(set = 0, binding = 3) uniform utextureBuffer records;
+layout(set = 0, binding = 6) uniform utextureBuffer texels;
 layout(std430, set = 0, binding = 9) readonly buffer Maps { MapRecord maps[]; };
 layout(set = 0, binding = 4, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 5, r32f) writeonly uniform image2DArray layer_depth;
@@ -30,15 +30,16 @@ layout(push_constant) uniform Push {
 
 const float kSlack = 1e-4;  // of barycentric weights, as in surface_walk.glsl
 
-Fragment nearest_behind(TexelRecords own, vec3 origin, vec3 direction, float depth_rate, Fragment last, bool any) {
+Fragment nearest_behind(uvec2 own, vec3 origin, vec3 direction, float depth_rate, Fragment last, bool any) {
     Fragment nearest = kNoFragment;
-    for (uint i = 0u; i < own.count; ++i) {
-        uvec4 record = records[own.first + i];
+    for (uint i = 0u; i < own.y; ++i) {
+        uvec4 record = texelFetch(records, int(own.x + i));
         if (!refractive(record.z)) continue;
-        uint triangle = record.y & ~kContinues;
+        uint triangle = record.y;
         if (triangle < first_triangle || triangle >= end_triangle) continue;
-        vec4 a = map_triangles[3u * triangle], b = map_triangles[3u * triangle + 1u],
-             c = map_triangles[3u * triangle + 2u];
+        int at = 3 * int(triangle);
+        vec4 a = uintBitsToFloat(texelFetch(map_triangles, at)), b = uintBitsToFloat(texelFetch(map_triangles, at + 1)),
+             c = uintBitsToFloat(texelFetch(map_triangles, at + 2));
         vec3 p = cross(direction, c.xyz), from_corner = origin - a.xyz, q = cross(from_corner, b.xyz);
         float determinant = dot(b.xyz, p);
         vec2 weights = vec2(dot(from_corner, p), dot(direction, q)) / determinant;
@@ -56,7 +57,7 @@ void main() {
     Ray view = camera_ray(vec2(texel) + 0.5);
     vec3 origin = (frame.world_from_view * vec4(view.origin, 1.0)).xyz;
     vec3 direction = mat3(frame.world_from_view) * view.direction;
-    TexelRecords own = texels[texel_order(maps[0], texel / int(texel_side))];
+    uvec2 own = texelFetch(texels, texel_order(maps[0], texel / int(texel_side))).xy;
     Fragment fragment = kNoFragment;
     for (uint layer = 0u; layer < layer_count; ++layer) {
         fragment = nearest_behind(own, origin, direction, -view.direction.z, fragment, layer == 0u);

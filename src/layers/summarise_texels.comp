@@ -6,8 +6,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Texels { TexelRecords texels[]; };
-layout(std430, set = 0, binding = 7) readonly buffer Records { uvec4 records[]; };
+layout(set = 0, binding = 6) uniform utextureBuffer texels;
+layout(set = 0, binding = 7) uniform utextureBuffer records;
 layout(std430, set = 0, binding = 9) writeonly buffer Pyramid { uvec4 pyramid[]; };
 
 void main() {
@@ -17,8 +17,8 @@ void main() {
     uvec4 ranges = uvec4(kNoRange);
     int order = texel_order(map, ivec2(texel));
     if (texel.x < map.width && texel.y < map.height) {
-        TexelRecords own = texels[int(map.first_head) + order];
-        for (uint i = 0u; i < own.count; ++i) insert_range(ranges, records[own.first + i].x);
+        uvec2 own = texelFetch(texels, int(map.first_head) + order).xy;
+        for (uint i = 0u; i < own.y; ++i) insert_range(ranges, texelFetch(records, int(own.x + i)).x);
     }
     pyramid[node_index(map, 0, order)] = ranges;
 }

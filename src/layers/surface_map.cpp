@@ -43,10 +43,6 @@ constexpr vk::DeviceSize kTileSize = 8;
 constexpr vk::DeviceSize kNodeSize = 16;
 constexpr vk::DeviceSize kTriangleSize = 48;
 
-/// Cosines; anything near them is as right, see docs/performance.md.
-constexpr float kSteep = 0.25f;
-constexpr float kCrease = 2.0f;
-
 /// Twin of MapRecord in surface_map.glsl.
 struct MapRecord {
     glm::mat4 map_from_space;
@@ -116,7 +112,8 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
         &texel_buffer("map records", map_pool_.records * kRecordSize),
         &texel_buffer("map pyramid", nodes * kNodeSize)};
     const Buffer& counters = workspace.buffer("map counters", sizeof(MapCount));
-    const Buffer& found = workspace.buffer("map records found", map_pool_.records * kRecordSize);
+    const Buffer& found = texel_buffer("map records found", map_pool_.records * kRecordSize);
+    const std::uint32_t one_object = scene.object_count == 1 ? 1 : 0;
     const Buffer& groups = workspace.buffer("map workgroups", 3 * sizeof(std::uint32_t));
     const Buffer& tiles = workspace.buffer("map tiles", map_pool_.tiles * kTileSize);
 
@@ -128,16 +125,13 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     const std::uint32_t row = std::uint32_t((all_groups + rows - 1) / rows) * kGroup;
     struct Push {
         std::uint32_t triangle_count, record_capacity, tile_capacity, row;
-        float steep, crease;
     };
-    recorder.compute(
-        workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}),
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-         reads("Vertices", scene.vertices), reads("Maps", maps), reads("Neighbors", topology.neighbors),
-         writes("MapTriangles", *map.triangles), updates("MapCounters", counters), updates("Texels", *map.texels),
-         writes("Found", found), writes("Tiles", tiles)},
-        Push{std::uint32_t(scene.triangle_count), map_pool_.records, map_pool_.tiles, row, kSteep, kCrease},
-        {row, rows});
+    recorder.compute(workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}, {one_object}),
+                     {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+                      reads("Vertices", scene.vertices), reads("Maps", maps), writes("MapTriangles", *map.triangles),
+                      updates("MapCounters", counters), updates("Texels", *map.texels), writes("Found", found),
+                      writes("Tiles", tiles)},
+                     Push{std::uint32_t(scene.triangle_count), map_pool_.records, map_pool_.tiles, row}, {row, rows});
     const Program& dispatch = workspace.compute({"dispatch_map.comp", kDispatchMap});
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
                      std::array{0u, map_pool_.tiles, row_groups}, {1, 1});
@@ -151,23 +145,21 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
                      {std::uint32_t((texels + 15) / 16), 1});
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
                      std::array{1u, map_pool_.records, row_groups}, {1, 1});
-    recorder.compute_indirect(
-        workspace.compute({"place_records.comp", kPlaceRecords}, {scene.object_count == 1 ? 1u : 0u}),
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Traits", topology.traits),
-         updates("MapCounters", counters), reads("Texels", *map.texels), reads("Found", found),
-         writes("Records", *map.records)},
-        map_pool_.records, groups);
+    recorder.compute_indirect(workspace.compute({"place_records.comp", kPlaceRecords}, {one_object}),
+                              {reads("Frame", frame.constants), reads("Objects", scene.objects),
+                               reads("Traits", topology.traits), updates("MapCounters", counters),
+                               reads("texels", *map.texels), reads("found", found), writes("Records", *map.records)},
+                              map_pool_.records, groups);
     recorder.copy(counters, counts_on_host(frame), sizeof(MapCount));
 
-    const vk::Extent2D padded{1u << record.log2_width, 1u << record.log2_height};
     recorder.compute(workspace.compute({"summarise_texels.comp", kSummariseTexels}),
-                     {reads("Maps", maps), reads("Texels", *map.texels), reads("Records", *map.records),
+                     {reads("Maps", maps), reads("texels", *map.texels), reads("records", *map.records),
                       writes("Pyramid", *map.pyramid)},
-                     padded);
+                     {1u << record.log2_width, 1u << record.log2_height});
     for (std::uint32_t level = 1; level <= std::min(record.log2_width, record.log2_height); ++level) {
         recorder.compute(workspace.compute({"reduce_texels.comp", kReduceTexels}),
                          {reads("Maps", maps), updates("Pyramid", *map.pyramid)}, level,
-                         {padded.width >> level, padded.height >> level});
+                         {std::uint32_t(texels >> 2 * level), 1});
     }
     mapped_ = true;
     return map;

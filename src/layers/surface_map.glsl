@@ -16,14 +16,13 @@ struct MapRecord {
 };
 
 // A triangle in the space of its map is three vec4: its first corner, and the ways from it to the second and third;
-// their w are the bits of the numbers of the triangles across the edges that start at each corner,
-// PELLUCID_NO_TRIANGLE: none.
+// their w are the bits of the corners' normals, octahedral, in the frame of the mesh.
 
 // A record: the surface of a triangle crosses its texel at depths of `range`, lowest | highest << 16. Those of a texel
 // lie one after the other.
 struct SurfaceRecord {
     uint range;
-    uint triangle;  // with kContinues if its neighbours continue it smoothly, so that they have no records of their own
+    uint triangle;
     uint traits;    // of its object, object_traits.glsl
     uint reserved;
 };
@@ -31,7 +30,7 @@ struct SurfaceRecord {
 struct TexelRecords {
     uint first, count;
 };
-const uint kContinues = 0x80000000u;
+const uint kNoTexel = 0xffffffffu;
 
 // Depths in 16 bits.
 const float kDepthSteps = 65535.0;

@@ -5,8 +5,7 @@
 //
 // Lines of space are lines of the map, so the ray is a + s (b - a) there, s = 0..1, with the depth q as third
 // coordinate. At a node of the pyramid none of whose depth ranges the ray passes, it skips the node and climbs;
-// otherwise it descends. In a texel the records whose ranges it passes are intersected exactly; where a triangle's
-// neighbours have no records of their own, the search goes on across its edges to where the ray meets the surface.
+// otherwise it descends. In a texel the records whose ranges it passes are intersected exactly.
 //
 // Needs: maps, map_triangles, texels, records, pyramid (surface_map.glsl), and
 // bool can_meet(uint traits, bool leaving, uint triangle): whether a surface may be met in that sense.
@@ -14,7 +13,6 @@
 
 const float kNudge = 0.002;      // texels, over an edge of a node; less than kTexelMargin
 const float kSlack = 1e-4;       // of a triangle's barycentric weights: rays through edges meet one of both sides
-const uint kMostNeighbors = 16u; // triangles walked across
 const float kFarthest = 1e30;
 
 SurfaceRecord read_record(uint number) {
@@ -140,13 +138,11 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         uvec2 own = texelFetch(texels, int(map.first_head) + order).xy;
         uint number = own.x, end = own.x + own.y;
         SurfaceRecord record;
-        uint triangle = PELLUCID_NO_TRIANGLE, before, left;
         for (;;) {
+            uint triangle = PELLUCID_NO_TRIANGLE;
             while (triangle == PELLUCID_NO_TRIANGLE && number < end) {
                 record = read_record(number++);
-                if (max(int(record.range & 0xffffu), low) <= min(int(record.range >> 16), high)) triangle = record.triangle & ~kContinues;
-                before = PELLUCID_NO_TRIANGLE;
-                left = (record.triangle & kContinues) != 0u ? kMostNeighbors : 0u;
+                if (max(int(record.range & 0xffffu), low) <= min(int(record.range >> 16), high)) triangle = record.triangle;
             }
             if (triangle == PELLUCID_NO_TRIANGLE) break;
             int at = 3 * int(triangle);
@@ -159,15 +155,10 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
             weights.x = 1.0 - weights.y - weights.z;
             float t = dot(c.xyz, q) / determinant;
             float least = min(weights.x, min(weights.y, weights.z));
-            uint next = floatBitsToUint(weights.x == least ? b.w : weights.y == least ? c.w : a.w);
-            bool inside = least >= -kSlack || (next == before && least > -0.01);
+            bool inside = least >= -kSlack;
             bool leaving = determinant < 0.0;
             if (inside && t > t_min && t <= t_max && can_meet(record.traits, leaving, triangle))
                 take_nearer(hit, SurfaceHit(t, triangle, record.traits, leaving));
-            bool on = !inside && left > 0u && next != before && abs(t) < kFarthest;
-            before = triangle;
-            triangle = on ? next : PELLUCID_NO_TRIANGLE;
-            --left;
         }
         if (hit.t < kFarthest) break;
         s = s_out;
