@@ -47,6 +47,9 @@ struct TechniqueInfo {
     bool bakes = false;
     /// Refracted rays see the opaque objects that the picture shows; otherwise the environment only.
     bool opaque_behind = false;
+    /// Refracted rays meet everything that there is, wherever it lies: opaque objects, thin walls, rough and dispersive
+    /// glass.
+    bool whole_scene = false;
 };
 
 /// Every technique there is: those that others are drawn by in the order of their publication, then those

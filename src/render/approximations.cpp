@@ -21,10 +21,10 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
     for (const int index : used) {
         const Material& material = scene.materials[std::size_t(index)];
         const std::string name = material.name.empty() ? fmt::format("{}", index) : material.name;
-        if (material.refractive() && material.dispersion > 0.0f) {
+        if (!technique.whole_scene && material.refractive() && material.dispersion > 0.0f) {
             lines.push_back(fmt::format("material {}: dispersion is not drawn", name));
         }
-        if (material.transmissive() && material.roughness > 0.0f) {
+        if (material.transmissive() && material.roughness > 0.0f && !(technique.whole_scene && material.refractive())) {
             lines.push_back(fmt::format("material {}: rough glass is drawn smooth", name));
         }
         if (material.transmissive() && material.emission != glm::vec3(0.0f)) {
@@ -34,7 +34,7 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
     if (refractive > 1 && !technique.many_media) {
         lines.push_back(fmt::format("behind the first surface {} refracting objects count as one solid", refractive));
     }
-    if (refractive > 0 && opaque + thin > 0) {
+    if (refractive > 0 && opaque + thin > 0 && !technique.whole_scene) {
         lines.push_back(
             technique.opaque_behind
                 ? "through refracting glass only those opaque surfaces are seen that the picture shows, and no thin "

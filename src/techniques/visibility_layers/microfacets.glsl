@@ -19,14 +19,12 @@ uvec3 hash(uvec3 v) {
     return v;
 }
 
-// 0 to below 1; samples of a pixel are spread evenly for each event (Cranley & Patterson 1976, by the golden ratio).
+// 0 to below 1; every event of every sample has its own, so that choices along a path do not depend on each other.
 vec2 random_numbers(uint event) {
-    vec2 start = vec2(hash(uvec3(seed, event, 17u)).xy >> 8u) / 16777216.0;
-    return fract(start + float(frame.sample_index) * vec2(0.7548776662466927, 0.5698402909980532));
+    return vec2(hash(uvec3(seed, event, 2u * frame.sample_index)).xy >> 8u) / 16777216.0;
 }
 float random_number(uint event) {
-    float start = float(hash(uvec3(seed, event, 5u)).z >> 8u) / 16777216.0;
-    return fract(start + float(frame.sample_index) * 0.6180339887498949);
+    return float(hash(uvec3(seed, event, 2u * frame.sample_index + 1u)).z >> 8u) / 16777216.0;
 }
 
 // A facet's normal that is visible from where the path comes from, on the side of `n`; what other facets hide of the
