@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace pellucid {
 namespace {
@@ -50,12 +52,17 @@ std::vector<Vertex> vertices_of(const Mesh& mesh) {
     return vertices;
 }
 
-void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, std::vector<glm::vec3>& corners) {
+std::pair<glm::vec3, glm::vec3> box_of(const Mesh& mesh) {
     glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
     for (const glm::vec3& p : mesh.positions) {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
+    return {low, high};
+}
+
+void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, std::vector<glm::vec3>& corners) {
+    const auto [low, high] = box_of(mesh);
     for (int i = 0; i < 8; ++i) {
         const glm::vec3 corner((i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z);
         corners.push_back(glm::vec3(world_from_object * glm::vec4(corner, 1.0f)));
@@ -135,6 +142,10 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
     for (const Material& material : scene.materials)
         material_records.push_back(material_record(material, texture_table));
 
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        const auto [low, high] = box_of(scene.meshes[m]);
+        meshes.push_back({geometry.first_corner[m], std::uint32_t(scene.meshes[m].triangles.size()), low, high});
+    }
     std::vector<gpu::ObjectRecord> object_records;
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.meshes[std::size_t(object.mesh)];
@@ -146,6 +157,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
         record.first_triangle = std::uint32_t(triangle_count);
         first_triangles.push_back(record.first_triangle);
         world_from_object.push_back(object.world_from_object);
+        mesh_of_object.push_back(std::uint32_t(object.mesh));
         record.first_corner = geometry.first_corner[std::size_t(object.mesh)];
         record.mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0f ? 1u : 0u;
 
@@ -200,6 +212,9 @@ void GpuScene::move_vertices(const Device& device, const Scene& scene, std::span
     });
     if (glass) prepared.clear();
     for (const int mesh : moved) {
+        GpuMesh& own = meshes[std::size_t(mesh)];
+        std::tie(own.low, own.high) = box_of(scene.meshes[std::size_t(mesh)]);
+        own.moves = moves;
         std::size_t first = 0;  // vertices of the meshes before
         for (int m = 0; m < mesh; ++m) first += scene.meshes[std::size_t(m)].positions.size();
         const std::vector<Vertex> data = vertices_of(scene.meshes[std::size_t(mesh)]);

@@ -15,6 +15,14 @@
 
 namespace pellucid {
 
+/// A mesh of a GpuScene.
+struct GpuMesh {
+    std::uint32_t first_corner;  ///< in GpuScene::indices
+    std::uint32_t triangle_count;
+    glm::vec3 low, high;      ///< its box, in its own frame; empty (low > high) without vertices
+    std::uint64_t moves = 0;  ///< GpuScene::moves when it last moved
+};
+
 /// A Scene in device memory.
 ///
 /// Shaders fetch vertices from storage buffers (vertices.glsl): vertex shaders by gl_VertexIndex, which counts
@@ -42,18 +50,20 @@ struct GpuScene {
     std::uint64_t triangle_count = 0;
     std::uint32_t vertex_count = 0;
     std::uint64_t moves = 0;  ///< how often vertices have moved; what is derived from them is as old as its count
+    std::vector<GpuMesh> meshes;
     std::vector<std::uint32_t> first_triangles;  ///< per object; ascending
-    std::vector<glm::mat4> world_from_object;    ///< per object
-    std::vector<DrawCall> refractive;            ///< solids of glass
-    std::vector<DrawCall> textured_refractive;   ///< those of them whose surface varies in colour or transmission
-    std::vector<DrawCall> thin_walled;           ///< transmissive surfaces that do not bend light
-    bool rough_glass = false;                    ///< some refracting object is rough
-    bool dispersive = false;                     ///< some refracting object disperses
+    std::vector<std::uint32_t> mesh_of_object;
+    std::vector<glm::mat4> world_from_object;   ///< per object
+    std::vector<DrawCall> refractive;           ///< solids of glass
+    std::vector<DrawCall> textured_refractive;  ///< those of them whose surface varies in colour or transmission
+    std::vector<DrawCall> thin_walled;          ///< transmissive surfaces that do not bend light
+    bool rough_glass = false;                   ///< some refracting object is rough
+    bool dispersive = false;                    ///< some refracting object disperses
     std::vector<DrawCall> opaque;
     bool rough = false;  ///< something reflects or refracts a blurred environment
     Bounds bounds;
     std::vector<glm::vec3> refractive_corners;  ///< corners of the refractive objects' boxes, world
-    std::optional<SceneTopology> topology;  ///< see prepare_topology()
+    std::optional<SceneTopology> topology;      ///< see prepare_topology()
     /// What techniques have computed from the scene, by name; kept as long as the scene is.
     std::map<std::string, Buffer, std::less<>> prepared;
 };

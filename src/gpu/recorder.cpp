@@ -318,16 +318,18 @@ void Recorder::clear_layer(const GpuImage& image, std::uint32_t layer, vk::Clear
     commands_.clearColorImage(image.handle(), vk::ImageLayout::eGeneral, value, range);
 }
 
-void Recorder::fill(const Buffer& buffer, std::uint32_t word) {
+void Recorder::fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize bytes, std::uint32_t word) {
     // eAllTransfer, not eClear: validation layers up to 1.3.239 take a fill for a copy.
     synchronise(std::array{Use{buffer.id(), Stage::eAllTransfer, AccessBit::eTransferWrite, true}});
-    commands_.fillBuffer(buffer.handle(), 0, VK_WHOLE_SIZE, word);
+    commands_.fillBuffer(buffer.handle(), offset, bytes, word);
 }
 
-void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes) {
+void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes,
+                    vk::DeviceSize destination_offset) {
     synchronise(std::array{Use{source.id(), Stage::eCopy, AccessBit::eTransferRead, false},
                            Use{destination.id(), Stage::eCopy, AccessBit::eTransferWrite, true}});
-    commands_.copyBuffer(source.handle(), destination.handle(), vk::BufferCopy{.size = bytes});
+    commands_.copyBuffer(source.handle(), destination.handle(),
+                         vk::BufferCopy{.dstOffset = destination_offset, .size = bytes});
 }
 
 void Recorder::write_timestamp(Stage stage) {

@@ -130,8 +130,10 @@ public:
 
     void clear(const GpuImage& image, vk::ClearColorValue value);
     void clear_layer(const GpuImage& image, std::uint32_t layer, vk::ClearColorValue value);
-    void fill(const Buffer& buffer, std::uint32_t word);
-    void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes);
+    void fill(const Buffer& buffer, std::uint32_t word) { fill(buffer, 0, VK_WHOLE_SIZE, word); }
+    void fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize bytes, std::uint32_t word);
+    void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes,
+              vk::DeviceSize destination_offset = 0);
 
     /// Ends the recording, submits it and waits. Returns the time of each scope in recording order;
     /// scopes of one name are added up. The recorder is then empty and ready for the next frame.

@@ -45,19 +45,29 @@ bool LayerSource::must_enlarge_rooms() {
     return enlarged;
 }
 
+void LayerSource::forget_size() {
+    MeshMaps kept = std::move(mesh_maps_);
+    *this = LayerSource();
+    mesh_maps_ = std::move(kept);
+}
+
 bool LayerSource::must_repeat(const Frame& frame) {
-    const bool enlarged = must_enlarge_rooms();
+    const bool enlarged = must_enlarge_rooms(), meshes = mesh_maps_.must_repeat();
+    return must_rebuild_layers(frame) || enlarged || meshes;
+}
+
+bool LayerSource::must_rebuild_layers(const Frame& frame) {
     switch (builder_) {
         case LayerBuilder::kDepthPeeling:
-            return enlarged;
+            return false;
         case LayerBuilder::kDualDepthPeeling:
-            return must_peel_more(frame) || enlarged;
+            return must_peel_more(frame);
         case LayerBuilder::kCompute:
-            return must_enlarge_map(frame) || enlarged;
+            return must_enlarge_map(frame);
         case LayerBuilder::kSinglePass:
             break;
     }
-    return must_enlarge_pool(frame) || enlarged;
+    return must_enlarge_pool(frame);
 }
 
 }  // namespace pellucid

@@ -2,6 +2,7 @@
 
 #include "gpu/frame.h"
 #include "gpu/scene_topology.h"
+#include "layers/mesh_maps.h"
 #include "layers/surface_map.h"
 
 #include <pellucid/renderer.h>
@@ -91,6 +92,12 @@ public:
     std::uint32_t room(const std::string& name, std::uint32_t guess);
     /// The first word of `counter` is how many there were, once the frame has run.
     void measure_room(Recorder& recorder, const Frame& frame, const std::string& name, const Buffer& counter);
+    /// Maps of every mesh, each in its own frame, built where a mesh is new or has moved. Once per frame.
+    SurfaceMap map_meshes(Recorder& recorder, const Frame& frame, std::uint32_t resolution) {
+        return mesh_maps_.bring_up_to_date(recorder, frame, resolution);
+    }
+    /// Forgets what it has learnt of pictures of one size, and keeps what holds for all.
+    void forget_size();
     /// After the frame has run: true if something did not fit. What build() does next will, and the frame must be
     /// recorded again. Throws Error if the device has no room for it.
     bool must_repeat(const Frame& frame);
@@ -106,6 +113,7 @@ private:
     bool must_peel_more(const Frame& frame);
     bool must_enlarge_pool(const Frame& frame);
     bool must_enlarge_map(const Frame& frame);
+    bool must_rebuild_layers(const Frame& frame);
 
     LayerBuilder builder_ = LayerBuilder::kSinglePass;
     std::uint32_t builds_ = 0;  ///< in this frame, that counted something
@@ -120,6 +128,7 @@ private:
     MapPool map_pool_;
     std::optional<SurfaceMap> map_;
     bool mapped_ = false;  ///< in this frame
+    MeshMaps mesh_maps_;
 };
 
 }  // namespace pellucid

@@ -13,6 +13,7 @@ struct MapCoverage {
     vec3 edges[3];        // inside where all (x, y, 1) . edge >= 0
     vec3 depth;           // q = (x, y, 1) . depth
     vec2 depth_range;     // of the whole triangle
+    bool speck;           // far smaller than a texel: its plane is lost in rounding, and depth_range is as good
 };
 
 // Corners in map space, before the division.
@@ -43,6 +44,7 @@ MapCoverage cover(MapRecord map, vec4 p[3]) {
     c.low = ivec2(clamp(floor(low.xy - kTexelMargin), vec2(0.0), size - 1.0));
     c.high = ivec2(clamp(floor(high.xy + kTexelMargin), vec2(0.0), size - 1.0));
     c.depth_range = vec2(low.z, high.z);
+    c.speck = max(high.x - low.x, high.y - low.y) < 0.25;
     c.base = vec2(c.low);
     vec3 q[3];
     for (int i = 0; i < 3; ++i) q[i] = vec3(p[i].xy - c.base * p[i].w, p[i].w);
@@ -68,6 +70,7 @@ bool covers(MapCoverage c, ivec2 texel) {
 
 // Depths of its plane over the texel, as far as the triangle has them.
 uint depths_in_texel(MapCoverage c, ivec2 texel) {
+    if (c.speck) return pack_range(c.depth_range.x, c.depth_range.y);
     float middle = dot(c.depth, vec3(vec2(texel) + 0.5 - c.base, 1.0));
     float reach = (0.5 + kTexelMargin) * (abs(c.depth.x) + abs(c.depth.y));
     vec2 range = vec2(middle - reach, middle + reach);

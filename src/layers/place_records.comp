@@ -14,15 +14,18 @@ layout(set = 0, binding = 6) uniform utextureBuffer texels;
 layout(set = 0, binding = 7) uniform utextureBuffer found;
 layout(std430, set = 0, binding = 8) writeonly buffer Records { uvec4 records[]; };
 layout(constant_id = 0) const bool kOneObject = false;
-layout(push_constant) uniform Push { uint capacity; };
+layout(push_constant) uniform Push {
+    uint found_capacity;
+    uint end;  // of the map's room
+};
 
 void main() {
     uint group = gl_WorkGroupID.x * gl_NumWorkGroups.y + gl_WorkGroupID.y;
     uint i = group * 64u + gl_LocalInvocationID.x;
-    if (i >= min(counts.records, capacity)) return;
+    if (i >= min(counts.records, found_capacity)) return;
     uvec4 record = texelFetch(found, int(i));  // texel, number there, triangle, range
     if (record.x == kNoTexel) return;
     uint object = kOneObject ? 0u : find_object(record.z);
     uint place = texelFetch(texels, int(record.x)).x + record.y;
-    if (place < capacity) records[place] = uvec4(record.w, record.z, traits[object], 0u);
+    if (place < end) records[place] = uvec4(record.w, record.z, traits[object], 0u);
 }

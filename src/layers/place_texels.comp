@@ -8,11 +8,15 @@ layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 6) buffer Texels { TexelRecords texels[]; };
+layout(push_constant) uniform Push {
+    uint map_index;
+    uint first_record;  // of the map
+};
 
 const int kBlock = 16;  // texels
 
 void main() {
-    MapRecord map = maps[0];
+    MapRecord map = maps[map_index];
     int low = kBlock * int(gl_GlobalInvocationID.x), count = 1 << (map.log2_width + map.log2_height);
     if (low >= count) return;
     int high = int(map.first_head) + min(low + kBlock, count);
@@ -20,7 +24,7 @@ void main() {
     uint sum = 0u;
     for (int i = low; i < high; ++i) sum += texels[i].count;
     if (sum == 0u) return;
-    uint first = atomicAdd(counts.placed, sum);
+    uint first = first_record + atomicAdd(counts.placed, sum);
     for (int i = low; i < high; ++i) {
         texels[i].first = first;
         first += texels[i].count;

@@ -1,5 +1,5 @@
 #version 460
-// Lists every triangle of the scene in the texels of a map: small ones here; large ones are cut into tiles for
+// Lists every triangle of the scene, or of one mesh in its own frame, in the texels of a map: small ones here; large ones are cut into tiles for
 // rasterise_tiles.comp, so that no invocation has much more to do than its neighbours.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
@@ -15,11 +15,13 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer MapTriangles { vec4 map_triangles[]; };
 layout(std430, set = 0, binding = 8) writeonly buffer Tiles { uvec2 tiles[]; };  // triangle, tile's x | y << 16
-layout(constant_id = 0) const bool kOneObject = false;
+layout(constant_id = 0) const bool kOfMesh = false;
+layout(constant_id = 1) const bool kOneObject = false;
 layout(push_constant) uniform Push {
     uint triangle_count;
     uint record_capacity;
     uint tile_capacity;
+    uint map_index;
     uint row;  // invocations in a row of the dispatch
 };
 
@@ -27,14 +29,20 @@ const int kTile = 8;              // texels along a side
 const int kSmall = 2 * kTile * kTile;  // texels of a box that one invocation goes through
 
 void main() {
-    uint triangle = gl_GlobalInvocationID.y * row + gl_GlobalInvocationID.x;
-    if (triangle >= triangle_count) return;
-    MapRecord map = maps[0];
-    uint object = kOneObject ? 0u : find_object(triangle);
-    uint corner = objects[object].first_corner + 3u * (triangle - objects[object].first_triangle);
-    mat4 space_from_object = objects[object].world_from_object;
+    uint number = gl_GlobalInvocationID.y * row + gl_GlobalInvocationID.x;
+    if (number >= triangle_count) return;
+    MapRecord map = maps[map_index];
+    uint triangle = map.first_triangle + number, corner = 3u * triangle;
+    mat4 space_from_object = mat4(1.0);
+    bool mirrored = false;
+    if (!kOfMesh) {
+        uint object = kOneObject ? 0u : find_object(triangle);
+        corner = objects[object].first_corner + 3u * (triangle - objects[object].first_triangle);
+        space_from_object = objects[object].world_from_object;
+        mirrored = objects[object].mirrored != 0u;
+    }
     uvec3 corners = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);
-    if (objects[object].mirrored != 0u) corners.yz = corners.zy;
+    if (mirrored) corners.yz = corners.zy;
     vec3 v[3];
     uint normals[3];
     for (int i = 0; i < 3; ++i) {

@@ -12,6 +12,7 @@ layout(std430, set = 0, binding = 8) readonly buffer Tiles { uvec2 tiles[]; };
 layout(push_constant) uniform Push {
     uint record_capacity;
     uint tile_capacity;
+    uint map_index;
 };
 
 const int kTile = 8;  // twin in rasterise_surfaces.comp
@@ -20,7 +21,7 @@ void main() {
     uint group = gl_WorkGroupID.x * gl_NumWorkGroups.y + gl_WorkGroupID.y;
     uint i = group * 64u + gl_LocalInvocationID.x;
     if (i >= min(counts.tiles, tile_capacity)) return;
-    MapRecord map = maps[0];
+    MapRecord map = maps[map_index];
     uint triangle = tiles[i].x;
     ivec2 first = kTile * ivec2(tiles[i].y & 0xffffu, tiles[i].y >> 16);
     vec3 corner = map_triangles[3u * triangle].xyz;

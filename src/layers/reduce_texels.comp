@@ -7,10 +7,13 @@ layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 9) buffer Pyramid { uvec4 pyramid[]; };
-layout(push_constant) uniform Push { uint level; };
+layout(push_constant) uniform Push {
+    uint map_index;
+    uint level;
+};
 
 void main() {
-    MapRecord map = maps[0];
+    MapRecord map = maps[map_index];
     int node = int(gl_GlobalInvocationID.x);
     if (node >= 1 << (map.log2_width + map.log2_height - 2u * level)) return;
     int below = level_start(map, int(level) - 1) + 4 * node;

@@ -9,9 +9,10 @@ layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(set = 0, binding = 6) uniform utextureBuffer texels;
 layout(set = 0, binding = 7) uniform utextureBuffer records;
 layout(std430, set = 0, binding = 9) writeonly buffer Pyramid { uvec4 pyramid[]; };
+layout(push_constant) uniform Push { uint map_index; };
 
 void main() {
-    MapRecord map = maps[0];
+    MapRecord map = maps[map_index];
     uvec2 texel = gl_GlobalInvocationID.xy;
     if (texel.x >= 1u << map.log2_width || texel.y >= 1u << map.log2_height) return;
     uvec4 ranges = uvec4(kNoRange);

@@ -2,6 +2,7 @@
 #include "layers/surface_map.h"
 
 #include "layers/layers.h"
+#include "layers/map_building.h"
 
 #include <pellucid/error.h>
 
@@ -37,30 +38,15 @@ constexpr std::uint32_t kReduceTexels[] = {
 #include "reduce_texels.comp.inc"
 };
 
-constexpr std::uint32_t kGroup = 64;        // of the shaders that go through triangles
-constexpr vk::DeviceSize kRecordSize = 16;  // SurfaceRecord
-constexpr vk::DeviceSize kTileSize = 8;
-constexpr vk::DeviceSize kNodeSize = 16;
-constexpr vk::DeviceSize kTriangleSize = 48;
-
-/// Twin of MapRecord in surface_map.glsl.
-struct MapRecord {
-    glm::mat4 map_from_space;
-    glm::vec4 eye;
-    float near_w;
-    std::uint32_t width, height, log2_width, log2_height;
-    std::uint32_t first_head, first_node, first_triangle;
-};
-static_assert(sizeof(MapRecord) == 112);
-
-/// Twin of MapCount in map_count.glsl.
-struct MapCount {
-    std::uint32_t tiles;
-    std::uint32_t records;
-    std::uint32_t placed;
-};
+constexpr std::uint32_t kGroup = 64;  // of the shaders that go through triangles
 
 std::uint32_t log2_ceil(std::uint32_t size) { return std::uint32_t(std::bit_width(size - 1)); }
+
+const Buffer& counts_on_host(const Frame& frame) {
+    return frame.workspace.buffer("map counts", sizeof(MapCount), true);
+}
+
+}  // namespace
 
 MapRecord record_of(const MapProjection& projection) {
     MapRecord record{};
@@ -74,93 +60,114 @@ MapRecord record_of(const MapProjection& projection) {
     return record;
 }
 
-const Buffer& counts_on_host(const Frame& frame) {
-    return frame.workspace.buffer("map counts", sizeof(MapCount), true);
-}
+std::uint64_t texel_count(const MapRecord& record) { return 1ull << (record.log2_width + record.log2_height); }
+std::uint64_t node_count(const MapRecord& record) { return 4 * texel_count(record) / 3 + 1; }
 
-std::uint32_t largest(const Device& device, vk::DeviceSize item) {
+std::uint32_t most_map_items(const Device& device, vk::DeviceSize item_size) {
     const vk::DeviceSize bytes = std::min<vk::DeviceSize>(device.max_storage_binding(), device.max_allocation());
     return std::uint32_t(
-        std::min<vk::DeviceSize>(bytes / item, std::min(device.limits().maxTexelBufferElements, 0x7ffffffeu)));
+        std::min<vk::DeviceSize>(bytes / item_size, std::min(device.limits().maxTexelBufferElements, 0x7ffffffeu)));
 }
 
-}  // namespace
+std::uint32_t room_for(const Device& device, std::uint32_t room, std::uint32_t needed, vk::DeviceSize item_size,
+                       std::string_view what) {
+    if (needed <= room) return room;
+    const std::uint32_t most = most_map_items(device, item_size);
+    if (needed > most) {
+        throw Error(fmt::format("{} {} in the picture; {} has room for {}", needed, what, device.info().name, most));
+    }
+    return std::uint32_t(std::min<std::uint64_t>(most, std::uint64_t(needed) + needed / 4));
+}
 
-SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
-                                     const MapProjection& projection) {
+void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topology, const MapBuild& build,
+               const Buffer& counts) {
     Workspace& workspace = frame.workspace;
     const GpuScene& scene = frame.scene;
-    const Device& device = workspace.device();
-    const MapRecord record = record_of(projection);
-    const std::uint64_t texels = 1ull << (record.log2_width + record.log2_height);
-    if (map_pool_.records == 0) {
-        map_pool_.records = std::uint32_t(std::min<std::uint64_t>(4 * texels, largest(device, kRecordSize)));
-        map_pool_.tiles = std::uint32_t(std::min<std::uint64_t>(texels / 4 + 1024, largest(device, kTileSize)));
-    }
-    const Buffer& maps = workspace.buffer("map projections", sizeof(MapRecord), true);
-    std::memcpy(maps.mapped(), &record, sizeof(record));
-
-    const std::uint64_t nodes = 4 * texels / 3 + 1;
-    const auto texel_buffer = [&](const char* name, vk::DeviceSize size) -> const Buffer& {
-        return workspace.buffer(name, size, false, vk::Format::eR32G32B32A32Uint);
-    };
-    const SurfaceMap map{
-        projection,
-        &maps,
-        &texel_buffer("map triangles", std::max<std::uint64_t>(scene.triangle_count, 1) * kTriangleSize),
-        &workspace.buffer("map texels", texels * 2 * sizeof(std::uint32_t), false, vk::Format::eR32G32Uint),
-        &texel_buffer("map records", map_pool_.records * kRecordSize),
-        &texel_buffer("map pyramid", nodes * kNodeSize)};
+    const SurfaceMap& map = build.map;
+    const MapRecord& record = build.record;
     const Buffer& counters = workspace.buffer("map counters", sizeof(MapCount));
-    const Buffer& found = texel_buffer("map records found", map_pool_.records * kRecordSize);
-    const std::uint32_t one_object = scene.object_count == 1 ? 1 : 0;
+    const Buffer& found = workspace.buffer("map records found", build.found * kMapRecordSize, false, kMapFormat);
     const Buffer& groups = workspace.buffer("map workgroups", 3 * sizeof(std::uint32_t));
-    const Buffer& tiles = workspace.buffer("map tiles", map_pool_.tiles * kTileSize);
+    const Buffer& tiles = workspace.buffer("map tiles", build.tiles * kMapTileSize);
 
     recorder.fill(counters, 0);
-    recorder.fill(*map.texels, 0);
-    const std::uint32_t row_groups = device.limits().maxComputeWorkGroupCount[0];
-    const std::uint64_t all_groups = (scene.triangle_count + kGroup - 1) / kGroup;
-    const std::uint32_t rows = std::uint32_t(all_groups / row_groups + 1);
-    const std::uint32_t row = std::uint32_t((all_groups + rows - 1) / rows) * kGroup;
+    const std::uint32_t texels = std::uint32_t(texel_count(record));
+    recorder.fill(*map.texels, record.first_head * kMapTexelSize, texels * kMapTexelSize, 0);
+    const std::uint32_t row_groups = workspace.device().limits().maxComputeWorkGroupCount[0];
+    const std::uint32_t all_groups = (build.triangle_count + kGroup - 1) / kGroup;
+    const std::uint32_t rows = all_groups / row_groups + 1;
+    const std::uint32_t row = (all_groups + rows - 1) / rows * kGroup;
     struct Push {
-        std::uint32_t triangle_count, record_capacity, tile_capacity, row;
+        std::uint32_t triangle_count, record_capacity, tile_capacity, map_index, row;
     };
-    recorder.compute(workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}, {one_object}),
-                     {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-                      reads("Vertices", scene.vertices), reads("Maps", maps), writes("MapTriangles", *map.triangles),
-                      updates("MapCounters", counters), updates("Texels", *map.texels), writes("Found", found),
-                      writes("Tiles", tiles)},
-                     Push{std::uint32_t(scene.triangle_count), map_pool_.records, map_pool_.tiles, row}, {row, rows});
+    // Records of a mesh are of no object: whoever walks it for one knows that object's traits.
+    const std::uint32_t one_object = build.of_mesh || scene.object_count == 1 ? 1 : 0;
+    recorder.compute(
+        workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}, {build.of_mesh ? 1u : 0u, one_object}),
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+         reads("Vertices", scene.vertices), reads("Maps", *map.maps),
+         writes("MapTriangles", *map.triangles), updates("MapCounters", counters), updates("Texels", *map.texels),
+         writes("Found", found), writes("Tiles", tiles)},
+        Push{build.triangle_count, build.found, build.tiles, build.index, row}, {row, rows});
     const Program& dispatch = workspace.compute({"dispatch_map.comp", kDispatchMap});
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
-                     std::array{0u, map_pool_.tiles, row_groups}, {1, 1});
+                     std::array{0u, build.tiles, row_groups}, {1, 1});
     recorder.compute_indirect(
         workspace.compute({"rasterise_tiles.comp", kRasteriseTiles}),
-        {reads("Maps", maps), reads("MapTriangles", *map.triangles), updates("MapCounters", counters),
+        {reads("Maps", *map.maps), reads("MapTriangles", *map.triangles), updates("MapCounters", counters),
          updates("Texels", *map.texels), writes("Found", found), reads("Tiles", tiles)},
-        std::array{map_pool_.records, map_pool_.tiles}, groups);
+        std::array{build.found, build.tiles, build.index}, groups);
     recorder.compute(workspace.compute({"place_texels.comp", kPlaceTexels}),
-                     {reads("Maps", maps), updates("MapCounters", counters), updates("Texels", *map.texels)},
-                     {std::uint32_t((texels + 15) / 16), 1});
+                     {reads("Maps", *map.maps), updates("MapCounters", counters), updates("Texels", *map.texels)},
+                     std::array{build.index, build.first_record}, {(texels + 15) / 16, 1});
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
-                     std::array{1u, map_pool_.records, row_groups}, {1, 1});
+                     std::array{1u, build.found, row_groups}, {1, 1});
     recorder.compute_indirect(workspace.compute({"place_records.comp", kPlaceRecords}, {one_object}),
                               {reads("Frame", frame.constants), reads("Objects", scene.objects),
                                reads("Traits", topology.traits), updates("MapCounters", counters),
                                reads("texels", *map.texels), reads("found", found), writes("Records", *map.records)},
-                              map_pool_.records, groups);
-    recorder.copy(counters, counts_on_host(frame), sizeof(MapCount));
+                              std::array{build.found, build.first_record + build.records}, groups);
+    recorder.copy(counters, counts, sizeof(MapCount), build.index * sizeof(MapCount));
 
+    const vk::Extent2D padded{1u << record.log2_width, 1u << record.log2_height};
     recorder.compute(workspace.compute({"summarise_texels.comp", kSummariseTexels}),
-                     {reads("Maps", maps), reads("texels", *map.texels), reads("records", *map.records),
+                     {reads("Maps", *map.maps), reads("texels", *map.texels), reads("records", *map.records),
                       writes("Pyramid", *map.pyramid)},
-                     {1u << record.log2_width, 1u << record.log2_height});
+                     build.index, padded);
     for (std::uint32_t level = 1; level <= std::min(record.log2_width, record.log2_height); ++level) {
         recorder.compute(workspace.compute({"reduce_texels.comp", kReduceTexels}),
-                         {reads("Maps", maps), updates("Pyramid", *map.pyramid)}, level,
-                         {std::uint32_t(texels >> 2 * level), 1});
+                         {reads("Maps", *map.maps), updates("Pyramid", *map.pyramid)}, std::array{build.index, level},
+                         {texels >> 2 * level, 1});
     }
+}
+
+SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
+                                     const MapProjection& projection) {
+    Workspace& workspace = frame.workspace;
+    const Device& device = workspace.device();
+    const MapRecord record = record_of(projection);
+    const std::uint64_t texels = texel_count(record);
+    if (map_pool_.records == 0) {
+        map_pool_.records = std::uint32_t(std::min<std::uint64_t>(4 * texels, most_map_items(device, kMapRecordSize)));
+        map_pool_.tiles =
+            std::uint32_t(std::min<std::uint64_t>(texels / 4 + 1024, most_map_items(device, kMapTileSize)));
+    }
+    const Buffer& maps = workspace.buffer("map projections", sizeof(MapRecord), true);
+    std::memcpy(maps.mapped(), &record, sizeof(record));
+    const auto buffer = [&](const char* name, vk::DeviceSize size, vk::Format format) {
+        return &workspace.buffer(name, size, false, format);
+    };
+    const std::uint64_t triangles = std::max<std::uint64_t>(frame.scene.triangle_count, 1);
+    const SurfaceMap map{&maps,
+                         buffer("map triangles", triangles * kMapTriangleSize, kMapFormat),
+                         buffer("map texels", texels * kMapTexelSize, kMapTexelFormat),
+                         buffer("map records", map_pool_.records * kMapRecordSize, kMapFormat),
+                         buffer("map pyramid", node_count(record) * kMapNodeSize, kMapFormat),
+                         nullptr};
+    build_map(recorder, frame, topology,
+              {map, record, 0, false, std::uint32_t(frame.scene.triangle_count), 0, map_pool_.records,
+               map_pool_.records, map_pool_.tiles},
+              counts_on_host(frame));
     mapped_ = true;
     return map;
 }
@@ -171,17 +178,8 @@ bool LayerSource::must_enlarge_map(const Frame& frame) {
     std::memcpy(&count, counts_on_host(frame).mapped(), sizeof(count));
     if (count.records <= map_pool_.records && count.tiles <= map_pool_.tiles) return false;
     const Device& device = frame.workspace.device();
-    const auto enlarge = [&](std::uint32_t& room, std::uint32_t needed, vk::DeviceSize item, const char* what) {
-        if (needed <= room) return;
-        const std::uint32_t most = largest(device, item);
-        if (needed > most) {
-            throw Error(
-                fmt::format("{} {} in the picture; {} has room for {}", needed, what, device.info().name, most));
-        }
-        room = std::uint32_t(std::min<std::uint64_t>(most, std::uint64_t(needed) + needed / 4));
-    };
-    enlarge(map_pool_.records, count.records, kRecordSize, "surfaces");
-    enlarge(map_pool_.tiles, count.tiles, kTileSize, "tiles of large triangles");
+    map_pool_.records = room_for(device, map_pool_.records, count.records, kMapRecordSize, "surfaces");
+    map_pool_.tiles = room_for(device, map_pool_.tiles, count.tiles, kMapTileSize, "tiles of large triangles");
     return true;
 }
 

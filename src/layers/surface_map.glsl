@@ -12,7 +12,8 @@ struct MapRecord {
     float near_w;
     uint width, height;    // texels
     uint log2_width, log2_height;  // of the pyramid's finest level
-    uint first_head, first_node, first_triangle;
+    uint first_head, first_node;   // in buffers that several maps share
+    uint first_triangle;           // of its mesh among all meshes'; 0: of all objects
 };
 
 // A triangle in the space of its map is three vec4: its first corner, and the ways from it to the second and third;

@@ -13,9 +13,9 @@ namespace pellucid {
 /// Y / W count texels, Q / W is a depth that grows away from the eye, 0..1 over what the map holds.
 struct MapProjection {
     glm::mat4 map_from_world{1.0f};
-    glm::vec4 eye{0.0f};   ///< world: (position, 1), or (minus the direction that all rays have, 0)
-    float near_w = 0.0f;   ///< what has a smaller W is not in the map
-    vk::Extent2D extent;   ///< texels
+    glm::vec4 eye{0.0f};  ///< world: (position, 1), or (minus the direction that all rays have, 0)
+    float near_w = 0.0f;  ///< what has a smaller W is not in the map
+    vk::Extent2D extent;  ///< texels
 };
 
 /// Which triangles of the scene lie in which texel, and how deep: a hierarchy for rays that the rasteriser makes anew
@@ -26,12 +26,13 @@ struct MapProjection {
 /// otherwise only where it covers the texel's centre, and whoever finds it walks on to its neighbours.
 /// Over the texels a pyramid of depth ranges: up to four per node, in which all of its records lie.
 struct SurfaceMap {
-    MapProjection projection;
-    const Buffer* maps;          ///< MapRecord[]
-    const Buffer* triangles;     ///< world
+    const Buffer* maps;       ///< MapRecord[]
+    const Buffer* triangles;  ///< see surface_map.glsl; in the world, or in the frames of meshes
     const Buffer* texels;     ///< TexelRecords[]: per texel, where its records lie
-    const Buffer* records;       ///< see surface_map.glsl
-    const Buffer* pyramid;       ///< uvec4[]: levels from the finest on
+    const Buffer* records;    ///< SurfaceRecord[]
+    const Buffer* pyramid;    ///< uvec4[]: levels from the finest on
+    const Buffer*
+        objects;  ///< where there are maps of every mesh: MappedObject[], see object_walk.glsl; otherwise null
 };
 
 }  // namespace pellucid

@@ -96,7 +96,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
     in_map = map_ray(map, origin, direction, ray);
     if (!in_map) return hit;
     vec2 inverse = 1.0 / mix(ray.way.xy, vec2(1e-9), lessThan(abs(ray.way.xy), vec2(1e-9)));
-    ivec2 ahead = -ivec2(greaterThan(ray.way.xy, vec2(0.0)));
+    ivec2 ahead = -ivec2(greaterThan(inverse, vec2(0.0)));
     float nudge = kNudge * min(abs(inverse.x), abs(inverse.y));
     int top = int(map_levels(map)) - 1, level = 0;
     vec2 last_texel = vec2(map.width, map.height) - 1.0;

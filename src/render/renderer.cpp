@@ -320,7 +320,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
                       std::uint32_t(impl.environment.kind),
                       {settings.width, settings.height}};
     impl.workspace.trim();
-    if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source = LayerSource();
+    if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {
         const auto [radiance, scale] = impl.render_samples(frame, chosen, settings, result);
         const GpuImage& display =

@@ -5,6 +5,7 @@
 #include "techniques/ray_tracing/ray_tracing.h"
 #include "techniques/reference/reference.h"
 #include "techniques/technique.h"
+#include "techniques/visibility_cube/visibility_cube.h"
 #include "techniques/visibility_layers/visibility_layers.h"
 #include "techniques/wang_2014/wang_2014.h"
 #include "techniques/wyman_2005/wyman_2005.h"
@@ -23,7 +24,7 @@ namespace {
 // Every technique, one line each.
 constexpr std::array kTechniques = {
     &kOneInterface, &kKayGreenberg1979, &kWyman2005, &kOliveiraBrauwers2007,
-    &kWang2014,     &kVisibilityLayers, &kRayTracing,       &kPath,      &kReference,
+    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,       &kPath,      &kReference,
 };
 
 constexpr auto kInfos = [] {

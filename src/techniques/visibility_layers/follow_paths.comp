@@ -5,6 +5,7 @@
 #include "techniques/visibility_layers/visibility_bindings.glsl"
 #include "layers/surface_map.glsl"
 
+layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
 layout(std430, set = 0, binding = 4) readonly buffer Solids { uint solids[]; };  // per rank: its material
 layout(std430, set = 0, binding = 14) readonly buffer Maps { MapRecord maps[]; };
 layout(set = 0, binding = 15) uniform utextureBuffer map_triangles;
@@ -24,7 +25,7 @@ bool can_meet(uint traits, bool leaving, uint triangle) {
 }
 
 #define PELLUCID_FINDS_SECOND kTouching
-#include "layers/surface_walk.glsl"
+#include "layers/object_walk.glsl"
 
 // A pane that bends no light: its two faces and the reflections between them are one factor.
 void pass_pane(inout Path path, Surface surface) {
@@ -48,7 +49,8 @@ void main() {
     Path path = load_path(i);
     bool in_map, gave_up;
     uint visits = 0u;
-    SurfaceHit hit = find_surface(maps[0], path.position, path.direction, -coincidence, in_map, gave_up, visits);
+    SurfaceHit hit = kMapPerMesh ? find_surface_among_objects(path.position, path.direction, coincidence, gave_up, visits)
+                                 : find_surface(maps[0], path.position, path.direction, -coincidence, in_map, gave_up, visits);
     uint rank = filling_rank();
     bool found = hit.t < kFarthest;
     if (!found && rank != kAir) path.status = gave_up ? kStatusStepLimit : kStatusMissingLayer;

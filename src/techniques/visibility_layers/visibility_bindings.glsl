@@ -12,7 +12,7 @@ layout(constant_id = 3) const bool kStochastic = false;   // one way at random
 layout(constant_id = 4) const bool kDispersive = false;   // some glass disperses
 layout(constant_id = 5) const bool kRough = false;        // some glass is rough
 
-layout(constant_id = 8) const bool kTouching = false;     // surfaces of two objects may lie at one place
+layout(constant_id = 9) const bool kTouching = false;     // surfaces of two objects may lie at one place
 
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };

@@ -18,15 +18,6 @@ constexpr std::uint32_t kEndPaths[] = {
 #include "end_paths.comp.inc"
 };
 
-constexpr std::array kParameters = {
-    ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed along a path"},
-    ParameterInfo{"branches", "", -1, -1, 255, true,
-                  "reflected ways followed per pixel and sample; -1: none in a picture of one sample, 16 otherwise"},
-    ParameterInfo{"threshold", "", 0.01, 0, 1, false, "share of the light that a reflected way carries at least"},
-    ParameterInfo{"one-branch", "", 0, 0, 1, true,
-                  "1: each sample takes one way at random, refracted or reflected, and through rough glass one facet"},
-};
-
 /// Passes beyond those of the longest path, for each branch: most branches leave soon.
 constexpr std::uint32_t kPassesPerBranch = 4;
 
@@ -43,8 +34,9 @@ enum class Ways { kTransmitted, kTree, kStochastic };
 
 class Paths {
 public:
-    Paths(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters)
-        : recorder_(recorder), frame_(frame), layers_(layers), topology_(*frame.scene.topology),
+    Paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
+          const ParameterValues& parameters)
+        : recorder_(recorder), frame_(frame), layers_(layers), map_(map), topology_(*frame.scene.topology),
           refraction_(clear_refraction(recorder, frame, true)) {
         const double given = parameters["branches"];
         const bool many = frame.samples > 1;
@@ -84,7 +76,7 @@ public:
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::array<std::uint32_t, 9> constants() const {
+    std::array<std::uint32_t, 10> constants() const {
         const GpuScene& scene = frame_.scene;
         return {words_,
                 scene.object_count == 1 ? 1u : 0u,
@@ -94,11 +86,12 @@ private:
                 scene.rough_glass ? 1u : 0u,
                 frame_.environment_kind,
                 scene.opaque.empty() ? 0u : 1u,
+                map_.objects != nullptr ? 1u : 0u,
                 topology_.all_alone ? 0u : 1u};
     }
     const Program& program(ShaderCode shader) {
         const auto c = constants();
-        return frame_.workspace.compute(shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]});
+        return frame_.workspace.compute(shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9]});
     }
 
     void begin() {
@@ -119,44 +112,70 @@ private:
 
     void follow(std::uint32_t pass) {
         const GpuScene& scene = frame_.scene;
-        const SurfaceMap& map = layers_.source.view_map();
         const Buffer& list = *next_;
         next_ = &start_pixel_list(recorder_, frame_, pass % 2 == 0 ? "paths 1" : "paths 0");
-        recorder_.compute_indirect(
-            program({"follow_paths.comp", kFollowPaths}),
-            {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
-             reads("Indices", scene.indices), reads("Vertices", scene.vertices), reads("Solids", topology_.materials),
-             reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
-             updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
-             updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_),
-             reads("Maps", *map.maps), reads("map_triangles", *map.triangles), reads("texels", *map.texels),
-             reads("records", *map.records), reads("pyramid", *map.pyramid)},
-            push_, list);
+        recorder_.compute_indirect(program({"follow_paths.comp", kFollowPaths}),
+                                   {reads("Frame", frame_.constants),
+                                    reads("Objects", scene.objects),
+                                    reads("Materials", scene.materials),
+                                    reads("Indices", scene.indices),
+                                    reads("Vertices", scene.vertices),
+                                    reads("Solids", topology_.materials),
+                                    reads("PixelList", list),
+                                    updates("NextList", *next_),
+                                    updates("EndedList", *ended_),
+                                    updates("PathPlaces", places_),
+                                    updates("PathWays", ways_buffer_),
+                                    updates("PathWeights", weights_),
+                                    updates("PathMedia", media_),
+                                    updates("Waiting", waiting_),
+                                    updates("Branches", *branches_),
+                                    reads("Maps", *map_.maps),
+                                    reads("map_triangles", *map_.triangles),
+                                    reads("texels", *map_.texels),
+                                    reads("records", *map_.records),
+                                    reads("pyramid", *map_.pyramid),
+                                    reads("Traits", topology_.traits),
+                                    reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps)},
+                                   push_, list);
     }
 
     void end(const Buffer& list, bool closing) {
         const GpuScene& scene = frame_.scene;
         Push push = push_;
         push.closing = closing ? 1 : 0;
-        recorder_.compute_indirect(
-            program({"end_paths.comp", kEndPaths}),
-            {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
-             reads("Indices", scene.indices), reads("Vertices", scene.vertices), reads("PixelList", list),
-             updates("NextList", closing ? *ended_ : *next_), updates("PathPlaces", places_),
-             updates("PathWays", ways_buffer_), updates("PathWeights", weights_), updates("PathMedia", media_),
-             updates("Waiting", waiting_), updates("Branches", *branches_), reads("Textures", scene.textures),
-             reads("texture_pages", scene.texture_pages), reads("Appearance", scene.appearance),
-             reads_layer("environment_map", frame_.environment, 0),
-             reads_layer("filtered_environment", frame_.filtered_environment, 0),
-             writes("exit_direction", refraction_.exit_direction), writes("exit_position", refraction_.exit_position),
-             writes("transmittance", refraction_.transmittance), writes("path_events", refraction_.events),
-             updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
-            push, list);
+        recorder_.compute_indirect(program({"end_paths.comp", kEndPaths}),
+                                   {reads("Frame", frame_.constants),
+                                    reads("Objects", scene.objects),
+                                    reads("Materials", scene.materials),
+                                    reads("Indices", scene.indices),
+                                    reads("Vertices", scene.vertices),
+                                    reads("PixelList", list),
+                                    updates("NextList", closing ? *ended_ : *next_),
+                                    updates("PathPlaces", places_),
+                                    updates("PathWays", ways_buffer_),
+                                    updates("PathWeights", weights_),
+                                    updates("PathMedia", media_),
+                                    updates("Waiting", waiting_),
+                                    updates("Branches", *branches_),
+                                    reads("Textures", scene.textures),
+                                    reads("texture_pages", scene.texture_pages),
+                                    reads("Appearance", scene.appearance),
+                                    reads_layer("environment_map", frame_.environment, 0),
+                                    reads_layer("filtered_environment", frame_.filtered_environment, 0),
+                                    writes("exit_direction", refraction_.exit_direction),
+                                    writes("exit_position", refraction_.exit_position),
+                                    writes("transmittance", refraction_.transmittance),
+                                    writes("path_events", refraction_.events),
+                                    updates("path_radiance", *refraction_.radiance),
+                                    updates("reflected_radiance", reflected_)},
+                                   push, list);
     }
 
     Recorder& recorder_;
     const Frame& frame_;
     const Layers& layers_;
+    const SurfaceMap& map_;
     const SceneTopology& topology_;
     Refraction refraction_;
     Ways ways_ = Ways::kTransmitted;
@@ -165,26 +184,33 @@ private:
     const Buffer& places_ = frame_.workspace.buffer("path places", pixels() * 16);
     const Buffer& ways_buffer_ = frame_.workspace.buffer("path ways", pixels() * 16);
     const Buffer& weights_ = frame_.workspace.buffer("path weights", pixels() * 16);
-    const Buffer& media_ = frame_.workspace.buffer("path media", pixels() * 4 * (std::max((topology_.solids + 7) / 8, 1u) + 1));
+    const Buffer& media_ =
+        frame_.workspace.buffer("path media", pixels() * 4 * (std::max((topology_.solids + 7) / 8, 1u) + 1));
     const Buffer& waiting_ = frame_.workspace.buffer("waiting branches", pixels() * 8);
     const Buffer* branches_ = nullptr;
-    const GpuImage& reflected_ = frame_.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame_.extent);
+    const GpuImage& reflected_ =
+        frame_.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame_.extent);
     const Buffer* next_ = nullptr;
     const Buffer* ended_ = nullptr;
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
-    const Recorder::Scope scope(recorder, "trace");
-    return Paths(recorder, frame, layers, parameters).follow();
+    return follow_paths(recorder, frame, layers, layers.source.view_map(), parameters);
 }
 
 }  // namespace
+
+Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
+                        const ParameterValues& parameters) {
+    const Recorder::Scope scope(recorder, "trace");
+    return Paths(recorder, frame, layers, map, parameters).follow();
+}
 
 constexpr Technique kVisibilityLayers{
     .info = {.name = "visibility-layers",
              .summary = "every interface, found in lists of triangles per texel that are made anew in every frame",
              .source = {},
-             .parameters = kParameters,
+             .parameters = kPathParameters,
              .many_media = true,
              .whole_scene = true},
     .layer_count = [](const ParameterValues&) { return 1u; },

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "gpu/frame.h"
+#include "gpu/scene_topology.h"
+#include "layers/surface_map.h"
+
+#include <cstdint>
+#include <string_view>
+
+namespace pellucid {
+
+/// Twin of MapRecord in surface_map.glsl.
+struct MapRecord {
+    glm::mat4 map_from_space;
+    glm::vec4 eye;
+    float near_w;
+    std::uint32_t width, height, log2_width, log2_height;
+    std::uint32_t first_head, first_node, first_triangle;
+};
+static_assert(sizeof(MapRecord) == 112);
+
+/// Twin of MapCount in map_count.glsl.
+struct MapCount {
+    std::uint32_t tiles;
+    std::uint32_t records;
+    std::uint32_t placed;
+};
+
+inline constexpr vk::DeviceSize kMapTriangleSize = 48;
+inline constexpr vk::DeviceSize kMapTexelSize = 8;    ///< TexelRecords
+inline constexpr vk::DeviceSize kMapRecordSize = 16;  ///< SurfaceRecord
+inline constexpr vk::DeviceSize kMapNodeSize = 16;
+inline constexpr vk::DeviceSize kMapTileSize = 8;
+/// In which rays read what the buffers of a SurfaceMap hold, except the maps and objects.
+inline constexpr vk::Format kMapFormat = vk::Format::eR32G32B32A32Uint;
+inline constexpr vk::Format kMapTexelFormat = vk::Format::eR32G32Uint;
+
+/// Its parts lie at the start of their buffers.
+MapRecord record_of(const MapProjection& projection);
+/// Of a map, with those beside it that make its sides powers of two; and of its pyramid.
+std::uint64_t texel_count(const MapRecord& record);
+std::uint64_t node_count(const MapRecord& record);
+
+/// One map among those that share the buffers of `map`, and the room that there is for it.
+struct MapBuild {
+    const SurfaceMap& map;
+    MapRecord record;     ///< as in map.maps,
+    std::uint32_t index;  ///< there
+    bool of_mesh;  ///< of the mesh that starts at record.first_triangle, in its own frame; otherwise of all objects
+    std::uint32_t triangle_count;
+    std::uint32_t first_record, records;  ///< room in map.records,
+    std::uint32_t found, tiles;           ///< and while it is built; found >= records
+};
+/// Records the passes that fill it, and copies the MapCount to `counts` (host visible), entry build.index.
+void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topology, const MapBuild& build,
+               const Buffer& counts);
+
+/// How many items of a size a buffer of the device can have.
+std::uint32_t most_map_items(const Device& device, vk::DeviceSize item_size);
+/// `room` if it is enough for what was `needed`, otherwise more. Throws Error, naming `what`, if the device has no
+/// room for it.
+std::uint32_t room_for(const Device& device, std::uint32_t room, std::uint32_t needed, vk::DeviceSize item_size,
+                       std::string_view what);
+
+}  // namespace pellucid

@@ -1,0 +1,233 @@
+#include "layers/mesh_maps.h"
+
+#include "layers/map_building.h"
+
+#include <pellucid/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pellucid {
+namespace {
+
+/// Twin of MappedObject in object_walk.glsl.
+struct MappedObject {
+    glm::vec3 low;
+    std::uint32_t first_map;
+    glm::vec3 high;
+    std::uint32_t first_triangle;
+};
+static_assert(sizeof(MappedObject) == 32);
+
+/// What the maps of a mesh hold: its box and half a texel around it, so that surfaces do not lie on the rim.
+struct MapBox {
+    glm::vec3 low, high;
+    float texel;
+};
+
+MapBox box_of(const GpuMesh& mesh, std::uint32_t resolution) {
+    if (mesh.triangle_count == 0) return {glm::vec3(1.0f), glm::vec3(-1.0f), 1.0f};
+    const glm::vec3 size = mesh.high - mesh.low;
+    const float longest = std::max({size.x, size.y, size.z});
+    // A map of a point, or of a speck far from its origin, still needs texels that can be told apart.
+    const float finest = 1e-5f * std::max(glm::length(mesh.low), glm::length(mesh.high));
+    const float texel = std::max({longest / float(std::max(resolution, 2u) - 1), finest, 1e-30f});
+    return {mesh.low - 0.5f * texel, mesh.high + 0.5f * texel, texel};
+}
+
+MapRecord record_along(std::uint32_t axis, const MapBox& box) {
+    const int depth = int(axis), across = (depth + 1) % 3, down = (depth + 2) % 3;
+    const float scale = 1.0f / box.texel, deep = 1.0f / (box.high[depth] - box.low[depth]);
+    glm::vec4 x(0.0f), y(0.0f), q(0.0f);
+    x[across] = y[down] = scale;
+    x.w = -scale * box.low[across];
+    y.w = -scale * box.low[down];
+    q[depth] = deep;
+    q.w = -deep * box.low[depth];
+    MapProjection projection;
+    projection.map_from_world = glm::transpose(glm::mat4(x, y, q, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
+    projection.eye[depth] = -1.0f;
+    projection.eye.w = 0.0f;
+    projection.near_w = 0.5f;
+    const auto texels = [&](int side) {
+        return std::uint32_t(std::max(std::ceil((box.high[side] - box.low[side]) * scale - 1e-3f), 1.0f));
+    };
+    projection.extent = vk::Extent2D{texels(across), texels(down)};
+    return record_of(projection);
+}
+
+/// Grows a buffer that lives from frame to frame.
+void make_room(Buffer& buffer, const Device& device, const char* name, std::uint64_t bytes,
+               vk::Format texels = vk::Format::eUndefined, bool host_visible = false) {
+    using Usage = vk::BufferUsageFlagBits;
+    bytes = std::max<std::uint64_t>(bytes, 16);
+    if (buffer.size() >= bytes) return;
+    buffer = Buffer();  // freed first
+    buffer = Buffer(device, name, bytes, Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
+                    host_visible, texels);
+}
+
+constexpr std::uint32_t kCoarsest = 8;  // texels; what a scene whose maps do not fit even so lacks is memory
+
+}  // namespace
+
+SurfaceMap MeshMaps::buffers() const { return {&maps_, &triangles_, &texels_, &records_, &pyramid_, &objects_}; }
+
+/// Whether every mesh that has moved still fits where it was.
+bool MeshMaps::fits(const Frame& frame) const {
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+        if (!meshes_[m].shown) continue;
+        const MapBox box = box_of(frame.scene.meshes[m], texels_across_);
+        for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
+            const MapRecord record = record_along(axis, box);
+            const Place& place = meshes_[m].places[axis];
+            if (texel_count(record) > place.texels || node_count(record) > place.nodes) return false;
+        }
+    }
+    return true;
+}
+
+MeshMaps::Room MeshMaps::place_maps(const GpuScene& scene) {
+    Room room;
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+        Mapped& mesh = meshes_[m];
+        mesh.built = false;
+        if (!mesh.shown) continue;
+        const MapBox box = box_of(scene.meshes[m], texels_across_);
+        for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
+            const MapRecord record = record_along(axis, box);
+            Place& place = mesh.places[axis];
+            place.first_texel = room.texels;
+            place.texels = texel_count(record);
+            place.first_node = room.nodes;
+            place.nodes = node_count(record);
+            // Most closed surfaces are crossed twice or four times along an axis, over half of their box.
+            if (place.records == 0) place.records = place.texels + scene.meshes[m].triangle_count;
+            place.first_record = room.records;
+            room.texels += place.texels;
+            room.nodes += place.nodes;
+            room.records += place.records;
+            room.found = std::max(room.found, place.records);
+        }
+    }
+    return room;
+}
+
+void MeshMaps::lay_out(const Frame& frame) {
+    const Device& device = frame.workspace.device();
+    const GpuScene& scene = frame.scene;
+    tiles_ = std::max<std::uint64_t>(tiles_, std::uint64_t(texels_across_) * texels_across_ / 4 + 1024);
+    Room room = place_maps(scene);
+    const auto too_much = [&] {
+        return room.texels > most_map_items(device, kMapTexelSize) ||
+               room.nodes > most_map_items(device, kMapNodeSize) ||
+               std::max(room.records, room.found) > most_map_items(device, kMapRecordSize) ||
+               tiles_ > most_map_items(device, kMapTileSize);
+    };
+    // Coarser maps find the same surfaces, in more time.
+    while (too_much() && texels_across_ > kCoarsest) {
+        texels_across_ = std::max(texels_across_ / 2, kCoarsest);
+        tiles_ = std::uint64_t(texels_across_) * texels_across_ / 4 + 1024;
+        for (Mapped& mesh : meshes_) {
+            for (Place& place : mesh.places) place.records = 0;
+        }
+        room = place_maps(scene);
+    }
+    if (too_much()) {
+        throw Error(
+            fmt::format("the maps of {} meshes with {} surfaces per texel and triangle are more than {} has room for",
+                        meshes_.size(), room.records, device.info().name));
+    }
+    found_ = std::max<std::uint64_t>(room.found, 1);
+    make_room(texels_, device, "texels of the meshes' maps", room.texels * kMapTexelSize, kMapTexelFormat);
+    make_room(pyramid_, device, "pyramids of the meshes' maps", room.nodes * kMapNodeSize, kMapFormat);
+    make_room(records_, device, "surfaces in the meshes' maps", room.records * kMapRecordSize, kMapFormat);
+    make_room(triangles_, device, "triangles of the meshes' maps", scene.indices.size() / 12 * kMapTriangleSize,
+              kMapFormat);
+    make_room(maps_, device, "meshes' maps", meshes_.size() * kAxes * sizeof(MapRecord), {}, true);
+    make_room(counts_, device, "counts of the meshes' maps", meshes_.size() * kAxes * sizeof(MapCount), {}, true);
+    make_room(objects_, device, "mapped objects", scene.object_count * sizeof(MappedObject), {}, true);
+    laid_out_ = true;
+}
+
+void MeshMaps::write_tables(const Frame& frame) {
+    const GpuScene& scene = frame.scene;
+    auto* records = reinterpret_cast<MapRecord*>(maps_.mapped());
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+        if (!meshes_[m].shown) continue;
+        const MapBox box = box_of(scene.meshes[m], texels_across_);
+        for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
+            const Place& place = meshes_[m].places[axis];
+            MapRecord record = record_along(axis, box);
+            record.first_head = std::uint32_t(place.first_texel);
+            record.first_node = std::uint32_t(place.first_node);
+            record.first_triangle = scene.meshes[m].first_corner / 3;
+            records[m * kAxes + axis] = record;
+        }
+    }
+    auto* objects = reinterpret_cast<MappedObject*>(objects_.mapped());
+    for (std::uint32_t i = 0; i < scene.object_count; ++i) {
+        const std::uint32_t m = scene.mesh_of_object[i];
+        const MapBox box = box_of(scene.meshes[m], texels_across_);
+        objects[i] = {box.low, m * kAxes, box.high, scene.meshes[m].first_corner / 3};
+    }
+}
+
+SurfaceMap MeshMaps::bring_up_to_date(Recorder& recorder, const Frame& frame, std::uint32_t resolution) {
+    const GpuScene& scene = frame.scene;
+    if (resolution != resolution_ || meshes_.size() != scene.meshes.size()) {
+        *this = MeshMaps();
+        resolution_ = texels_across_ = resolution;
+        meshes_.resize(scene.meshes.size());
+        for (const std::uint32_t m : scene.mesh_of_object) meshes_[m].shown = true;
+    }
+    if (!laid_out_ || !fits(frame)) lay_out(frame);
+    building_.clear();
+    for (std::uint32_t m = 0; m < meshes_.size(); ++m) {
+        const bool current = meshes_[m].built && meshes_[m].moves == scene.meshes[m].moves;
+        if (meshes_[m].shown && scene.meshes[m].triangle_count > 0 && !current) building_.push_back(m);
+    }
+    if (building_.empty()) return buffers();
+    write_tables(frame);
+    const Recorder::Scope scope(recorder, "mesh maps");
+    const SurfaceMap map = buffers();
+    for (const std::uint32_t m : building_) {
+        for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
+            const Place& place = meshes_[m].places[axis];
+            const std::uint32_t index = m * kAxes + axis;
+            MapRecord record;
+            std::memcpy(&record, maps_.mapped() + index * sizeof(MapRecord), sizeof(record));
+            build_map(recorder, frame, *scene.topology,
+                      {map, record, index, true, scene.meshes[m].triangle_count, std::uint32_t(place.first_record),
+                       std::uint32_t(place.records), std::uint32_t(found_), std::uint32_t(tiles_)},
+                      counts_);
+        }
+        meshes_[m].moves = scene.meshes[m].moves;
+    }
+    return map;
+}
+
+bool MeshMaps::must_repeat() {
+    bool repeat = false;
+    for (const std::uint32_t m : building_) {
+        meshes_[m].built = true;
+        for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
+            MapCount count{};
+            std::memcpy(&count, counts_.mapped() + (m * kAxes + axis) * sizeof(count), sizeof(count));
+            Place& place = meshes_[m].places[axis];
+            if (count.records <= place.records && count.tiles <= tiles_) continue;
+            // With room to spare, as deforming meshes need a little more in one frame and less in the next.
+            if (count.records > place.records) place.records = count.records + count.records / 4;
+            if (count.tiles > tiles_) tiles_ = count.tiles + count.tiles / 4;
+            repeat = true;
+        }
+    }
+    building_.clear();
+    if (repeat) laid_out_ = false;
+    return repeat;
+}
+
+}  // namespace pellucid

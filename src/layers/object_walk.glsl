@@ -1,0 +1,70 @@
+#ifndef PELLUCID_LAYERS_OBJECT_WALK_GLSL
+#define PELLUCID_LAYERS_OBJECT_WALK_GLSL
+
+// The nearest surface that a ray meets in maps of every mesh (mesh_maps.h), which lie in the meshes' own frames.
+//
+// Every object whose box the ray meets nearer than the best hit so far is walked, in the order of the scene: what a
+// ray costs grows with the objects whose boxes lie on its way, and with the number of objects by a box test each.
+//
+// Needs: frame, objects (ObjectRecord[]), traits (per object), and what surface_walk.glsl needs; can_meet() is asked
+// with triangles numbered over all objects.
+
+// Twin of MappedObject in mesh_maps.cpp.
+struct MappedObject {
+    vec3 low;
+    uint first_map;       // of the mesh's, one per axis
+    vec3 high;            // box of the maps, in the mesh's frame
+    uint first_triangle;  // of the mesh, among all meshes'
+};
+layout(std430, set = 0, binding = 26) readonly buffer MappedObjects { MappedObject mapped_objects[]; };
+layout(constant_id = 8) const bool kMapPerMesh = false;  // otherwise there is one map of all the scene
+
+uint walked_traits;  // of the object that is being walked
+uint walked_shift;   // from a triangle of its mesh to its own
+
+bool can_meet_walked(uint record_traits, bool leaving, uint triangle) {
+    return kMapPerMesh ? can_meet(walked_traits, leaving, triangle + walked_shift)
+                       : can_meet(record_traits, leaving, triangle);
+}
+#define can_meet can_meet_walked
+#include "layers/surface_walk.glsl"
+#undef can_meet
+
+// Of surfaces of several objects in one place: a solid that touches another is entered before that one is left, so that
+// there is no air between them; and glass is left before what it stands on is met.
+uint precedence(uint object_traits, bool leaving) { return refractive(object_traits) ? (leaving ? 1u : 2u) : 0u; }
+
+// The nearest surface ahead. `coincidence`, m: by so much the places of surfaces are uncertain; those that far behind
+// are ahead, and those that near to each other are in one place.
+SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float coincidence, out bool gave_up, inout uint visits) {
+    SurfaceHit nearest = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
+    gave_up = false;
+    for (uint i = 0u; i < frame.object_count; ++i) {
+        MappedObject mapped = mapped_objects[i];
+        // The direction is not made a unit vector, so that distances are the world's.
+        mat3 object_from_world = transpose(mat3(objects[i].world_from_object_normal));
+        vec3 from = object_from_world * (origin - objects[i].world_from_object[3].xyz);
+        vec3 way = object_from_world * direction;
+        float near = -coincidence, far = nearest.t + coincidence;
+        for (int k = 0; k < 3; ++k) {
+            clip(from[k] - mapped.low[k], way[k], near, far);
+            clip(mapped.high[k] - from[k], -way[k], near, far);
+        }
+        if (near > far) continue;
+        walked_traits = traits[i];
+        walked_shift = objects[i].first_triangle - mapped.first_triangle;
+        // Texels are as wide in every map of a mesh: the way is shortest along the axis nearest to it.
+        vec3 along = abs(way);
+        uint axis = along.x > along.y ? (along.x > along.z ? 0u : 2u) : (along.y > along.z ? 1u : 2u);
+        bool in_map, gave_up_here;
+        SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, -coincidence, in_map, gave_up_here, visits);
+        gave_up = gave_up || gave_up_here;
+        // A transform that mirrors turns the triangles' winding and their outward normals alike: `leaving` holds.
+        uint one = precedence(walked_traits, hit.leaving), other = precedence(nearest.traits, nearest.leaving);
+        bool together = abs(hit.t - nearest.t) <= coincidence && one != other;
+        if (together ? one > other : hit.t < nearest.t) nearest = SurfaceHit(hit.t, hit.triangle + walked_shift, walked_traits, hit.leaving);
+    }
+    return nearest;
+}
+
+#endif

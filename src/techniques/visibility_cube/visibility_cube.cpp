@@ -1,0 +1,42 @@
+// The paths of visibility-layers, in maps of the meshes instead of one of the view.
+#include "techniques/visibility_cube/visibility_cube.h"
+
+#include "techniques/visibility_layers/visibility_layers.h"
+
+#include <array>
+
+namespace pellucid {
+namespace {
+
+constexpr std::array kParameters = {
+    ParameterInfo{"resolution", "", 512, 2, 8192, true, "texels of a mesh's maps along the longest side of its box"},
+    kPathParameters[0],
+    kPathParameters[1],
+    kPathParameters[2],
+    kPathParameters[3],
+};
+
+void prepare(const Preparation& preparation, const ParameterValues&) {
+    preparation.gpu_scene.prepare_topology(preparation.device, preparation.scene);
+}
+
+Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
+    const SurfaceMap map = layers.source.map_meshes(recorder, frame, parameters.whole("resolution"));
+    return follow_paths(recorder, frame, layers, map, parameters);
+}
+
+}  // namespace
+
+constexpr Technique kVisibilityCube{
+    .info = {.name = "visibility-cube",
+             .summary =
+                 "every interface, found in lists of triangles per texel that are kept for each mesh in its own frame",
+             .source = {},
+             .parameters = kParameters,
+             .many_media = true},
+    .layer_count = [](const ParameterValues&) { return 1u; },
+    .prepare = prepare,
+    .record = record,
+};
+
+}  // namespace pellucid

@@ -1,0 +1,290 @@
+// visibility-cube against the exact tracer, and what it keeps from frame to frame.
+#include "gpu/device_test.h"
+#include "layers/mesh_maps.h"
+
+#include <gmock/gmock.h>
+
+#include <fmt/format.h>
+
+namespace pellucid::test {
+namespace {
+
+constexpr std::uint32_t kSize = 128;
+
+class VisibilityCube : public RendererTest {
+protected:
+    RenderSettings settings(const char* technique, ParameterMap parameters = {}) {
+        RenderSettings settings;
+        settings.width = settings.height = kSize;
+        settings.technique = technique;
+        settings.parameters = std::move(parameters);
+        settings.paths = true;
+        return settings;
+    }
+    std::vector<RefractedPath> paths(const char* technique, ParameterMap parameters = {}) {
+        return renderer().render(settings(technique, std::move(parameters))).paths;
+    }
+    void set_up(const Scene& scene, const Camera& camera) {
+        renderer().set_scene(scene);
+        renderer().set_environment(uniform_environment());
+        renderer().set_camera(camera);
+    }
+    double self(const Camera& camera) {
+        const auto exact = paths("reference");
+        Camera moved = camera;
+        moved.world_from_view[3] += 1e-5f * moved.world_from_view[0];
+        renderer().set_camera(moved);
+        const auto again = paths("reference");
+        renderer().set_camera(camera);
+        return within_1deg(again, exact);
+    }
+    double right(ParameterMap parameters = {}) {
+        const auto exact = paths("reference");
+        if (getenv("LOOK")) printf("layers %.4f\n", within_1deg(paths("visibility-layers"), exact));
+        return within_1deg(paths("visibility-cube", std::move(parameters)), exact);
+    }
+};
+
+Camera view_of(const Scene& scene, float azimuth_deg = 20.0f) {
+    return orbit_camera(scene_bounds(scene), azimuth_deg, 15.0f, framing_distance(0.5236f, 0.8f), 0.5236f);
+}
+
+Camera camera_at(glm::vec3 position, glm::vec3 target, float vertical_fov) {
+    Camera camera;
+    camera.vertical_fov = vertical_fov;
+    camera.world_from_view = glm::inverse(glm::lookAt(position, target, glm::vec3(0, 1, 0)));
+    return camera;
+}
+
+/// Objects of one glass, each `shape` with a transform; shapes of one name are one mesh.
+Scene scene_of(const std::vector<std::pair<const char*, glm::mat4>>& placed) {
+    Scene scene;
+    std::map<std::string, int> meshes;
+    for (const auto& [shape, world_from_object] : placed) {
+        const auto [known, is_new] = meshes.try_emplace(shape, int(scene.meshes.size()));
+        Object object;
+        if (is_new) {
+            Scene loaded = load_scene(shape);
+            scene.meshes.push_back(std::move(loaded.meshes.front()));
+            if (scene.materials.empty()) scene.materials.push_back(loaded.materials.front());
+        }
+        object.mesh = known->second;
+        object.world_from_object = world_from_object;
+        scene.objects.push_back(object);
+    }
+    return scene;
+}
+
+glm::mat4 at(float x, float y, float z) { return glm::translate(glm::mat4(1.0f), glm::vec3(x, y, z)); }
+glm::mat4 scaled(float x, float y, float z) { return glm::scale(glm::mat4(1.0f), glm::vec3(x, y, z)); }
+glm::mat4 turned(float angle, glm::vec3 axis) { return glm::rotate(glm::mat4(1.0f), angle, glm::normalize(axis)); }
+
+/// One mesh shown turned, mirrored, stretched, and stretched askew.
+Scene instances() {
+    const char* const knot = "shape:knot";
+    return scene_of(
+        {{knot, at(0, 0, 0) * turned(0.7f, {1, 2, 3})},
+         {knot, at(0.4f, 0.3f, -3) * scaled(-1, 1, 1)},
+         {knot, at(-2.4f, 0.2f, -1) * scaled(0.5f, 1.5f, 1.0f)},
+         {knot, at(2.3f, -0.3f, -1) * turned(0.5f, {0, 1, 1}) * scaled(1.2f, -0.6f, 0.9f) * turned(0.8f, {1, 0, 1})}});
+}
+
+TEST_F(VisibilityCube, FollowsExactPathsThroughShapes) {
+    for (const char* shape : {"sphere", "cube", "torus", "knot", "goblet", "hollow-sphere"}) {
+        const Scene scene = load_scene(std::string("shape:") + shape);
+        set_up(scene, view_of(scene));
+        EXPECT_GE(right(), 0.99) << shape;
+    }
+}
+
+TEST_F(VisibilityCube, ResolutionIsOfSpeedNotOfAccuracy) {
+    const Scene scene = load_scene("shape:knot");
+    set_up(scene, view_of(scene));
+    for (const double resolution : {2.0, 3.0, 17.0, 100.0, 1500.0})
+        EXPECT_GE(right({{"resolution", resolution}}), 0.99) << resolution;
+}
+
+TEST_F(VisibilityCube, ParallelViewRaysAreFollowedToo) {
+    const Scene scene = load_scene("shape:torus");
+    Camera camera = view_of(scene);
+    camera.orthographic = true;
+    camera.vertical_extent = 2.6f;
+    set_up(scene, camera);
+    EXPECT_GE(right(), 0.99);
+}
+
+TEST_F(VisibilityCube, InstancesAreFoundWhereverTheyAre) {
+    const Scene scene = instances();
+    set_up(scene, view_of(scene, 0.0f));
+    const auto exact = paths("reference"), found = paths("visibility-cube");
+    EXPECT_GE(within_1deg(found, exact), 0.98);
+    if (getenv("LOOK")) printf("layers %.4f\n", within_1deg(paths("visibility-layers"), exact));
+    if (getenv("LOOK")) printf("self %.4f\n", self(view_of(scene, 0.0f)));
+    const auto through_two = std::count_if(exact.begin(), exact.end(), [](const auto& p) { return p.events > 4; });
+    EXPECT_GT(through_two, 200);
+}
+
+TEST_F(VisibilityCube, SharedMapsAreAsGoodAsOwnOnes) {
+    const Scene scene = instances();
+    set_up(scene, view_of(scene, 0.0f));
+    const auto shared = paths("visibility-cube");
+    Scene apart = scene;
+    for (std::size_t i = 1; i < apart.objects.size(); ++i) {
+        apart.objects[i].mesh = int(apart.meshes.size());
+        apart.meshes.push_back(scene.meshes[0]);
+    }
+    renderer().set_scene(apart);
+    EXPECT_EQ(within_1deg(shared, paths("visibility-cube")), 1.0);
+}
+
+// A solid within another displaces it; where faces coincide, only what is entered and left counts.
+TEST_F(VisibilityCube, OverlappingSolidsDisplaceEachOther) {
+    const char* const slab = "shape:slab,width=2,height=2,thickness=0.3";
+    for (const Scene& scene :
+         {scene_of({{"shape:cube", at(0, 0, 0)}, {"shape:sphere", at(0.5f, 0.5f, 0) * scaled(0.6f, 0.6f, 0.6f)}}),
+          scene_of({{"shape:sphere", at(0, 0, 0)}, {"shape:sphere", scaled(0.5f, 0.5f, 0.5f)}}),
+          scene_of({{slab, at(0, 0, 0)}, {slab, at(0, 0, -0.3f)}})}) {
+        Scene of_two = scene;
+        of_two.materials.push_back(of_two.materials[0]);
+        of_two.materials[1].ior = 1.2f;
+        of_two.objects[1].material = 1;
+        set_up(of_two, view_of(of_two));
+        EXPECT_GE(right(), 0.99) << scene.meshes[0].name;
+        if (getenv("LOOK")) {
+        const auto exact = paths("reference"), found = paths("visibility-cube");
+        int n = 0;
+        for (std::size_t i = 0; i < found.size() && n < 12; ++i)
+            if (exact[i].events > 0 && (angle_deg(found[i].direction, exact[i].direction) > 1.0 || found[i].status != Status::kOk))
+            ++n, printf("%d,%d %d/%d %d  %d/%d %d %f %f\n", int(i % kSize), int(i / kSize), found[i].events, int(found[i].status), found[i].reflections, exact[i].events, int(exact[i].status), exact[i].reflections, double(exact[i].position.x), double(exact[i].position.z));
+        }
+    }
+}
+
+// Rays that leave the picture, or come back past the eye, meet what the view's own map does not hold.
+TEST_F(VisibilityCube, SeesWhatTheViewDoesNot) {
+    const Scene scene = load_scene("shape:knot");
+    const Bounds bounds = scene_bounds(scene);
+    const glm::vec3 eye = bounds.center + glm::vec3(0.3f, 0.2f, 1.0f) * 1.6f * bounds.radius;
+    set_up(scene, camera_at(eye, bounds.center + glm::vec3(0.5f, 0.2f, 0.0f) * bounds.radius, 0.2f));
+    const auto exact = paths("reference");
+    EXPECT_GE(within_1deg(paths("visibility-cube"), exact), 0.99);
+    EXPECT_LT(within_1deg(paths("visibility-layers"), exact), 0.9);
+}
+
+TEST_F(VisibilityCube, SeesFromInsideTheGlass) {
+    const Scene scene = load_scene("shape:cube");
+    set_up(scene, camera_at({0.1f, 0.05f, 0.2f}, {0.2f, 0.1f, -1.0f}, 0.9f));
+    EXPECT_GE(right(), 0.99);
+    const Scene ring = load_scene("shape:torus");
+    set_up(ring, camera_at({0.7f, 0.0f, 0.05f}, {0.7f, 0.02f, 1.0f}, 0.6f));
+    EXPECT_GE(right(), 0.99);
+}
+
+/// So many surfaces behind each other that the room chosen at first is too small, and for tiles of triangles, too.
+TEST_F(VisibilityCube, RoomIsMadeForAllSurfaces) {
+    constexpr int kPlates = 24;
+    const Mesh plate = load_scene("shape:slab,width=2,height=2,thickness=0.02").meshes.front();
+    Scene scene = load_scene("shape:slab");
+    Mesh& all = scene.meshes[0];
+    all = Mesh{};
+    for (int i = 0; i < kPlates; ++i) {
+        const auto first = std::uint32_t(all.positions.size());
+        for (const glm::vec3& p : plate.positions) all.positions.push_back(p - glm::vec3(0, 0, 0.05f * float(i)));
+        all.normals.insert(all.normals.end(), plate.normals.begin(), plate.normals.end());
+        for (const glm::uvec3& t : plate.triangles) all.triangles.push_back(t + first);
+    }
+    Camera camera;
+    camera.orthographic = true;
+    camera.vertical_extent = 0.4f;
+    camera.world_from_view = turned(0.3f, {0, 1, 0}) * at(0, 0, 10);
+    set_up(scene, camera);
+    const auto found = paths("visibility-cube", {{"events", 100}});
+    if (getenv("LOOK")) {
+        const auto exact = paths("reference", {{"events", 100}});
+        const auto layers = paths("visibility-layers", {{"events", 100}});
+        for (std::size_t i = 0; i < found.size(); i += 1371)
+            printf("%d %d/%d  %d/%d  %d/%d %f %f\n", int(i), found[i].events, int(found[i].status), layers[i].events, int(layers[i].status), exact[i].events, int(exact[i].status), double(exact[i].position.x), double(found[i].position.z));
+    }
+    for (const RefractedPath& path : found) {
+        ASSERT_EQ(path.events, 2 * kPlates);
+        ASSERT_EQ(path.status, Status::kOk);
+        ASSERT_LT(angle_deg(path.direction, -glm::dvec3(camera.world_from_view[2])), 0.01);
+    }
+}
+
+TEST_F(VisibilityCube, DeformedMeshesAreMappedAnew) {
+    Scene scene = scene_of(
+        {{"shape:torus", at(0, 0, 0)}, {"shape:sphere", at(1.5f, 0.8f, 0.3f)}, {"shape:torus", at(-1, -1, 0.5f)}});
+    set_up(scene, view_of(scene));
+    EXPECT_GE(right(), 0.98);
+    for (int frame = 1; frame <= 3; ++frame) {
+        Mesh& mesh = scene.meshes[0];
+        for (glm::vec3& p : mesh.positions) p *= glm::vec3(1.2f, frame == 2 ? 1.8f : 0.7f, 1.0f);
+        for (glm::vec3& n : mesh.normals) n = glm::normalize(n / glm::vec3(1.2f, frame == 2 ? 1.8f : 0.7f, 1.0f));
+        renderer().set_positions({{0, mesh.positions, mesh.normals}});
+        EXPECT_GE(right(), 0.98) << frame;
+    }
+}
+
+bool times_maps(const RenderResult& result) {
+    return std::any_of(result.frames.at(0).begin(), result.frames.at(0).end(),
+                       [](const PassTime& pass) { return pass.name == "mesh maps"; });
+}
+
+TEST_F(VisibilityCube, MapsAreKeptUntilTheMeshMoves) {
+    const Scene scene = scene_of({{"shape:torus", at(0, 0, 0)}, {"shape:sphere", at(1.5f, 0.8f, 0.3f)}});
+    set_up(scene, view_of(scene));
+    const RenderResult first = renderer().render(settings("visibility-cube"));
+    if (first.frames.at(0).empty()) GTEST_SKIP() << "no timestamps";
+    EXPECT_TRUE(times_maps(first));
+    EXPECT_FALSE(times_maps(renderer().render(settings("visibility-cube"))));
+    renderer().set_camera(view_of(scene, 80.0f));
+    EXPECT_FALSE(times_maps(renderer().render(settings("visibility-cube"))));
+    RenderSettings smaller = settings("visibility-cube");
+    smaller.width = 50;
+    renderer().render(settings("wang-2014"));
+    EXPECT_FALSE(times_maps(renderer().render(smaller)));
+    EXPECT_TRUE(times_maps(renderer().render(settings("visibility-cube", {{"resolution", 100}}))));
+    renderer().set_positions({{1, scene.meshes[1].positions, scene.meshes[1].normals}});
+    EXPECT_TRUE(times_maps(renderer().render(settings("visibility-cube", {{"resolution", 100}}))));
+    renderer().set_scene(scene);
+    EXPECT_TRUE(times_maps(renderer().render(settings("visibility-cube", {{"resolution", 100}}))));
+}
+
+class MeshMapsTest : public DeviceTest {};
+
+TEST_F(MeshMapsTest, OnlyWhatMovesIsBuiltAnew) {
+    Scene scene = scene_of(
+        {{"shape:torus", at(0, 0, 0)}, {"shape:sphere", at(1.5f, 0.8f, 0.3f)}, {"shape:torus", at(-1, -1, 0.5f)}});
+    scene.meshes.push_back(load_scene("shape:cube").meshes.front());  // which no object shows
+    GpuScene on_device(device(), scene);
+    const Buffer constants(device(), "constants", sizeof(gpu::FrameConstants), vk::BufferUsageFlagBits::eStorageBuffer,
+                           true);
+    const GpuImage& none = workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1});
+    const Frame frame{workspace(), on_device, constants, none, none, 0, {8, 8}};
+    MeshMaps maps;
+    const auto built = [&] {
+        on_device.prepare_topology(device(), scene);
+        maps.bring_up_to_date(recorder(), frame, 64);
+        const std::vector<std::uint32_t> meshes = maps.building();
+        recorder().submit_and_wait();
+        EXPECT_FALSE(maps.must_repeat());
+        return meshes;
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(built(), ElementsAre(0, 1));
+    EXPECT_THAT(built(), ElementsAre());
+    for (glm::vec3& p : scene.meshes[1].positions) p.y *= 0.9f;
+    on_device.move_vertices(device(), scene, std::array{1});
+    EXPECT_THAT(built(), ElementsAre(1));
+    on_device.move_vertices(device(), scene, std::array{2});
+    EXPECT_THAT(built(), ElementsAre());
+    // A box of other proportions does not fit where the old one was.
+    for (glm::vec3& p : scene.meshes[0].positions) p.z *= 3.0f;
+    on_device.move_vertices(device(), scene, std::array{0});
+    EXPECT_THAT(built(), ElementsAre(0, 1));
+    EXPECT_THAT(built(), ElementsAre());
+}
+
+}  // namespace
+}  // namespace pellucid::test
