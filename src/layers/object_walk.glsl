@@ -34,9 +34,9 @@ bool can_meet_walked(uint record_traits, bool leaving, uint triangle) {
 // there is no air between them; and glass is left before what it stands on is met.
 uint precedence(uint object_traits, bool leaving) { return refractive(object_traits) ? (leaving ? 1u : 2u) : 0u; }
 
-// The nearest surface ahead. `coincidence`, m: by so much the places of surfaces are uncertain; those that far behind
-// are ahead, and those that near to each other are in one place.
-SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float coincidence, out bool gave_up, inout uint visits) {
+// The nearest surface beyond `t_min`, m. `coincidence`, m: surfaces that near to each other are in one place.
+SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, float coincidence, out bool gave_up,
+                                      inout uint visits) {
     SurfaceHit nearest = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
     gave_up = false;
     for (uint i = 0u; i < frame.object_count; ++i) {
@@ -45,7 +45,7 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float coincid
         mat3 object_from_world = transpose(mat3(objects[i].world_from_object_normal));
         vec3 from = object_from_world * (origin - objects[i].world_from_object[3].xyz);
         vec3 way = object_from_world * direction;
-        float near = -coincidence, far = nearest.t + coincidence;
+        float near = t_min, far = nearest.t + coincidence;
         for (int k = 0; k < 3; ++k) {
             clip(from[k] - mapped.low[k], way[k], near, far);
             clip(mapped.high[k] - from[k], -way[k], near, far);
@@ -57,7 +57,7 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float coincid
         vec3 along = abs(way);
         uint axis = along.x > along.y ? (along.x > along.z ? 0u : 2u) : (along.y > along.z ? 1u : 2u);
         bool in_map, gave_up_here;
-        SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, -coincidence, in_map, gave_up_here, visits);
+        SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, t_min, in_map, gave_up_here, visits);
         gave_up = gave_up || gave_up_here;
         // A transform that mirrors turns the triangles' winding and their outward normals alike: `leaving` holds.
         uint one = precedence(walked_traits, hit.leaving), other = precedence(nearest.traits, nearest.leaving);

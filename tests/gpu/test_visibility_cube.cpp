@@ -150,12 +150,12 @@ TEST_F(VisibilityCube, OverlappingSolidsDisplaceEachOther) {
     }
 }
 
-// The plate that the glass stands on, and a wall behind the eye.
+// The plate that the glass stands on, in a room.
 TEST_F(VisibilityCube, PathsEndOnOpaqueObjectsAnywhere) {
     const char* const plate = "shape:slab,width=6,height=6,thickness=0.2";
-    Scene scene = scene_of({{"shape:cube", at(0, 0, 0) * turned(0.4f, {0, 1, 0})},
+    Scene scene = scene_of({{"shape:cube", turned(0.4f, {0, 1, 0})},
                             {plate, at(0, -0.7f, 0) * turned(1.5707964f, {1, 0, 0})},
-                            {plate, at(0, 2, 7)}});
+                            {"shape:cube", scaled(9, 8, 10)}});
     scene.materials.emplace_back();
     scene.objects[1].material = scene.objects[2].material = 1;
     set_up(scene, camera_at({0.8f, 1.2f, 3.5f}, {0, 0, 0}, 0.5f));

@@ -47,11 +47,18 @@ void main() {
     uint i = uint(texel.y) * frame.width + uint(texel.x);
     seed = hash(uvec3(texel, 1u)).x;
     Path path = load_path(i);
+    uint rank = filling_rank();
+    SurfaceHit hit;
     bool in_map, gave_up;
     uint visits = 0u;
-    SurfaceHit hit = kMapPerMesh ? find_surface_among_objects(path.position, path.direction, coincidence, gave_up, visits)
-                                 : find_surface(maps[0], path.position, path.direction, -coincidence, in_map, gave_up, visits);
-    uint rank = filling_rank();
+    float t_min = -coincidence;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        hit = kMapPerMesh ? find_surface_among_objects(path.position, path.direction, t_min, coincidence, gave_up, visits)
+                          : find_surface(maps[0], path.position, path.direction, t_min, in_map, gave_up, visits);
+        // Reflected where its solid touches something opaque, which the path then has behind it.
+        if (rank == kAir || hit.t > coincidence || (hit.traits & kKindMask) != kOpaqueKind) break;
+        t_min = coincidence;
+    }
     bool found = hit.t < kFarthest;
     if (!found && rank != kAir) path.status = gave_up ? kStatusStepLimit : kStatusMissingLayer;
     bool glass = refractive(hit.traits);
