@@ -30,14 +30,10 @@ bool can_meet_walked(uint record_traits, bool leaving, uint triangle) {
 #include "layers/surface_walk.glsl"
 #undef can_meet
 
-// Of surfaces of several objects in one place: a solid that touches another is entered before that one is left, so that
-// there is no air between them; and glass is left before what it stands on is met.
-uint precedence(uint object_traits, bool leaving) { return refractive(object_traits) ? (leaving ? 1u : 2u) : 0u; }
-
-// The nearest surface beyond `t_min`, m. `coincidence`, m: surfaces that near to each other are in one place.
-SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, float coincidence, out bool gave_up,
+// The nearest surface beyond `t_min`, m. What lies `apart`, m, behind it may be at the same place, and is looked for.
+SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, float apart, out bool gave_up,
                                       inout uint visits) {
-    SurfaceHit nearest = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
+    SurfaceHit nearest = kNoHit, second = kNoHit;
     gave_up = false;
     for (uint i = 0u; i < frame.object_count; ++i) {
         MappedObject mapped = mapped_objects[i];
@@ -45,7 +41,7 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, 
         mat3 object_from_world = transpose(mat3(objects[i].world_from_object_normal));
         vec3 from = object_from_world * (origin - objects[i].world_from_object[3].xyz);
         vec3 way = object_from_world * direction;
-        float near = t_min, far = nearest.t + coincidence;
+        float near = t_min, far = nearest.t + apart;
         for (int k = 0; k < 3; ++k) {
             clip(from[k] - mapped.low[k], way[k], near, far);
             clip(mapped.high[k] - from[k], -way[k], near, far);
@@ -60,10 +56,11 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, 
         SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, t_min, in_map, gave_up_here, visits);
         gave_up = gave_up || gave_up_here;
         // A transform that mirrors turns the triangles' winding and their outward normals alike: `leaving` holds.
-        uint one = precedence(walked_traits, hit.leaving), other = precedence(nearest.traits, nearest.leaving);
-        bool together = abs(hit.t - nearest.t) <= coincidence && one != other;
-        if (together ? one > other : hit.t < nearest.t) nearest = SurfaceHit(hit.t, hit.triangle + walked_shift, walked_traits, hit.leaving);
+        second_hit = second;
+        take_nearer(nearest, SurfaceHit(hit.t, hit.triangle + walked_shift, walked_traits, hit.leaving));
+        second = second_hit;
     }
+    second_hit = second;
     return nearest;
 }
 

@@ -53,7 +53,7 @@ void main() {
     uint visits = 0u;
     float t_min = -coincidence;
     for (int attempt = 0; attempt < 2; ++attempt) {
-        hit = kMapPerMesh ? find_surface_among_objects(path.position, path.direction, t_min, coincidence, gave_up, visits)
+        hit = kMapPerMesh ? find_surface_among_objects(path.position, path.direction, t_min, kApart * coincidence, gave_up, visits)
                           : find_surface(maps[0], path.position, path.direction, t_min, in_map, gave_up, visits);
         // Reflected where its solid touches something opaque, which the path then has behind it.
         if (rank == kAir || hit.t > coincidence || (hit.traits & kKindMask) != kOpaqueKind) break;
