@@ -127,6 +127,7 @@ private:
     std::map<std::string, Room> rooms_;
     MapPool map_pool_;
     std::optional<SurfaceMap> map_;
+    float texels_per_pixel_ = 0.0f;  ///< of that map
     bool mapped_ = false;  ///< in this frame
     MeshMaps mesh_maps_;
 };

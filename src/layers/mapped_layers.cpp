@@ -3,7 +3,10 @@
 #include "layers/layer_images.h"
 #include "layers/pixel_list.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace pellucid {
@@ -16,57 +19,129 @@ constexpr std::uint32_t kSelectMapped[] = {
 #include "select_mapped.comp.inc"
 };
 
-/// Pixels along a side of a texel; anything near it is as right, see docs/performance.md.
-constexpr std::uint32_t kTexelSide = 2;
+/// Texels are squares of two by two pixels, anything near which is as fast (docs/performance.md), or finer where
+/// triangles are: a ray tests all of those in a texel that it crosses.
+constexpr float kCoarsest = 0.5f;  ///< texels per pixel, along a side
+constexpr float kMostTrianglesPerTexel = 16.0f;
+constexpr std::uint32_t kMostTexels = 1u << 22;  ///< 90 MB with the pyramid over them
 
-}  // namespace
-
-/// The view as a map: texels are squares of pixels. Depth is q = (z - near) / (far - near) where rays are parallel; otherwise
-/// 1 / z takes the place of z, which keeps lines straight.
-MapProjection view_projection(const Frame& frame) {
+gpu::FrameConstants view_of(const Frame& frame) {
     gpu::FrameConstants view{};
     std::memcpy(&view, frame.constants.mapped(), sizeof(view));
+    return view;
+}
+
+/// The view as a map: depth is q = (z - near) / (far - near) where rays are parallel; otherwise 1 / z takes the place
+/// of z, which keeps lines straight.
+MapProjection view_projection(const gpu::FrameConstants& view, vk::Extent2D pixels, float texels_per_pixel) {
     const bool parallel = view.orthographic != 0;
     // Rows give X, Y, Q, W of a view-space position; depth is -z.
-    const float pixel_x = 1.0f / (view.film.z * kTexelSide), pixel_y = 1.0f / (view.film.w * kTexelSide);
+    const float scale_x = texels_per_pixel / view.film.z, scale_y = texels_per_pixel / view.film.w;
     glm::vec4 x, y, q, w;
     if (parallel) {
         const float scale = 1.0f / (view.far_plane - view.near_plane);
-        x = {pixel_x, 0.0f, 0.0f, -view.film.x * pixel_x};
-        y = {0.0f, -pixel_y, 0.0f, view.film.y * pixel_y};
+        x = {scale_x, 0.0f, 0.0f, -view.film.x * scale_x};
+        y = {0.0f, -scale_y, 0.0f, view.film.y * scale_y};
         q = {0.0f, 0.0f, -scale, -view.near_plane * scale};
         w = {0.0f, 0.0f, 0.0f, 1.0f};
     } else {
         const float scale = view.far_plane / (view.far_plane - view.near_plane);
-        x = {pixel_x, 0.0f, view.film.x * pixel_x, 0.0f};
-        y = {0.0f, -pixel_y, -view.film.y * pixel_y, 0.0f};
+        x = {scale_x, 0.0f, view.film.x * scale_x, 0.0f};
+        y = {0.0f, -scale_y, -view.film.y * scale_y, 0.0f};
         q = {0.0f, 0.0f, -scale, -view.near_plane * scale};
         w = {0.0f, 0.0f, -1.0f, 0.0f};
     }
     const glm::mat4 map_from_view = glm::transpose(glm::mat4(x, y, q, w));
     const glm::vec4 forward = -view.world_from_view[2];
+    const auto texels = [&](std::uint32_t side) { return std::uint32_t(std::ceil(float(side) * texels_per_pixel)); };
     return {map_from_view * view.view_from_world,
             parallel ? glm::vec4(-glm::vec3(forward), 0.0f) : view.world_from_view[3],
             parallel ? 0.5f : view.near_plane,
-            {(frame.extent.width + kTexelSide - 1) / kTexelSide, (frame.extent.height + kTexelSide - 1) / kTexelSide}};
+            {texels(pixels.width), texels(pixels.height)}};
 }
+
+/// The part of the picture in which an object's box lies, pixels; all of it for a box that the eye is in or beside.
+struct PixelBox {
+    glm::vec2 low, high;
+    float area() const { return high.x > low.x && high.y > low.y ? (high.x - low.x) * (high.y - low.y) : 0.0f; }
+};
+
+PixelBox common(const PixelBox& a, const PixelBox& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
+
+PixelBox pixels_of(const GpuScene& scene, std::uint32_t object, const MapProjection& pixels) {
+    const PixelBox all{glm::vec2(0.0f), {pixels.extent.width, pixels.extent.height}};
+    const GpuMesh& mesh = scene.meshes[scene.mesh_of_object[object]];
+    const glm::mat4 to_pixels = pixels.map_from_world * scene.world_from_object[object];
+    PixelBox box{all.high, all.low};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::bvec3 upper(corner & 1, corner & 2, corner & 4);
+        const glm::vec4 p = to_pixels * glm::vec4(glm::mix(mesh.low, mesh.high, glm::vec3(upper)), 1.0f);
+        if (p.w < pixels.near_w) return all;
+        box = {glm::min(box.low, glm::vec2(p) / p.w), glm::max(box.high, glm::vec2(p) / p.w)};
+    }
+    return common({box.low, glm::max(box.high, box.low + 1.0f)}, all);
+}
+
+/// Texels per pixel so that the glass in the picture has few enough triangles in each.
+float choose_texels(const Frame& frame, const gpu::FrameConstants& view) {
+    const GpuScene& scene = frame.scene;
+    const MapProjection pixels = view_projection(view, frame.extent, 1.0f);
+    const auto triangles_in = [&](std::uint32_t object, const PixelBox& box) {
+        const PixelBox own = pixels_of(scene, object, pixels);
+        const float area = own.area();
+        return area > 0.0f ? float(scene.meshes[scene.mesh_of_object[object]].triangle_count) * common(own, box).area() / area
+                           : 0.0f;
+    };
+    PixelBox glass{glm::vec2(1e30f), glm::vec2(-1e30f)};
+    float area = 0.0f, triangles = 0.0f;
+    for (const DrawCall& call : scene.refractive) {
+        const PixelBox own = pixels_of(scene, call.object, pixels);
+        if (own.area() == 0.0f) continue;
+        glass = {glm::min(glass.low, own.low), glm::max(glass.high, own.high)};
+        area += own.area();
+        triangles += triangles_in(call.object, own);
+    }
+    for (const DrawCall& call : scene.opaque) triangles += triangles_in(call.object, glass);
+    float texels = kCoarsest;
+    const auto padded = [&](float scale) {
+        const MapProjection map = view_projection(view, frame.extent, scale);
+        return std::uint64_t(std::bit_ceil(map.extent.width)) * std::bit_ceil(map.extent.height);
+    };
+    while (triangles > kMostTrianglesPerTexel * area * texels * texels && padded(2.0f * texels) <= kMostTexels) texels *= 2.0f;
+    return texels;
+}
+
+}  // namespace
 
 Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, const Opaque& opaque,
                                     const LayerRequest& request) {
-    if (!mapped_) map_.emplace(map_surfaces(recorder, frame, *frame.scene.topology, view_projection(frame)));
+    if (!mapped_) {
+        const gpu::FrameConstants view = view_of(frame);
+        texels_per_pixel_ = choose_texels(frame, view);
+        map_.emplace(map_surfaces(recorder, frame, *frame.scene.topology,
+                                  view_projection(view, frame.extent, texels_per_pixel_)));
+    }
     // All solids, or one.
     std::uint32_t first_triangle = 0, end_triangle = PELLUCID_NO_TRIANGLE;
     if (request.solids.size() == 1) {
         first_triangle = frame.scene.first_triangles[request.solids[0].object];
         end_triangle = first_triangle + request.solids[0].corner_count / 3;
     }
+    struct ListPush {
+        std::uint32_t width, height;
+        float texels_per_pixel;
+    };
+    struct SelectPush {
+        std::uint32_t layer_count, hidden_by_opaque, first_triangle, end_triangle;
+        float texels_per_pixel;
+    };
     const LayerImages images = allocate_layers(frame, request);
     recorder.clear(images.depth, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
     recorder.clear(images.triangle, vk::ClearColorValue(std::array{PELLUCID_NO_TRIANGLE, 0u, 0u, 0u}));
     const Buffer& any = start_pixel_list(recorder, frame, "mapped pixels");
     recorder.compute(frame.workspace.compute({"list_mapped.comp", kListMapped}),
                      {reads("Texels", *map_->texels), reads("Maps", *map_->maps), updates("PixelList", any)},
-                     std::array{frame.extent.width, frame.extent.height, kTexelSide}, frame.extent);
+                     ListPush{frame.extent.width, frame.extent.height, texels_per_pixel_}, frame.extent);
     recorder.compute_indirect(
         frame.workspace.compute({"select_mapped.comp", kSelectMapped}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
@@ -74,7 +149,8 @@ Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, cons
          reads("map_triangles", *map_->triangles), reads("records", *map_->records), reads("texels", *map_->texels),
          reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
          writes("layer_triangle", images.triangle), writes("layer_normal", images.normal)},
-        std::array{request.count, request.hidden_by_opaque ? 1u : 0u, first_triangle, end_triangle, kTexelSide}, any);
+        SelectPush{request.count, request.hidden_by_opaque ? 1u : 0u, first_triangle, end_triangle, texels_per_pixel_},
+        any);
     const Buffer& covered = list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE,
                                         request.name + " pixels", 0, frame.extent.height);
     return {images.depth, images.triangle, images.normal, covered, request.count, opaque, *this};

@@ -25,7 +25,7 @@ layout(push_constant) uniform Push {
     uint layer_count;
     uint hidden_by_opaque;
     uint first_triangle, end_triangle;  // of the objects that are asked for
-    uint texel_side;                    // pixels
+    float texels_per_pixel;
 };
 
 const float kSlack = 1e-4;  // of barycentric weights, as in surface_walk.glsl
@@ -57,7 +57,7 @@ void main() {
     Ray view = camera_ray(vec2(texel) + 0.5);
     vec3 origin = (frame.world_from_view * vec4(view.origin, 1.0)).xyz;
     vec3 direction = mat3(frame.world_from_view) * view.direction;
-    uvec2 own = texelFetch(texels, texel_order(maps[0], texel / int(texel_side))).xy;
+    uvec2 own = texelFetch(texels, texel_order(maps[0], ivec2((vec2(texel) + 0.5) * texels_per_pixel))).xy;
     Fragment fragment = kNoFragment;
     for (uint layer = 0u; layer < layer_count; ++layer) {
         fragment = nearest_behind(own, origin, direction, -view.direction.z, fragment, layer == 0u);

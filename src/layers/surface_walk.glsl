@@ -14,6 +14,9 @@
 const float kNudge = 0.002;      // texels, over an edge of a node; less than kTexelMargin
 const float kSlack = 1e-4;       // of a triangle's barycentric weights: rays through edges meet one of both sides
 const float kFarthest = 1e30;
+// Nodes and records that a ray may look at in one pass: the software driver ends all loops of an invocation, without a
+// word, after 65,535 turns, and eight invocations at a time take the turns of each in step.
+const uint kMostVisits = 8000u;
 
 SurfaceRecord read_record(uint number) {
     uvec4 words = texelFetch(records, int(number));
@@ -42,11 +45,14 @@ const SurfaceHit kNoHit = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false)
 #endif
 SurfaceHit second_hit;  // behind the nearest, of another object, as far as it was seen
 
+// Of two triangles at one place the first counts: records lie in an order that is chance.
+bool is_nearer(SurfaceHit a, SurfaceHit b) { return a.t < b.t || (a.t == b.t && a.triangle < b.triangle); }
+
 void take_nearer(inout SurfaceHit hit, SurfaceHit candidate) {
-    bool nearer = candidate.t < hit.t;
+    bool nearer = is_nearer(candidate, hit);
     if (PELLUCID_FINDS_SECOND && candidate.traits != hit.traits) {
         if (nearer) second_hit = hit;
-        else if (candidate.t < second_hit.t) second_hit = candidate;
+        else if (is_nearer(candidate, second_hit)) second_hit = candidate;
     }
     if (nearer) hit = candidate;
 }
@@ -87,8 +93,10 @@ float way_at(MapRay ray, float t) {
     return share * ray.w_b / (share * ray.w_b + (1.0 - share) * ray.w_a);
 }
 
-// The nearest surface beyond `t_min`, m; `status` tells what became of the ray if there is none.
-SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, out bool in_map, out bool gave_up, inout uint visits) {
+// The nearest surface beyond `t_min`, m. Nodes and records looked at are added to `visits`; a ray for which there are
+// too many gives up.
+SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, out bool in_map, out bool gave_up,
+                        inout uint visits) {
     SurfaceHit hit = kNoHit;
     second_hit = kNoHit;
     MapRay ray;
@@ -103,13 +111,11 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
     float s = 0.0;
     ivec2 texel = ivec2(clamp(ray.a.xy, vec2(0.0), last_texel));
     int order = texel_order(map, texel);
-    uint budget = 4096u;
-    while (s < 1.0 && budget > 0u) {
+    while (s < 1.0 && visits < kMostVisits) {
         int low, high;
         float s_out;
         bool at_leaf = false;
-        while (s < 1.0 && !at_leaf && budget > 0u) {
-            --budget;
+        while (s < 1.0 && !at_leaf && visits < kMostVisits) {
             ++visits;
             int side = 1 << level;
             vec2 to_edge = (vec2((texel & -side) + (ahead & side)) - ray.a.xy) * inverse;
@@ -137,6 +143,8 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         t_max += 1e-5 * abs(t_max);
         uvec2 own = texelFetch(texels, int(map.first_head) + order).xy;
         uint number = own.x, end = own.x + own.y;
+        visits += own.y;
+        if (visits > kMostVisits) break;
         SurfaceRecord record;
         for (;;) {
             uint triangle = PELLUCID_NO_TRIANGLE;
@@ -165,7 +173,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         texel = ivec2(clamp(ray.a.xy + s * ray.way.xy, vec2(0.0), last_texel));
         order = texel_order(map, texel);
     }
-    gave_up = budget == 0u;
+    gave_up = hit.t == kFarthest && visits >= kMostVisits;
     return hit;
 }
 

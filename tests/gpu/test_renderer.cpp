@@ -173,10 +173,11 @@ TEST_F(RendererSuite, AllLayerBuildersDrawTheSamePicture) {
 
 TEST_F(RendererSuite, LayerBuildersHaveNames) {
     EXPECT_EQ(parse_layer_builder("single-pass"), LayerBuilder::kSinglePass);
+    EXPECT_EQ(parse_layer_builder("compute"), LayerBuilder::kCompute);
     EXPECT_EQ(parse_layer_builder("depth-peeling"), LayerBuilder::kDepthPeeling);
     EXPECT_EQ(parse_layer_builder("dual-depth-peeling"), LayerBuilder::kDualDepthPeeling);
     EXPECT_THAT([] { parse_layer_builder("dual"); },
-                ThrowsMessage<Error>(HasSubstr("known: single-pass, depth-peeling, dual-depth-peeling")));
+                ThrowsMessage<Error>(HasSubstr("known: single-pass, compute, depth-peeling, dual-depth-peeling")));
 }
 
 TEST_F(RendererSuite, PassTimesAreThere) {
