@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pellucid::cli {
@@ -47,13 +48,26 @@ Judgement judge(const ExactView& exact, const std::vector<RefractedPath>& paths)
 /// Adds the error to a run: shares of pixels (null of none), statuses, groups by exact events.
 void add_accuracy(nlohmann::ordered_json& run, const ExactView& exact, const PathAccuracy& accuracy);
 
-/// "A,B,.." as techniques; empty: every one that the device offers and that is no reference.
-/// Throws Error listing the known names, DeviceError for one that the device does not offer.
-std::vector<const TechniqueInfo*> parse_techniques(const std::string& names, const Renderer& renderer);
+/// A technique, or a preset and what it stands for, under the name by which it was asked for.
+struct NamedTechnique {
+    std::string name;
+    TechniqueChoice choice;
 
-/// Those of `given` that the technique has. Throws Error if one of them belongs to none of `techniques`.
-ParameterMap parameters_of(const TechniqueInfo& technique, const ParameterMap& given);
-void check_parameters(const std::vector<const TechniqueInfo*>& techniques, const ParameterMap& given);
+    const TechniqueInfo& info() const { return *choice.technique; }
+};
+
+/// "A,B,.." as techniques; empty: every one that the device offers and that is no reference, and no presets.
+/// Throws Error listing the known names, DeviceError for one that the device does not offer.
+std::vector<NamedTechnique> parse_techniques(const std::string& names, const Renderer& renderer);
+
+/// The preset's parameters, and those of `given` that the technique has, which go first.
+ParameterMap parameters_of(const NamedTechnique& technique, const ParameterMap& given);
+bool has_parameter(const TechniqueInfo& technique, std::string_view name);
+/// Throws Error if one of `given` belongs to none of `techniques`.
+void check_parameters(const std::vector<NamedTechnique>& techniques, const ParameterMap& given);
+
+/// Adds the name, and of a preset what it stands for.
+void add_technique(nlohmann::ordered_json& run, const NamedTechnique& technique);
 
 /// Every parameter of the technique with its value.
 nlohmann::ordered_json describe_parameters(const TechniqueInfo& technique, const ParameterMap& given);

@@ -39,7 +39,7 @@ struct BenchArguments {
 struct Bench {
     const BenchArguments& arguments;
     Renderer renderer;
-    std::vector<const TechniqueInfo*> techniques;
+    std::vector<NamedTechnique> techniques;
     ParameterMap parameters;
     std::vector<BenchCase> cases;
     nlohmann::ordered_json json;
@@ -122,7 +122,7 @@ int most_layers(const RenderResult& result) {
     return int(*std::max_element(counts.begin(), counts.end()));
 }
 
-nlohmann::ordered_json run_technique(Bench& bench, const BenchView& view, const TechniqueInfo& technique) {
+nlohmann::ordered_json run_technique(Bench& bench, const BenchView& view, const NamedTechnique& technique) {
     RenderSettings settings = view.settings;
     settings.technique = technique.name;
     settings.parameters = parameters_of(technique, bench.parameters);
@@ -140,12 +140,13 @@ nlohmann::ordered_json run_technique(Bench& bench, const BenchView& view, const 
     const AlternatingTimes times =
         time_alternately(bench.renderer, settings, bench.arguments.frames, view.trace(), bar.progress());
 
-    nlohmann::ordered_json run{{"scene", view.bench_case.scene}, {"technique", technique.name}};
+    nlohmann::ordered_json run{{"scene", view.bench_case.scene}};
+    add_technique(run, technique);
     if (!view.bench_case.varied.empty()) run["varied"] = view.bench_case.varied;
     if (view.bench_case.distance) run["distance"] = *view.bench_case.distance;
     run["width"] = settings.width;
     run["height"] = settings.height;
-    run["parameters"] = describe_parameters(technique, settings.parameters);
+    run["parameters"] = describe_parameters(technique.info(), settings.parameters);
     run["covered"] = accuracy.covered;
     run["layers"] = most_layers(result);
     run["stable_share"] = accuracy.stable_share;
@@ -188,16 +189,14 @@ void write_json(const Bench& bench) {
 }
 
 void run_case(Bench& bench, const BenchCase& bench_case) {
-    std::vector<const TechniqueInfo*> techniques = bench.techniques;
+    std::vector<NamedTechnique> techniques = bench.techniques;
     if (bench_case.layers) {
-        std::erase_if(techniques, [](const TechniqueInfo* technique) {
-            return parameters_of(*technique, {{"layers", 1.0}}).empty();
-        });
+        std::erase_if(techniques, [](const NamedTechnique& t) { return !has_parameter(t.info(), "layers"); });
     }
     if (techniques.empty()) return;
     const BenchView view = prepare_view(bench, bench_case);
-    for (const TechniqueInfo* technique : techniques) {
-        nlohmann::ordered_json run = run_technique(bench, view, *technique);
+    for (const NamedTechnique& technique : techniques) {
+        nlohmann::ordered_json run = run_technique(bench, view, technique);
         print_run(run);
         bench.json["runs"].push_back(std::move(run));
     }
@@ -234,19 +233,19 @@ void check_json(const BenchArguments& arguments, const std::vector<BenchCase>& c
 void check_drawing(Bench& bench) {
     RenderSettings settings;
     std::tie(settings.width, settings.height) = parse_size(bench.arguments.size);
-    for (const TechniqueInfo* technique : bench.techniques) {
-        settings.technique = technique->name;
-        settings.parameters = parameters_of(*technique, bench.parameters);
+    for (const NamedTechnique& technique : bench.techniques) {
+        settings.technique = technique.name;
+        settings.parameters = parameters_of(technique, bench.parameters);
         bench.renderer.render(settings);
     }
 }
 
-std::vector<const TechniqueInfo*> timed_techniques(const std::string& names, const Renderer& renderer) {
-    std::vector<const TechniqueInfo*> chosen = parse_techniques(names, renderer);
-    for (const TechniqueInfo* technique : chosen) {
-        if (technique->reference)
+std::vector<NamedTechnique> timed_techniques(const std::string& names, const Renderer& renderer) {
+    std::vector<NamedTechnique> chosen = parse_techniques(names, renderer);
+    for (const NamedTechnique& technique : chosen) {
+        if (technique.info().reference)
             throw Error(
-                fmt::format("--techniques: {} traces on the CPU: every run is timed against it", technique->name));
+                fmt::format("--techniques: {} traces on the CPU: every run is timed against it", technique.name));
     }
     return chosen;
 }
@@ -304,7 +303,7 @@ void add_bench_command(CLI::App& app) {
     command
         ->add_option("--techniques", a.techniques,
                      "Names with commas; default: all that the device offers and that are no reference. There are:" +
-                         technique_list())
+                         preset_list() + technique_list())
         ->type_name("A,B,..");
     command->add_option("--size", a.size, "Width and height in pixels, where the suite does not say")
         ->capture_default_str()

@@ -41,10 +41,10 @@ struct CompareArguments {
 struct Comparison {
     const CompareArguments& arguments;
     Renderer renderer;
-    std::vector<const TechniqueInfo*> techniques;
+    std::vector<NamedTechnique> techniques;
     ParameterMap parameters;
     RenderSettings settings;  ///< without the technique
-    const TechniqueInfo& truth;
+    NamedTechnique truth;
     std::optional<Report> report;
     nlohmann::ordered_json json;
     std::set<std::string> warnings;
@@ -71,23 +71,23 @@ double median_frame_ms(const RenderResult& result) {
 }
 
 /// Exact paths are as long everywhere as those that the techniques are held against.
-RenderSettings settings_for(const Comparison& comparison, const TechniqueInfo& technique) {
+RenderSettings settings_for(const Comparison& comparison, const NamedTechnique& technique) {
     RenderSettings settings = comparison.settings;
     settings.technique = technique.name;
     ParameterMap parameters = comparison.parameters;
-    if (technique.reference) parameters.try_emplace("events", double(comparison.arguments.exact_events));
+    if (technique.info().reference) parameters.try_emplace("events", double(comparison.arguments.exact_events));
     settings.parameters = parameters_of(technique, parameters);
     return settings;
 }
 
 RenderSettings settings_of_truth(const Comparison& comparison) {
     RenderSettings settings = settings_for(comparison, comparison.truth);
-    if (comparison.truth.all_light) settings.samples = comparison.arguments.truth_samples;
+    if (comparison.truth.info().all_light) settings.samples = comparison.arguments.truth_samples;
     return settings;
 }
 
 nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedView& view,
-                                         const TechniqueInfo& technique) {
+                                         const NamedTechnique& technique) {
     RenderSettings settings = settings_for(comparison, technique);
     settings.paths = true;
     const RenderResult result = comparison.renderer.render(settings);
@@ -96,11 +96,14 @@ nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedV
 
     const Judgement judgement = judge(view.exact, result.paths);
     const Image flip = flip_ldr(view.truth.display, result.display);
-    nlohmann::ordered_json run{
-        {"scene", view.scene},         {"technique", technique.name},
-        {"view", view.index},          {"camera", view.orbit.description()},
-        {"width", settings.width},     {"height", settings.height},
-        {"triangles", view.triangles}, {"parameters", describe_parameters(technique, settings.parameters)}};
+    nlohmann::ordered_json run{{"scene", view.scene}};
+    add_technique(run, technique);
+    run["view"] = view.index;
+    run["camera"] = view.orbit.description();
+    run["width"] = settings.width;
+    run["height"] = settings.height;
+    run["triangles"] = view.triangles;
+    run["parameters"] = describe_parameters(technique.info(), settings.parameters);
     add_accuracy(run, view.exact, judgement.accuracy);
     if (judgement.accuracy.covered > 0) {
         run["flip_mean"] = mean(flip, view.exact.covered);
@@ -108,13 +111,13 @@ nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedV
     } else {
         run["flip_mean"] = run["rmse"] = nullptr;
     }
-    if (!technique.reference && !result.frames.empty() && !result.frames.front().empty()) {
+    if (!technique.info().reference && !result.frames.empty() && !result.frames.front().empty()) {
         run["frame_ms"] = median_frame_ms(result);
         run["frames"] = result.frames.size();
     }
 
     if (comparison.report) {
-        const PictureOf of{view.scene, view.index, std::string(technique.name)};
+        const PictureOf of{view.scene, view.index, technique.name};
         comparison.report->add_picture(of, PictureKind::kImage, result.display);
         comparison.report->add_picture(of, PictureKind::kError, judgement.error_deg);
         comparison.report->add_picture(of, PictureKind::kFlip, flip);
@@ -182,8 +185,8 @@ void compare_scene(Comparison& comparison, const std::string& name) {
     if (comparison.arguments.html && !comparison.report) comparison.report.emplace(*comparison.arguments.html);
     for (int index = 0; index < comparison.arguments.views; ++index) {
         const ComparedView view = exact_view(comparison, name, scene, index);
-        for (const TechniqueInfo* technique : comparison.techniques) {
-            nlohmann::ordered_json run = compare_technique(comparison, view, *technique);
+        for (const NamedTechnique& technique : comparison.techniques) {
+            nlohmann::ordered_json run = compare_technique(comparison, view, technique);
             print_row(run);
             if (comparison.report) comparison.report->add_run(run);
             comparison.json["runs"].push_back(std::move(run));
@@ -228,12 +231,12 @@ std::string describe_truth(const CompareArguments& arguments) {
 
 /// Says before any work what could not be drawn.
 void check_settings(const Comparison& comparison) {
-    std::vector<const TechniqueInfo*> with_truth = comparison.techniques;
-    with_truth.push_back(&comparison.truth);
+    std::vector<NamedTechnique> with_truth = comparison.techniques;
+    with_truth.push_back(comparison.truth);
     check_parameters(with_truth, comparison.parameters);
     comparison.renderer.check(settings_of_truth(comparison));
-    for (const TechniqueInfo* technique : comparison.techniques)
-        comparison.renderer.check(settings_for(comparison, *technique));
+    for (const NamedTechnique& technique : comparison.techniques)
+        comparison.renderer.check(settings_for(comparison, technique));
 }
 
 void compare(const CompareArguments& arguments) {
@@ -245,7 +248,7 @@ void compare(const CompareArguments& arguments) {
                           .techniques = {},
                           .parameters = given_parameters(arguments.parameters),
                           .settings = settings_of(arguments),
-                          .truth = find_technique(arguments.truth),
+                          .truth = {arguments.truth, {&find_technique(arguments.truth), {}}},
                           .report = {},
                           .json = {},
                           .warnings = {}};
@@ -261,7 +264,7 @@ void compare(const CompareArguments& arguments) {
         {"environment", arguments.environment},
         {"exact_events", arguments.exact_events},
         {"image_truth", describe_truth(arguments)},
-        {"image_truth_parameters", describe_parameters(comparison.truth, settings_of_truth(comparison).parameters)},
+        {"image_truth_parameters", describe_parameters(comparison.truth.info(), settings_of_truth(comparison).parameters)},
         {"warnings", nlohmann::ordered_json::array()},
         {"runs", nlohmann::ordered_json::array()}};
 
@@ -294,7 +297,7 @@ void add_compare_command(CLI::App& app, const std::string& command_line) {
     command
         ->add_option("--techniques", a.techniques,
                      "Names with commas; default: all that the device offers and that are no reference. There are:" +
-                         technique_list())
+                         preset_list() + technique_list())
         ->type_name("A,B,..");
     command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
     add_number(*command, "--views", a.views, "Cameras around the object, 15 degrees above it, the first from the front")

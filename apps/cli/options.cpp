@@ -158,6 +158,12 @@ std::string shape_help() {
     return help;
 }
 
+std::string preset_list() {
+    std::string help;
+    for (const PresetInfo& preset : presets()) help += fmt::format(" {} ({});", preset.name, preset.summary);
+    return help;
+}
+
 std::string technique_list() {
     std::string help;
     for (const TechniqueInfo* technique : techniques())

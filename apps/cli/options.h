@@ -68,6 +68,7 @@ std::string arguments_without_folders(const CLI::App& command, const CLI::Option
 
 /// Help texts that list what there is.
 std::string shape_help();
+std::string preset_list();
 std::string technique_list();
 
 /// One line each on stderr.

@@ -99,14 +99,14 @@ std::vector<PassTime> median_times(const std::vector<std::vector<PassTime>>& fra
     return medians;
 }
 
-nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSettings& settings, const Scene& scene,
-                                const DeviceInfo& device, const RenderResult& result,
+nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSettings& settings,
+                                const NamedTechnique& technique, const Scene& scene, const DeviceInfo& device, const RenderResult& result,
                                 const std::vector<std::string>& warnings) {
     nlohmann::ordered_json json{{"device", device.name},
                                 {"driver", device.driver},
                                 {"version", version()},
                                 {"scene", arguments.scene},
-                                {"technique", settings.technique},
+                                {"technique", technique.name},
                                 {"environment", arguments.environment},
                                 {"width", settings.width},
                                 {"height", settings.height},
@@ -117,7 +117,8 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"side_conflicts", result.side_conflicts}};
     if (arguments.how.animation) json["animation"] = *arguments.how.animation;
     if (arguments.how.time_s) json["time_s"] = *arguments.how.time_s;
-    json["parameters"] = describe_parameters(find_technique(settings.technique), settings.parameters);
+    if (technique.name != technique.info().name) json["stands_for"] = technique.info().name;
+    json["parameters"] = describe_parameters(technique.info(), parameters_of(technique, settings.parameters));
     for (std::uint32_t status = 0; status < kStatusCount; ++status) {
         const double share = result.covered > 0 ? double(result.status[status]) / double(result.covered) : 0.0;
         json["status"][std::string(status_name(Status(status)))] = share;
@@ -129,7 +130,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
         frame_ms += pass.time_ms;
     }
     // Of a technique that traces on the CPU the passes are the least part.
-    if (!find_technique(settings.technique).reference) json["frame_ms"] = frame_ms;
+    if (!technique.info().reference) json["frame_ms"] = frame_ms;
     if (!result.standard_error.pixels.empty()) json["cut_paths"] = result.cut_paths;
     json["frames"] = result.frames.size();
     json["layer_passes"] = result.layer_passes;
@@ -172,7 +173,7 @@ void write_outputs(const RenderArguments& arguments, const RenderResult& result,
 void render(const RenderArguments& arguments) {
     check_render_outputs(arguments);
     RenderSettings settings = render_settings(arguments);
-    const TechniqueInfo& technique = find_technique(settings.technique);  // unknown names are said before any work
+    check_technique_name(settings.technique);  // said before any work
     const Scene scene = load_scene(arguments.scene, load_options(arguments.how));
     std::vector<std::string> warnings = scene.warnings;
     std::string environment_warning;
@@ -180,16 +181,17 @@ void render(const RenderArguments& arguments) {
     if (!environment_warning.empty()) warnings.push_back(environment_warning);
 
     Renderer renderer(device_options(arguments.device));
+    const NamedTechnique technique{settings.technique, renderer.choose(settings.technique)};
     renderer.set_scene(scene);
     renderer.set_environment(environment);
     if (const std::optional<Camera> camera = chosen_camera(arguments, settings, scene)) renderer.set_camera(*camera);
     ProgressBar bar(settings.technique);
-    if (technique.reference || technique.bakes) settings.progress = bar.progress();
+    if (technique.info().reference || technique.info().bakes) settings.progress = bar.progress();
     const RenderResult result = renderer.render(settings);
     bar.clear();
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
 
-    write_outputs(arguments, result, describe(arguments, settings, scene, renderer.device(), result, warnings));
+    write_outputs(arguments, result, describe(arguments, settings, technique, scene, renderer.device(), result, warnings));
     print_warnings(warnings);
     check_validation(renderer);
 }
@@ -206,7 +208,7 @@ void add_render_command(CLI::App& app) {
     command->add_option("-o,--output", a.output, "Picture: .png (tone mapped, sRGB) or .exr (linear)")
         ->required()
         ->type_name("FILE");
-    command->add_option("--technique", a.technique, "How refraction is computed:" + technique_list())
+    command->add_option("--technique", a.technique, "How refraction is computed:" + preset_list() + technique_list())
         ->capture_default_str()
         ->type_name("NAME");
     command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
@@ -232,7 +234,7 @@ void add_render_command(CLI::App& app) {
                      "reflection, grey where the technique gave up")
         ->capture_default_str()
         ->type_name("NAME");
-    command->add_option("--layer-builder", a.layer_builder, "single-pass, depth-peeling or dual-depth-peeling")
+    command->add_option("--layer-builder", a.layer_builder, "single-pass, compute, depth-peeling or dual-depth-peeling")
         ->capture_default_str()
         ->type_name("NAME");
     command->add_option("--aov", a.aovs, aov_help())

@@ -48,8 +48,8 @@ enum class ToneMap {
 struct RenderSettings {
     std::uint32_t width = 512;  ///< pixels, >= 1
     std::uint32_t height = 512;
-    std::string technique = "wang-2014";
-    ParameterMap parameters;  ///< of the technique
+    std::string technique = "balanced";  ///< or a preset
+    ParameterMap parameters;             ///< of the technique; they go before those of a preset
     LayerBuilder layer_builder = LayerBuilder::kSinglePass;
     View view = View::kRadiance;
     /// Jittered frames, averaged in linear light. 1 samples pixel centres. AOVs always do.
@@ -132,6 +132,8 @@ public:
     const Tracer& tracer();
 
     const DeviceInfo& device() const;
+    /// What a name stands for on this device. Throws Error listing the known names, of techniques and presets.
+    TechniqueChoice choose(std::string_view name) const;
     /// What the device lacks for a technique, in words that follow "needs"; empty: it can be used.
     std::string lacking(const TechniqueInfo& technique) const;
     /// What the validation layer has said since the renderer was made.

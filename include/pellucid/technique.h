@@ -62,6 +62,24 @@ const TechniqueInfo& find_technique(std::string_view name);
 /// Parameters given by name; what is not named keeps its default.
 using ParameterMap = std::map<std::string, double, std::less<>>;
 
+/// A name to give for a technique: it stands for the one, and for parameters of it, that measurement has chosen for the
+/// kind of device (docs/techniques.md).
+struct PresetInfo {
+    std::string_view name;
+    std::string_view summary;  ///< one line
+};
+/// `fast`, `balanced` and `exact`, in this order.
+std::span<const PresetInfo> presets();
+
+/// Throws Error listing the known names if there is neither a technique nor a preset of this name.
+void check_technique_name(std::string_view name);
+
+/// What the name of a technique or preset stands for.
+struct TechniqueChoice {
+    const TechniqueInfo* technique;
+    ParameterMap parameters;  ///< of the preset; others have their defaults
+};
+
 /// Why a pixel's refraction may be wrong. The numbers are those of the `status` AOV.
 enum class Status : std::uint32_t {
     kOk = 0,            ///< every interface on the path was found (or there is no glass here)

@@ -1,6 +1,6 @@
 #include "gpu/scene_topology.h"
 
-#include "gpu/triangle_adjacency.h"
+#include "scene/mesh_repair.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,6 +8,15 @@
 
 namespace pellucid {
 namespace {
+
+/// Twin of ObjectBox in follow_paths.comp.
+struct ObjectBox {
+    glm::vec3 low;
+    float radius;  ///< from the middle of the box to the farthest vertex
+    glm::vec3 high;
+    float reserved;
+};
+static_assert(sizeof(ObjectBox) == 32);
 
 struct Box {
     glm::vec3 low{std::numeric_limits<float>::max()};
@@ -48,34 +57,32 @@ std::vector<std::uint32_t> rank_by_size(const std::vector<Box>& boxes, const std
 }  // namespace
 
 SceneTopology::SceneTopology(const Device& device, const Scene& scene) {
-    std::vector<Neighbor> all;
-    std::uint32_t first_vertex = 0;
-    for (const Mesh& mesh : scene.meshes) {
-        const std::vector<Neighbor> own = triangle_neighbors(mesh);
-        closed_.push_back(is_closed(own));
-        for (Neighbor n : own) {
-            if (n.triangle != Neighbor::kNone) n.opposite_vertex += first_vertex;
-            all.push_back(n);
-        }
-        first_vertex += std::uint32_t(mesh.positions.size());
-    }
+    for (const Mesh& mesh : scene.meshes)
+        closed_.push_back(count_edges(mesh.triangles, weld_positions(mesh.positions)).closed());
     const auto usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst;
-    neighbors = Buffer(device, "the scene's edges", std::max<std::size_t>(all.size(), 1) * sizeof(Neighbor), usage);
-    upload(device, neighbors, std::as_bytes(std::span(all)));
-    traits = Buffer(device, "the objects' traits", std::max<std::size_t>(scene.objects.size(), 1) * 4, usage);
-    materials = Buffer(device, "the solids' materials", std::max<std::size_t>(scene.objects.size(), 1) * 4, usage);
+    const std::size_t count = std::max<std::size_t>(scene.objects.size(), 1);
+    traits = Buffer(device, "the objects' traits", count * 4, usage);
+    materials = Buffer(device, "the solids' materials", count * 4, usage);
+    boxes = Buffer(device, "the objects' boxes", count * sizeof(ObjectBox), usage);
     update(device, scene, 0);
 }
 
 void SceneTopology::update(const Device& device, const Scene& scene, std::uint64_t moves_now) {
-    std::vector<Box> boxes;
+    std::vector<Box> own_boxes;
+    std::vector<ObjectBox> uploaded;
     std::vector<std::uint32_t> refracting;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        boxes.push_back(box_of(scene.meshes[std::size_t(object.mesh)], object.world_from_object));
+        const Box box = box_of(scene.meshes[std::size_t(object.mesh)], object.world_from_object);
+        own_boxes.push_back(box);
+        const glm::vec3 middle = 0.5f * (box.low + box.high);
+        float radius = 0.0f;
+        for (const glm::vec3& p : scene.meshes[std::size_t(object.mesh)].positions)
+            radius = std::max(radius, glm::distance(middle, glm::vec3(object.world_from_object * glm::vec4(p, 1.0f))));
+        uploaded.push_back({box.low, radius, box.high, 0.0f});
         if (scene.materials[std::size_t(object.material)].refractive()) refracting.push_back(i);
     }
-    const std::vector<std::uint32_t> rank = rank_by_size(boxes, refracting);
+    const std::vector<std::uint32_t> rank = rank_by_size(own_boxes, refracting);
     solids = std::uint32_t(refracting.size());
     all_alone = true;
     std::vector<std::uint32_t> words, by_rank(std::max<std::size_t>(refracting.size(), 1), 0);
@@ -84,7 +91,8 @@ void SceneTopology::update(const Device& device, const Scene& scene, std::uint64
         const Object& object = scene.objects[i];
         const Material& material = scene.materials[std::size_t(object.material)];
         bool touches = false;
-        for (std::uint32_t k = 0; k < boxes.size() && !touches; ++k) touches = k != i && meet(boxes[i], boxes[k]);
+        for (std::uint32_t k = 0; k < own_boxes.size() && !touches; ++k)
+            touches = k != i && meet(own_boxes[i], own_boxes[k]);
         all_alone = all_alone && !touches;
         const std::uint32_t kind = material.refractive() ? 2u : material.transmissive() ? 1u : 0u;
         words.push_back(kind | (closed_[std::size_t(object.mesh)] ? 4u : 0u) | (touches ? 8u : 0u) |
@@ -92,6 +100,7 @@ void SceneTopology::update(const Device& device, const Scene& scene, std::uint64
     }
     upload(device, traits, std::as_bytes(std::span(words)));
     upload(device, materials, std::as_bytes(std::span(by_rank)));
+    if (!uploaded.empty()) upload(device, boxes, std::as_bytes(std::span(uploaded)));
     moves = moves_now;
 }
 

@@ -118,6 +118,7 @@ Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, cons
     if (!mapped_) {
         const gpu::FrameConstants view = view_of(frame);
         texels_per_pixel_ = choose_texels(frame, view);
+        ++geometry_passes_;
         map_.emplace(map_surfaces(recorder, frame, *frame.scene.topology,
                                   view_projection(view, frame.extent, texels_per_pixel_)));
     }

@@ -52,8 +52,9 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, 
         // Texels are as wide in every map of a mesh: the way is shortest along the axis nearest to it.
         vec3 along = abs(way);
         uint axis = along.x > along.y ? (along.x > along.z ? 0u : 2u) : (along.y > along.z ? 1u : 2u);
-        bool in_map, gave_up_here;
-        SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, t_min, in_map, gave_up_here, visits);
+        bool gave_up_here;
+        float t_end;
+        SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, t_min, t_end, gave_up_here, visits);
         gave_up = gave_up || gave_up_here;
         // A transform that mirrors turns the triangles' winding and their outward normals alike: `leaving` holds.
         second_hit = second;

@@ -28,6 +28,7 @@ layout(push_constant) uniform Push {
     float texels_per_pixel;
 };
 
+const float kDepthRounding = 5e-5;  // of rasterised depths, relative
 const float kSlack = 1e-4;  // of barycentric weights, as in surface_walk.glsl
 
 Fragment nearest_behind(uvec2 own, vec3 origin, vec3 direction, float depth_rate, Fragment last, bool any) {
@@ -62,7 +63,10 @@ void main() {
     for (uint layer = 0u; layer < layer_count; ++layer) {
         fragment = nearest_behind(own, origin, direction, -view.direction.z, fragment, layer == 0u);
         if (fragment.triangle == PELLUCID_NO_TRIANGLE) return;
-        if (layer == 0u && hidden_by_opaque != 0u && fragment.depth >= imageLoad(opaque_depth, ivec3(texel, 0)).r) return;
+        if (layer == 0u && hidden_by_opaque != 0u) {
+            float opaque = imageLoad(opaque_depth, ivec3(texel, 0)).r;
+            if (fragment.depth >= opaque - kDepthRounding * opaque) return;
+        }
         imageStore(layer_depth, ivec3(texel, layer), vec4(fragment.depth));
         imageStore(layer_triangle, ivec3(texel, layer), uvec4(fragment.triangle));
         uint object = find_object(triangle_index(fragment.triangle));

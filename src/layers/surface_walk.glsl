@@ -27,6 +27,7 @@ struct MapRay {
     vec3 a, way;          // map space; from a on all of the way
     float t_a, t_b;       // distances along the ray of space there
     float w_a, w_b;       // and W
+    bool to_far;          // it ends at the far side of the map, behind all that there is
 };
 
 struct SurfaceHit {
@@ -76,9 +77,10 @@ bool map_ray(MapRecord map, vec3 origin, vec3 direction, out MapRay ray) {
     vec3 size = vec3(map.width, map.height, 1.0);
     clip(size.x * p.w - p.x, size.x * r.w - r.x, low, high);
     clip(size.y * p.w - p.y, size.y * r.w - r.y, low, high);
+    float sides = high;
     clip(p.w - p.z, r.w - r.z, low, high);
     vec4 a = p + low * r, b = p + high * r;
-    ray = MapRay(a.xyz / a.w, b.xyz / b.w - a.xyz / a.w, low, high, a.w, b.w);
+    ray = MapRay(a.xyz / a.w, b.xyz / b.w - a.xyz / a.w, low, high, a.w, b.w, high < sides);
     return low < high && high < kFarthest;
 }
 
@@ -93,15 +95,15 @@ float way_at(MapRay ray, float t) {
     return share * ray.w_b / (share * ray.w_b + (1.0 - share) * ray.w_a);
 }
 
-// The nearest surface beyond `t_min`, m. Nodes and records looked at are added to `visits`; a ray for which there are
-// too many gives up.
-SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, out bool in_map, out bool gave_up,
+// The nearest surface beyond `t_min`, m; `t_end` is where the map ends on the way, kFarthest if that is at its far side. Nodes and records looked at are added to `visits`; a ray for which there are too many gives up.
+SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, out float t_end, out bool gave_up,
                         inout uint visits) {
     SurfaceHit hit = kNoHit;
     second_hit = kNoHit;
     MapRay ray;
     gave_up = false;
-    in_map = map_ray(map, origin, direction, ray);
+    bool in_map = map_ray(map, origin, direction, ray);
+    t_end = !in_map ? 0.0 : ray.to_far ? kFarthest : ray.t_b;
     if (!in_map) return hit;
     vec2 inverse = 1.0 / mix(ray.way.xy, vec2(1e-9), lessThan(abs(ray.way.xy), vec2(1e-9)));
     ivec2 ahead = -ivec2(greaterThan(inverse, vec2(0.0)));

@@ -35,11 +35,6 @@ Enum parse_name(std::string_view what, std::string_view name,
     throw Error(fmt::format("unknown {} '{}'; known: {}", what, name, fmt::join(names, ", ")));
 }
 
-std::string lacking_for(const Device& device, const TechniqueInfo& info) {
-    const Technique& technique = technique_of(info);
-    return technique.lacking ? technique.lacking(device) : std::string();
-}
-
 void check_settings(const RenderSettings& settings, const Device& device) {
     const std::uint32_t limit = device.limits().maxImageDimension2D;
     if (settings.width == 0 || settings.height == 0 || settings.width > limit || settings.height > limit) {
@@ -148,14 +143,20 @@ Camera Renderer::Impl::camera_for(const RenderSettings& settings) const {
 }
 
 FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const {
-    const TechniqueInfo& info = find_technique(settings.technique);
+    TechniqueChoice choice = choose_technique(settings.technique, device);
+    const TechniqueInfo& info = *choice.technique;
     if (const std::string lacking = lacking_for(device, info); !lacking.empty()) {
         throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
     }
     warnings = approximations(cpu.scene(), info);
-    FrameSettings chosen{technique_of(info), ParameterValues(info, settings.parameters), settings.layer_builder,
-                         settings.view};
-    if (chosen.technique.walks_map) chosen.layer_builder = LayerBuilder::kCompute;
+    ParameterMap parameters = settings.parameters;
+    parameters.merge(choice.parameters);  // what is there already stays
+    FrameSettings chosen{technique_of(info), ParameterValues(info, parameters), settings.layer_builder, settings.view};
+    if (chosen.technique.walks_map) {
+        if (chosen.layer_builder != LayerBuilder::kSinglePass && chosen.layer_builder != LayerBuilder::kCompute)
+            warnings.push_back(fmt::format("{} builds its layers in compute shaders only", info.name));
+        chosen.layer_builder = LayerBuilder::kCompute;
+    }
     if (chosen.layer_builder == LayerBuilder::kSinglePass && !device.fragment_atomics()) {
         chosen.layer_builder = LayerBuilder::kDepthPeeling;
         warnings.push_back(
@@ -343,6 +344,8 @@ void Renderer::check(const RenderSettings& settings) const {
     impl_->frame_settings(settings, warnings);
 }
 const DeviceInfo& Renderer::device() const { return impl_->device.info(); }
+TechniqueChoice Renderer::choose(std::string_view name) const { return choose_technique(name, impl_->device); }
+
 std::string Renderer::lacking(const TechniqueInfo& technique) const {
     return lacking_for(impl_->device, find_technique(technique.name));
 }

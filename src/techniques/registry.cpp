@@ -60,6 +60,11 @@ const Technique& technique_of(const TechniqueInfo& info) {
                           [&](const Technique* t) { return t->info.name == info.name; });
 }
 
+std::string lacking_for(const Device& device, const TechniqueInfo& info) {
+    const Technique& technique = technique_of(info);
+    return technique.lacking ? technique.lacking(device) : std::string();
+}
+
 std::string_view status_name(Status status) {
     constexpr std::array<std::string_view, kStatusCount> kNames = {"ok", "missing_layer", "left_screen", "step_limit",
                                                                    "event_limit"};

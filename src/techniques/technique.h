@@ -87,5 +87,9 @@ struct Technique {
                                      std::uint32_t samples, const ParameterValues& parameters) = nullptr;
 };
 const Technique& technique_of(const TechniqueInfo& info);
+/// What the device lacks for it, in words that follow "needs"; empty: nothing.
+std::string lacking_for(const Device& device, const TechniqueInfo& info);
+/// See Renderer::choose().
+TechniqueChoice choose_technique(std::string_view name, const Device& device);
 
 }  // namespace pellucid

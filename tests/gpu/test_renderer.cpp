@@ -56,8 +56,9 @@ TEST_F(RendererSuite, SettingsOutOfRangeAreRefusedAndTheNextFrameWorks) {
     refuse(sized(16, 100000), "size 16x100000");
     RenderSettings settings = sized(16, 16);
     settings.technique = "magic";
-    refuse(settings, "known: one-interface, ");
+    refuse(settings, "known: fast, balanced, exact, one-interface, ");
     settings = sized(16, 16);
+    settings.technique = "wang-2014";
     settings.parameters["speed"] = 1;
     refuse(settings, "it has: layers, steps");
     settings.parameters = {{"layers", 1e9}};
@@ -158,6 +159,7 @@ TEST_F(RendererSuite, AllLayerBuildersDrawTheSamePicture) {
     renderer().set_scene(load_scene("shape:infinity-ring"));
     for (const std::uint32_t samples : {1u, 3u}) {
         RenderSettings settings = sized(200, 150);
+        settings.technique = "wang-2014";
         settings.samples = samples;
         const RenderResult single = renderer().render(settings);
         EXPECT_EQ(single.layer_passes, 1u);
@@ -169,6 +171,30 @@ TEST_F(RendererSuite, AllLayerBuildersDrawTheSamePicture) {
             EXPECT_TRUE(result.warnings.empty()) << builder;
         }
     }
+}
+
+TEST_F(RendererSuite, PresetsStandForTechniquesOfTheDevice) {
+    ASSERT_EQ(presets().size(), 3u);
+    EXPECT_EQ(presets()[1].name, RenderSettings{}.technique);
+    renderer().set_scene(load_scene("shape:goblet,segments=24"));
+    for (const PresetInfo& preset : presets()) {
+        const TechniqueChoice choice = renderer().choose(preset.name);
+        EXPECT_TRUE(renderer().lacking(*choice.technique).empty()) << preset.name;
+        RenderSettings settings = sized(64, 64);
+        settings.samples = 2;
+        settings.technique = preset.name;
+        const RenderResult by_preset = renderer().render(settings);
+        settings.technique = choice.technique->name;
+        settings.parameters = choice.parameters;
+        EXPECT_EQ(renderer().render(settings).radiance.pixels, by_preset.radiance.pixels) << preset.name;
+    }
+    // What the caller gives goes first.
+    RenderSettings settings = sized(64, 64);
+    settings.technique = "exact";
+    settings.parameters = {{"events", 2.0}};
+    const std::uint64_t cut = renderer().render(settings).status[std::size_t(Status::kEventLimit)];
+    EXPECT_GT(cut, 100u);
+    EXPECT_EQ(renderer().choose("wang-2014").technique->name, "wang-2014");
 }
 
 TEST_F(RendererSuite, LayerBuildersHaveNames) {

@@ -14,6 +14,7 @@ constexpr std::array kParameters = {
     kPathParameters[1],
     kPathParameters[2],
     kPathParameters[3],
+    kPathParameters[4],
 };
 
 void prepare(const Preparation& preparation, const ParameterValues&) {
@@ -35,7 +36,7 @@ constexpr Technique kVisibilityCube{
              .parameters = kParameters,
              .many_media = true,
              .whole_scene = true},
-    .layer_count = [](const ParameterValues&) { return 1u; },
+    .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
     .prepare = prepare,
     .record = record,
 };

@@ -12,6 +12,14 @@ layout(set = 0, binding = 15) uniform utextureBuffer map_triangles;
 layout(set = 0, binding = 16) uniform utextureBuffer texels;
 layout(set = 0, binding = 17) uniform utextureBuffer records;
 layout(set = 0, binding = 22) uniform utextureBuffer pyramid;
+// Twin of ObjectBox in scene_topology.cpp.
+struct ObjectBox {
+    vec3 low;
+    float radius;  // from the middle of the box to the farthest vertex
+    vec3 high;
+    float reserved;
+};
+layout(std430, set = 0, binding = 27) readonly buffer Boxes { ObjectBox boxes[]; };  // per object, world
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
 
@@ -34,6 +42,24 @@ void pass_pane(inout Path path, Surface surface) {
     path.transmittance *= (1.0 - 2.0 * once / (1.0 + once)) * material.base_color.rgb * material.transmission;
 }
 
+// Whether the way goes on through an object's box, and the ball around it, beyond the edge of the view's map.
+bool meets_boxes(vec3 position, vec3 direction) {
+    bool any_met = false;
+    for (uint i = 0u; i < frame.object_count; ++i) {
+        ObjectBox object = boxes[i];
+        vec3 from = position - 0.5 * (object.low + object.high);
+        float along = dot(from, direction), radius = object.radius + coincidence;
+        float half_chord = sqrt(max(radius * radius - dot(from, from) + along * along, 0.0));
+        float near = max(-along - half_chord, 0.0), far = -along + half_chord;
+        for (int k = 0; k < 3; ++k) {
+            clip(position[k] - object.low[k] + coincidence, direction[k], near, far);
+            clip(object.high[k] + coincidence - position[k], -direction[k], near, far);
+        }
+        any_met = any_met || near <= far;
+    }
+    return any_met;
+}
+
 const float kApart = 16.0;  // coincidences along a ray, which may graze
 
 int boundary_rank(SurfaceHit hit, uint before, uint beyond) {
@@ -49,18 +75,24 @@ void main() {
     Path path = load_path(i);
     uint rank = filling_rank();
     SurfaceHit hit;
-    bool in_map, gave_up;
+    bool gave_up;
+    float t_end;
     uint visits = 0u;
     float t_min = -coincidence;
     for (int attempt = 0; attempt < 2; ++attempt) {
         hit = kMapPerMesh ? find_surface_among_objects(path.position, path.direction, t_min, kApart * coincidence, gave_up, visits)
-                          : find_surface(maps[0], path.position, path.direction, t_min, in_map, gave_up, visits);
+                          : find_surface(maps[0], path.position, path.direction, t_min, t_end, gave_up, visits);
         // Reflected where its solid touches something opaque, which the path then has behind it.
         if (rank == kAir || hit.t > coincidence || (hit.traits & kKindMask) != kOpaqueKind) break;
         t_min = coincidence;
     }
     bool found = hit.t < kFarthest;
-    if (!found && rank != kAir) path.status = gave_up ? kStatusStepLimit : kStatusMissingLayer;
+    if (!found) {
+        if (gave_up) path.status = kStatusStepLimit;
+        else if (!kMapPerMesh && t_end < kFarthest && meets_boxes(path.position + t_end * path.direction, path.direction))
+            path.status = kStatusLeftScreen;
+        else if (rank != kAir) path.status = kStatusMissingLayer;
+    }
     bool glass = refractive(hit.traits);
     if (found && glass && path.events >= max_events) {
         path.status = kStatusEventLimit;

@@ -136,7 +136,8 @@ private:
                                     reads("records", *map_.records),
                                     reads("pyramid", *map_.pyramid),
                                     reads("Traits", topology_.traits),
-                                    reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps)},
+                                    reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
+                                    reads("Boxes", topology_.boxes)},
                                    push_, list);
     }
 
@@ -213,7 +214,7 @@ constexpr Technique kVisibilityLayers{
              .parameters = kPathParameters,
              .many_media = true,
              .whole_scene = true},
-    .layer_count = [](const ParameterValues&) { return 1u; },
+    .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
     .walks_map = true,
     .record = record,
 };

@@ -16,6 +16,8 @@ inline constexpr std::array kPathParameters = {
     ParameterInfo{"threshold", "", 0.01, 0, 1, false, "share of the light that a reflected way carries at least"},
     ParameterInfo{"one-branch", "", 0, 0, 1, true,
                   "1: each sample takes one way at random, refracted or reflected, and through rough glass one facet"},
+    ParameterInfo{"layers", "", 1, 1, 64, true,
+                  "surfaces along a view ray that the AOV `layers` counts at most; paths look at all that there are"},
 };
 
 /// Follows the view rays through `map`, from the first surface of `layers` on.
