@@ -36,7 +36,7 @@ struct RenderArguments {
     std::string tonemap = "neutral";
     double exposure_ev = 0.0;
     std::string view = "radiance";
-    std::string layer_builder = "single-pass";
+    std::string layer_builder = "automatic";
     std::vector<std::string> aovs;
     std::optional<std::string> json;
     SceneArguments how;
@@ -234,7 +234,7 @@ void add_render_command(CLI::App& app) {
                      "reflection, grey where the technique gave up")
         ->capture_default_str()
         ->type_name("NAME");
-    command->add_option("--layer-builder", a.layer_builder, "single-pass, compute, depth-peeling or dual-depth-peeling")
+    command->add_option("--layer-builder", a.layer_builder, "automatic, single-pass, compute, depth-peeling or dual-depth-peeling")
         ->capture_default_str()
         ->type_name("NAME");
     command->add_option("--aov", a.aovs, aov_help())

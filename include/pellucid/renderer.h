@@ -29,11 +29,13 @@ enum class View {
     kAnalysis,
 };
 
-/// How layers are gathered. All give the same layers.
+/// How layers are gathered. All give the same layers; kCompute but for pixels whose centres lie on an edge to within
+/// rounding.
 enum class LayerBuilder {
-    kSinglePass,        ///< per-pixel lists, one geometry pass (default)
+    kAutomatic,         ///< kCompute on devices that are CPUs, kSinglePass on others (default)
+    kSinglePass,        ///< per-pixel lists, one geometry pass
     kDepthPeeling,      ///< one geometry pass per layer (Everitt 2001)
-    kCompute,           ///< per-pixel lists of triangles, rasterised in compute shaders; visibility techniques use it
+    kCompute,           ///< per-pixel lists, triangles rasterised in compute shaders; visibility techniques use it
     kDualDepthPeeling,  ///< nearest and farthest in one geometry pass, half as many (Bavoil & Myers 2008)
 };
 
@@ -50,7 +52,7 @@ struct RenderSettings {
     std::uint32_t height = 512;
     std::string technique = "balanced";  ///< or a preset
     ParameterMap parameters;             ///< of the technique; they go before those of a preset
-    LayerBuilder layer_builder = LayerBuilder::kSinglePass;
+    LayerBuilder layer_builder = LayerBuilder::kAutomatic;
     View view = View::kRadiance;
     /// Jittered frames, averaged in linear light. 1 samples pixel centres. AOVs always do.
     std::uint32_t samples = 1;

@@ -248,6 +248,7 @@ void Device::create_device(const vk::raii::PhysicalDevice& physical) {
     max_allocation_ = chain.get<vk::PhysicalDeviceVulkan11Properties>().maxMemoryAllocationSize;
     memory_ = physical.getMemoryProperties();
     fragment_atomics_ = physical.getFeatures().fragmentStoresAndAtomics;
+    is_cpu_ = physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
     float_blending_ = bool(physical.getFormatProperties(vk::Format::eR32G32B32A32Sfloat).optimalTilingFeatures &
                            vk::FormatFeatureFlagBits::eColorAttachmentBlend);
     const std::uint32_t timestamp_bits = physical.getQueueFamilyProperties()[queue_family_].timestampValidBits;

@@ -43,6 +43,7 @@ public:
     vk::DeviceSize max_storage_binding() const { return limits_.maxStorageBufferRange; }
     /// Atomics from fragment shaders, which the single-pass layer builder needs.
     bool fragment_atomics() const { return fragment_atomics_; }
+    bool is_cpu() const { return is_cpu_; }  ///< a software driver
     /// Blending of RGBA32F targets, which dual depth peeling needs.
     bool float_blending() const { return float_blending_; }
     /// Ray-tracing pipelines and acceleration structures; nothing where the device has none.
@@ -73,6 +74,7 @@ private:
     vk::PhysicalDeviceMemoryProperties memory_;
     vk::DeviceSize max_allocation_ = 0;
     bool fragment_atomics_ = false;
+    bool is_cpu_ = false;
     bool float_blending_ = false;
     std::optional<RayTracingLimits> ray_tracing_;
     bool debug_labels_ = false;

@@ -12,8 +12,8 @@ Layers LayerSource::build(Recorder& recorder, const Frame& frame, const Opaque& 
             return peel(recorder, frame, opaque, request);
         case LayerBuilder::kDualDepthPeeling:
             return peel_dual(recorder, frame, opaque, request);
+        case LayerBuilder::kAutomatic:
         case LayerBuilder::kCompute:
-            return select_from_map(recorder, frame, opaque, request);
         case LayerBuilder::kSinglePass:
             break;
     }
@@ -52,8 +52,8 @@ void LayerSource::forget_size() {
 }
 
 bool LayerSource::must_repeat(const Frame& frame) {
-    const bool enlarged = must_enlarge_rooms(), meshes = mesh_maps_.must_repeat();
-    return must_rebuild_layers(frame) || enlarged || meshes;
+    const bool enlarged = must_enlarge_rooms(), meshes = mesh_maps_.must_repeat(), map = must_enlarge_map(frame);
+    return must_rebuild_layers(frame) || enlarged || meshes || map;
 }
 
 bool LayerSource::must_rebuild_layers(const Frame& frame) {
@@ -62,8 +62,8 @@ bool LayerSource::must_rebuild_layers(const Frame& frame) {
             return false;
         case LayerBuilder::kDualDepthPeeling:
             return must_peel_more(frame);
+        case LayerBuilder::kAutomatic:
         case LayerBuilder::kCompute:
-            return must_enlarge_map(frame);
         case LayerBuilder::kSinglePass:
             break;
     }

@@ -83,8 +83,8 @@ public:
     /// Before the first build() of a frame.
     void begin_frame(LayerBuilder builder) { builder_ = builder, builds_ = geometry_passes_ = 0, mapped_ = false; }
     Layers build(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
-    /// The map that kCompute has built the frame's layers from.
-    const SurfaceMap& view_map() const { return *map_; }
+    /// A map of the view, in which every triangle of the scene is. Once per frame; needs GpuScene::topology.
+    SurfaceMap map_view(Recorder& recorder, const Frame& frame);
     /// Lists every triangle of the scene in the texels of a projection.
     SurfaceMap map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
                             const MapProjection& projection);
@@ -108,10 +108,13 @@ private:
     Layers peel(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     Layers peel_dual(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     Layers gather(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
-    Layers select_from_map(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     bool must_enlarge_rooms();
     bool must_peel_more(const Frame& frame);
+    struct FragmentBand;
+    void rasterise_fragments(Recorder& recorder, const Frame& frame, const LayerRequest& request,
+                             const FragmentBand& band);
     bool must_enlarge_pool(const Frame& frame);
+    bool must_enlarge_tiles(const Frame& frame);
     bool must_enlarge_map(const Frame& frame);
     bool must_rebuild_layers(const Frame& frame);
 
@@ -119,6 +122,7 @@ private:
     std::uint32_t builds_ = 0;  ///< in this frame, that counted something
     std::uint32_t geometry_passes_ = 0;
     FragmentPool pool_;
+    std::uint32_t tile_capacity_ = 0;  ///< that large triangles are cut into; 0: choose
     DualPeeling dual_;
     struct Room {
         std::uint32_t capacity = 0;
@@ -126,8 +130,6 @@ private:
     };
     std::map<std::string, Room> rooms_;
     MapPool map_pool_;
-    std::optional<SurfaceMap> map_;
-    float texels_per_pixel_ = 0.0f;  ///< of that map
     bool mapped_ = false;  ///< in this frame
     MeshMaps mesh_maps_;
 };

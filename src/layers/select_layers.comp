@@ -23,6 +23,7 @@ layout(push_constant) uniform Push {
     uint layer_count;
     uint hidden_by_opaque;
     uint only_object;
+    float depth_rounding;  // of opaque surfaces' depths, relative to the fragments'
 };
 
 #include "layers/objects.glsl"
@@ -48,7 +49,10 @@ void main() {
     for (uint layer = 0u; layer < layer_count; ++layer) {
         fragment = nearest_behind(head, fragment, layer == 0u);
         if (fragment.triangle == PELLUCID_NO_TRIANGLE) return;
-        if (layer == 0u && hidden_by_opaque != 0u && fragment.depth >= imageLoad(opaque_depth, ivec3(texel, 0)).r) return;
+        if (layer == 0u && hidden_by_opaque != 0u) {
+            float opaque = imageLoad(opaque_depth, ivec3(texel, 0)).r;
+            if (fragment.depth >= opaque - depth_rounding * opaque) return;
+        }
         imageStore(layer_depth, ivec3(texel, layer), vec4(fragment.depth));
         imageStore(layer_triangle, ivec3(texel, layer), uvec4(fragment.triangle));
         if (!kOneObject) {

@@ -152,11 +152,8 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
     ParameterMap parameters = settings.parameters;
     parameters.merge(choice.parameters);  // what is there already stays
     FrameSettings chosen{technique_of(info), ParameterValues(info, parameters), settings.layer_builder, settings.view};
-    if (chosen.technique.walks_map) {
-        if (chosen.layer_builder != LayerBuilder::kSinglePass && chosen.layer_builder != LayerBuilder::kCompute)
-            warnings.push_back(fmt::format("{} builds its layers in compute shaders only", info.name));
-        chosen.layer_builder = LayerBuilder::kCompute;
-    }
+    if (chosen.layer_builder == LayerBuilder::kAutomatic)
+        chosen.layer_builder = device.is_cpu() ? LayerBuilder::kCompute : LayerBuilder::kSinglePass;
     if (chosen.layer_builder == LayerBuilder::kSinglePass && !device.fragment_atomics()) {
         chosen.layer_builder = LayerBuilder::kDepthPeeling;
         warnings.push_back(
@@ -172,7 +169,6 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
 
 void Renderer::Impl::prepare(const FrameSettings& chosen, const Progress& progress,
                              std::vector<std::string>& warnings) {
-    if (chosen.layer_builder == LayerBuilder::kCompute) scene->prepare_topology(device, cpu.scene());
     if (chosen.technique.prepare == nullptr) return;
     // Shapes that a deforming mesh passes through are not worth a file each.
     bake::BakeCache passing{std::filesystem::path()};
@@ -356,8 +352,9 @@ View parse_view(std::string_view name) {
 }
 
 LayerBuilder parse_layer_builder(std::string_view name) {
-    return parse_name<LayerBuilder, 4>("layer builder", name,
-                                       {{{"single-pass", LayerBuilder::kSinglePass},
+    return parse_name<LayerBuilder, 5>("layer builder", name,
+                                       {{{"automatic", LayerBuilder::kAutomatic},
+                                         {"single-pass", LayerBuilder::kSinglePass},
                                          {"compute", LayerBuilder::kCompute},
                                          {"depth-peeling", LayerBuilder::kDepthPeeling},
                                          {"dual-depth-peeling", LayerBuilder::kDualDepthPeeling}}});

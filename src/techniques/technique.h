@@ -78,7 +78,6 @@ struct Technique {
     std::uint32_t (*layer_count)(const ParameterValues& parameters);
     /// Called before every picture; does its work in the first that needs it. Null: there is nothing to do.
     void (*prepare)(const Preparation& preparation, const ParameterValues& parameters) = nullptr;
-    bool walks_map = false;  ///< needs the view's surface map: layers are then built by LayerBuilder::kCompute
     /// `layers` are of all solids together.
     Refraction (*record)(Recorder& recorder, const Frame& frame, const Layers& layers,
                          const ParameterValues& parameters);

@@ -44,7 +44,7 @@ protected:
                                     const std::vector<LayerRequest>& requests,
                                     float opaque = float(PELLUCID_EMPTY_DEPTH), int* drawn = nullptr) {
         for (int frames = 1;; ++frames) {
-            source.begin_frame(builder);
+            source.begin_frame(builder, false);
             opaque_.emplace(opaque_surfaces(opaque));
             std::vector<Layers> built;
             for (const LayerRequest& request : requests) {
@@ -182,8 +182,9 @@ TEST_F(LayersTest, AgreeWithRayCasting) {
     const double snap = std::exp2(-double(device().limits().subPixelPrecisionBits));
     const Scene scene = load_scene("shape:knot,segments=48,sides=8");
     set_scene(scene, {std::uint32_t(size), std::uint32_t(size)});
-    const HostLayers layers = single_pass(12);
+    const HostLayers drawn = single_pass(12), computed = build(LayerBuilder::kCompute, 12);
     const glm::dvec3 forward = -glm::dvec3(camera().world_from_view[2]);
+    for (const HostLayers& layers : {drawn, computed}) {
     int compared = 0, crossed = 0;
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
@@ -216,6 +217,7 @@ TEST_F(LayersTest, AgreeWithRayCasting) {
     }
     EXPECT_GT(compared, size * size / 2);
     EXPECT_GT(crossed, 1000);
+    }
 }
 
 TEST_F(LayersTest, BuildersAgreeOnShapes) {

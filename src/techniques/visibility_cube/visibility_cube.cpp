@@ -17,10 +17,6 @@ constexpr std::array kParameters = {
     kPathParameters[4],
 };
 
-void prepare(const Preparation& preparation, const ParameterValues&) {
-    preparation.gpu_scene.prepare_topology(preparation.device, preparation.scene);
-}
-
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
     const SurfaceMap map = layers.source.map_meshes(recorder, frame, parameters.whole("resolution"));
     return follow_paths(recorder, frame, layers, map, parameters);
@@ -37,7 +33,7 @@ constexpr Technique kVisibilityCube{
              .many_media = true,
              .whole_scene = true},
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
-    .prepare = prepare,
+    .prepare = prepare_paths,
     .record = record,
 };
 

@@ -196,10 +196,14 @@ private:
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
-    return follow_paths(recorder, frame, layers, layers.source.view_map(), parameters);
+    return follow_paths(recorder, frame, layers, layers.source.map_view(recorder, frame), parameters);
 }
 
 }  // namespace
+
+void prepare_paths(const Preparation& preparation, const ParameterValues&) {
+    preparation.gpu_scene.prepare_topology(preparation.device, preparation.scene);
+}
 
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
                         const ParameterValues& parameters) {
@@ -215,7 +219,7 @@ constexpr Technique kVisibilityLayers{
              .many_media = true,
              .whole_scene = true},
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
-    .walks_map = true,
+    .prepare = prepare_paths,
     .record = record,
 };
 

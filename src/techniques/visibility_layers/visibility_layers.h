@@ -20,6 +20,8 @@ inline constexpr std::array kPathParameters = {
                   "surfaces along a view ray that the AOV `layers` counts at most; paths look at all that there are"},
 };
 
+/// Technique::prepare of techniques that call it.
+void prepare_paths(const Preparation& preparation, const ParameterValues& parameters);
 /// Follows the view rays through `map`, from the first surface of `layers` on.
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
                         const ParameterValues& parameters);

@@ -1,23 +1,13 @@
-// Layers from a surface map of the view: triangles are rasterised in compute, for all techniques that then walk the
-// map, and for devices on which that is faster than rasterising fragments.
-#include "layers/layer_images.h"
-#include "layers/pixel_list.h"
+// The surface map of what the camera sees.
+#include "layers/layers.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kListMapped[] = {
-#include "list_mapped.comp.inc"
-};
-constexpr std::uint32_t kSelectMapped[] = {
-#include "select_mapped.comp.inc"
-};
 
 /// Texels are squares of two by two pixels, anything near which is as fast (docs/performance.md), or finer where
 /// triangles are: a ray tests all of those in a texel that it crosses.
@@ -113,48 +103,11 @@ float choose_texels(const Frame& frame, const gpu::FrameConstants& view) {
 
 }  // namespace
 
-Layers LayerSource::select_from_map(Recorder& recorder, const Frame& frame, const Opaque& opaque,
-                                    const LayerRequest& request) {
-    if (!mapped_) {
-        const gpu::FrameConstants view = view_of(frame);
-        texels_per_pixel_ = choose_texels(frame, view);
-        ++geometry_passes_;
-        map_.emplace(map_surfaces(recorder, frame, *frame.scene.topology,
-                                  view_projection(view, frame.extent, texels_per_pixel_)));
-    }
-    // All solids, or one.
-    std::uint32_t first_triangle = 0, end_triangle = PELLUCID_NO_TRIANGLE;
-    if (request.solids.size() == 1) {
-        first_triangle = frame.scene.first_triangles[request.solids[0].object];
-        end_triangle = first_triangle + request.solids[0].corner_count / 3;
-    }
-    struct ListPush {
-        std::uint32_t width, height;
-        float texels_per_pixel;
-    };
-    struct SelectPush {
-        std::uint32_t layer_count, hidden_by_opaque, first_triangle, end_triangle;
-        float texels_per_pixel;
-    };
-    const LayerImages images = allocate_layers(frame, request);
-    recorder.clear(images.depth, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
-    recorder.clear(images.triangle, vk::ClearColorValue(std::array{PELLUCID_NO_TRIANGLE, 0u, 0u, 0u}));
-    const Buffer& any = start_pixel_list(recorder, frame, "mapped pixels");
-    recorder.compute(frame.workspace.compute({"list_mapped.comp", kListMapped}),
-                     {reads("Texels", *map_->texels), reads("Maps", *map_->maps), updates("PixelList", any)},
-                     ListPush{frame.extent.width, frame.extent.height, texels_per_pixel_}, frame.extent);
-    recorder.compute_indirect(
-        frame.workspace.compute({"select_mapped.comp", kSelectMapped}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices), reads("PixelList", any), reads("Maps", *map_->maps),
-         reads("map_triangles", *map_->triangles), reads("records", *map_->records), reads("texels", *map_->texels),
-         reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
-         writes("layer_triangle", images.triangle), writes("layer_normal", images.normal)},
-        SelectPush{request.count, request.hidden_by_opaque ? 1u : 0u, first_triangle, end_triangle, texels_per_pixel_},
-        any);
-    const Buffer& covered = list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE,
-                                        request.name + " pixels", 0, frame.extent.height);
-    return {images.depth, images.triangle, images.normal, covered, request.count, opaque, *this};
+SurfaceMap LayerSource::map_view(Recorder& recorder, const Frame& frame) {
+    const Recorder::Scope scope(recorder, "layers");
+    const gpu::FrameConstants view = view_of(frame);
+    return map_surfaces(recorder, frame, *frame.scene.topology,
+                        view_projection(view, frame.extent, choose_texels(frame, view)));
 }
 
 }  // namespace pellucid

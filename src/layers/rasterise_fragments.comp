@@ -1,0 +1,57 @@
+#version 460
+// Appends the fragments of an object's triangles to the lists of their pixels, as gather_fragments.frag does. Large
+// triangles, and those that cross the near plane, are cut into tiles for rasterise_fragment_tiles.comp, so that no
+// invocation has much more to do than its neighbours.
+#extension GL_GOOGLE_include_directive : require
+#include "gpu/frame.glsl"
+#include "layers/map_count.glsl"
+#include "layers/triangle_fragments.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, set = 0, binding = 8) writeonly buffer Tiles { uvec2 tiles[]; };  // triangle, tile's x | y << 16
+layout(push_constant) uniform Push {
+    PlacedMesh object;
+    uint triangle_count;
+    uint row;  // invocations in a row of the dispatch
+    uint counter;
+    uint capacity;
+    uint tile_capacity;
+    uint first_row, row_end;  // of the picture
+};
+
+const int kSmall = 32;  // pixels of a box that one invocation goes through; bits of a word
+
+void main() {
+    uint number = gl_GlobalInvocationID.y * row + gl_GlobalInvocationID.x;
+    if (number >= triangle_count) return;
+    uint triangle = object.first_triangle + number;
+    ScreenTriangle t = screen_triangle(object, triangle, ivec2(0, first_row), ivec2(frame.width, row_end));
+    ivec2 size = t.high - t.low + 1;
+    if (size.x <= 0 || size.y <= 0) return;
+    if (size.x * size.y <= kSmall && !t.crosses_near) {
+        // First which, then what: some drivers run the whole of a loop at every turn, and most turns find nothing.
+        uint covered = 0u;
+        ivec2 pixel = t.low;
+        float depth;
+        for (int i = 0; i < size.x * size.y; ++i) {
+            covered |= covered_at(t, pixel, depth) ? 1u << i : 0u;
+            bool turn = pixel.x == t.high.x;
+            pixel = ivec2(turn ? t.low.x : pixel.x + 1, turn ? pixel.y + 1 : pixel.y);
+        }
+        while (covered != 0u) {
+            int i = findLSB(covered);
+            covered &= covered - 1u;
+            pixel = t.low + ivec2(i % size.x, i / size.x);
+            covered_at(t, pixel, depth);
+            append_fragment(pixel, Fragment(depth, t.record), counter, capacity);
+        }
+        return;
+    }
+    ivec2 first_tile = t.low / kTile, tile_count = t.high / kTile - first_tile + 1;
+    uint at = atomicAdd(counts.tiles, uint(tile_count.x * tile_count.y));
+    for (int i = 0; i < tile_count.x * tile_count.y; ++i) {
+        ivec2 tile = first_tile + ivec2(i % tile_count.x, i / tile_count.x);
+        if (at + uint(i) < tile_capacity) tiles[at + uint(i)] = uvec2(triangle, uint(tile.x) | uint(tile.y) << 16);
+    }
+}
