@@ -119,8 +119,8 @@ std::vector<NamedTechnique> parse_techniques(const std::string& names, const Ren
         NamedTechnique technique{name, renderer.choose(name)};
         if (const std::string lacking = renderer.lacking(technique.info()); !lacking.empty())
             throw DeviceError(fmt::format("{} needs {}, which {} lacks", name, lacking, renderer.device().name));
-        const bool again = std::any_of(chosen.begin(), chosen.end(),
-                                       [&](const NamedTechnique& other) { return other.name == name; });
+        const bool again =
+            std::any_of(chosen.begin(), chosen.end(), [&](const NamedTechnique& other) { return other.name == name; });
         if (!again) chosen.push_back(std::move(technique));
     }
     return chosen;

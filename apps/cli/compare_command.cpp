@@ -257,16 +257,16 @@ void compare(const CompareArguments& arguments) {
     check_settings(comparison);
     comparison.renderer.set_environment(environment);
     const DeviceInfo& device = comparison.renderer.device();
-    comparison.json = {
-        {"device", device.name},
-        {"driver", device.driver},
-        {"version", version()},
-        {"environment", arguments.environment},
-        {"exact_events", arguments.exact_events},
-        {"image_truth", describe_truth(arguments)},
-        {"image_truth_parameters", describe_parameters(comparison.truth.info(), settings_of_truth(comparison).parameters)},
-        {"warnings", nlohmann::ordered_json::array()},
-        {"runs", nlohmann::ordered_json::array()}};
+    comparison.json = {{"device", device.name},
+                       {"driver", device.driver},
+                       {"version", version()},
+                       {"environment", arguments.environment},
+                       {"exact_events", arguments.exact_events},
+                       {"image_truth", describe_truth(arguments)},
+                       {"image_truth_parameters",
+                        describe_parameters(comparison.truth.info(), settings_of_truth(comparison).parameters)},
+                       {"warnings", nlohmann::ordered_json::array()},
+                       {"runs", nlohmann::ordered_json::array()}};
 
     for (const std::string& scene : arguments.scenes) compare_scene(comparison, scene);
     if (comparison.report) {

@@ -100,8 +100,8 @@ std::vector<PassTime> median_times(const std::vector<std::vector<PassTime>>& fra
 }
 
 nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSettings& settings,
-                                const NamedTechnique& technique, const Scene& scene, const DeviceInfo& device, const RenderResult& result,
-                                const std::vector<std::string>& warnings) {
+                                const NamedTechnique& technique, const Scene& scene, const DeviceInfo& device,
+                                const RenderResult& result, const std::vector<std::string>& warnings) {
     nlohmann::ordered_json json{{"device", device.name},
                                 {"driver", device.driver},
                                 {"version", version()},
@@ -191,7 +191,8 @@ void render(const RenderArguments& arguments) {
     bar.clear();
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
 
-    write_outputs(arguments, result, describe(arguments, settings, technique, scene, renderer.device(), result, warnings));
+    write_outputs(arguments, result,
+                  describe(arguments, settings, technique, scene, renderer.device(), result, warnings));
     print_warnings(warnings);
     check_validation(renderer);
 }
@@ -234,7 +235,9 @@ void add_render_command(CLI::App& app) {
                      "reflection, grey where the technique gave up")
         ->capture_default_str()
         ->type_name("NAME");
-    command->add_option("--layer-builder", a.layer_builder, "automatic, single-pass, compute, depth-peeling or dual-depth-peeling")
+    command
+        ->add_option("--layer-builder", a.layer_builder,
+                     "automatic, single-pass, compute, depth-peeling or dual-depth-peeling")
         ->capture_default_str()
         ->type_name("NAME");
     command->add_option("--aov", a.aovs, aov_help())

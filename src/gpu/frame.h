@@ -24,7 +24,7 @@ struct Frame {
     const GpuImage& filtered_environment;  ///< see gpu/environment_images.h; what stands in for it if !scene.rough
     std::uint32_t environment_kind;        ///< pellucid::Environment::Kind
     vk::Extent2D extent;
-    std::uint32_t samples = 1;  ///< of the picture that this frame is one of
+    std::uint32_t samples = 1;           ///< of the picture that this frame is one of
     const TracedView* traced = nullptr;  ///< for techniques that trace on the CPU; null for others
 };
 

@@ -11,9 +11,9 @@ namespace pellucid {
 
 /// What techniques that follow rays through a scene's triangles know of it besides GpuScene.
 struct SceneTopology {
-    Buffer traits;     ///< per object, see object_traits.glsl
-    Buffer materials;  ///< uint[]: per rank of a refracting object, its material
-    Buffer boxes;      ///< ObjectBox[], see follow_paths.comp
+    Buffer traits;             ///< per object, see object_traits.glsl
+    Buffer materials;          ///< uint[]: per rank of a refracting object, its material
+    Buffer boxes;              ///< ObjectBox[], see follow_paths.comp
     std::uint32_t solids = 0;  ///< refracting objects; each has a rank below this
     bool all_alone = true;     ///< no two objects' boxes meet, so no two surfaces lie at one place
     std::uint64_t moves = 0;   ///< GpuScene::moves that the traits are of

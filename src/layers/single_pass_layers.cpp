@@ -94,26 +94,25 @@ void LayerSource::rasterise_fragments(Recorder& recorder, const Frame& frame, co
     for (const DrawCall& solid : request.solids) {
         const std::uint32_t triangles = solid.corner_count / 3, all_groups = (triangles + kGroup - 1) / kGroup;
         const std::uint32_t rows = all_groups / row_groups + 1, row = (all_groups + rows - 1) / rows * kGroup;
-        recorder.compute(workspace.compute({"rasterise_fragments.comp", kRasteriseFragments}),
-                         {reads("Frame", frame.constants), reads("Indices", scene.indices),
-                          reads("Vertices", scene.vertices), updates("Counters", band.counters),
-                          writes("Nodes", band.nodes), updates("heads", band.heads), updates("MapCounters", counts),
-                          writes("Tiles", tiles)},
-                         Push{scene.world_from_object[solid.object], scene.first_triangles[solid.object],
-                              solid.first_corner, mirrors(scene.world_from_object[solid.object]) ? 1u : 0u, 0, triangles, row, band.counter,
-                              pool_.capacity, tile_capacity_, band.first_row, band.row_end},
-                         {row, rows});
+        recorder.compute(
+            workspace.compute({"rasterise_fragments.comp", kRasteriseFragments}),
+            {reads("Frame", frame.constants), reads("Indices", scene.indices), reads("Vertices", scene.vertices),
+             updates("Counters", band.counters), writes("Nodes", band.nodes), updates("heads", band.heads),
+             updates("MapCounters", counts), writes("Tiles", tiles)},
+            Push{scene.world_from_object[solid.object], scene.first_triangles[solid.object], solid.first_corner,
+                 mirrors(scene.world_from_object[solid.object]) ? 1u : 0u, 0, triangles, row, band.counter,
+                 pool_.capacity, tile_capacity_, band.first_row, band.row_end},
+            {row, rows});
     }
     recorder.compute(workspace.compute({"dispatch_map.comp", kDispatchMap}),
                      {updates("MapCounters", counts), writes("Groups", groups)},
                      std::array{0u, tile_capacity_, row_groups}, {1, 1});
-    recorder.compute_indirect(workspace.compute({"rasterise_fragment_tiles.comp", kRasteriseFragmentTiles}),
-                              {reads("Frame", frame.constants), reads("Objects", scene.objects),
-                               reads("Indices", scene.indices), reads("Vertices", scene.vertices),
-                               updates("Counters", band.counters), writes("Nodes", band.nodes),
-                               updates("heads", band.heads), updates("MapCounters", counts), reads("Tiles", tiles)},
-                              std::array{band.counter, pool_.capacity, tile_capacity_, band.first_row, band.row_end},
-                              groups);
+    recorder.compute_indirect(
+        workspace.compute({"rasterise_fragment_tiles.comp", kRasteriseFragmentTiles}),
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+         reads("Vertices", scene.vertices), updates("Counters", band.counters), writes("Nodes", band.nodes),
+         updates("heads", band.heads), updates("MapCounters", counts), reads("Tiles", tiles)},
+        std::array{band.counter, pool_.capacity, tile_capacity_, band.first_row, band.row_end}, groups);
     recorder.copy(counts, tile_counts_on_host(frame, pool_), sizeof(MapCount), band.counter * sizeof(MapCount));
 }
 

@@ -105,9 +105,9 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     recorder.compute(
         workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}, {build.of_mesh ? 1u : 0u, one_object}),
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-         reads("Vertices", scene.vertices), reads("Maps", *map.maps),
-         writes("MapTriangles", *map.triangles), updates("MapCounters", counters), updates("Texels", *map.texels),
-         writes("Found", found), writes("Tiles", tiles)},
+         reads("Vertices", scene.vertices), reads("Maps", *map.maps), writes("MapTriangles", *map.triangles),
+         updates("MapCounters", counters), updates("Texels", *map.texels), writes("Found", found),
+         writes("Tiles", tiles)},
         Push{build.triangle_count, build.found, build.tiles, build.index, row}, {row, rows});
     const Program& dispatch = workspace.compute({"dispatch_map.comp", kDispatchMap});
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},

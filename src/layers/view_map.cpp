@@ -79,8 +79,9 @@ float choose_texels(const Frame& frame, const gpu::FrameConstants& view) {
     const auto triangles_in = [&](std::uint32_t object, const PixelBox& box) {
         const PixelBox own = pixels_of(scene, object, pixels);
         const float area = own.area();
-        return area > 0.0f ? float(scene.meshes[scene.mesh_of_object[object]].triangle_count) * common(own, box).area() / area
-                           : 0.0f;
+        return area > 0.0f
+                   ? float(scene.meshes[scene.mesh_of_object[object]].triangle_count) * common(own, box).area() / area
+                   : 0.0f;
     };
     PixelBox glass{glm::vec2(1e30f), glm::vec2(-1e30f)};
     float area = 0.0f, triangles = 0.0f;
@@ -97,7 +98,8 @@ float choose_texels(const Frame& frame, const gpu::FrameConstants& view) {
         const MapProjection map = view_projection(view, frame.extent, scale);
         return std::uint64_t(std::bit_ceil(map.extent.width)) * std::bit_ceil(map.extent.height);
     };
-    while (triangles > kMostTrianglesPerTexel * area * texels * texels && padded(2.0f * texels) <= kMostTexels) texels *= 2.0f;
+    while (triangles > kMostTrianglesPerTexel * area * texels * texels && padded(2.0f * texels) <= kMostTexels)
+        texels *= 2.0f;
     return texels;
 }
 

@@ -186,8 +186,8 @@ void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jit
 }
 
 std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings& chosen,
-                                                const RenderSettings& settings,
-                                                std::optional<std::uint32_t> sample, const Progress& progress, std::optional<FrameImages>& images) {
+                                                const RenderSettings& settings, std::optional<std::uint32_t> sample,
+                                                const Progress& progress, std::optional<FrameImages>& images) {
     const glm::vec2 jitter = sample ? sample_jitter(*sample) : glm::vec2(0.0f);
     set_constants(settings, jitter, sample.value_or(0));
     std::optional<TracedView> traced;

@@ -55,9 +55,8 @@ TechniqueChoice choose_technique(std::string_view name, const Device& device) {
     for (const Preset& preset : all_presets()) {
         if (preset.info.name != name) continue;
         const auto offered =
-            std::find_if(preset.choices.begin(), preset.choices.end(), [&](const TechniqueChoice& choice) {
-                return lacking_for(device, *choice.technique).empty();
-            });
+            std::find_if(preset.choices.begin(), preset.choices.end(),
+                         [&](const TechniqueChoice& choice) { return lacking_for(device, *choice.technique).empty(); });
         return offered != preset.choices.end() ? *offered : preset.choices.back();
     }
     return {&find_technique(name), {}};

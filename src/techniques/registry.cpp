@@ -23,8 +23,9 @@ namespace {
 
 // Every technique, one line each.
 constexpr std::array kTechniques = {
-    &kOneInterface, &kKayGreenberg1979, &kWyman2005, &kOliveiraBrauwers2007,
-    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,       &kPath,      &kReference,
+    &kOneInterface, &kKayGreenberg1979, &kWyman2005,      &kOliveiraBrauwers2007,
+    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,
+    &kPath,         &kReference,
 };
 
 constexpr auto kInfos = [] {

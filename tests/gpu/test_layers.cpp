@@ -22,9 +22,13 @@ struct HostLayers {
 class LayersTest : public DeviceTest {
 protected:
     void set_scene(const Scene& scene, vk::Extent2D extent, float azimuth_deg = 20.0f) {
+        set_scene(scene, extent,
+                  orbit_camera(scene_bounds(scene), azimuth_deg, 15.0f, framing_distance(0.5236f, 0.8f), 0.5236f));
+    }
+    void set_scene(const Scene& scene, vk::Extent2D extent, const Camera& camera) {
         extent_ = extent;
         scene_.emplace(device(), scene);
-        camera_ = orbit_camera(scene_->bounds, azimuth_deg, 15.0f, framing_distance(0.5236f, 0.8f), 0.5236f);
+        camera_ = camera;
         gpu::FrameConstants values{};
         set_camera(values, camera_, extent.width, extent.height, {0.0f, 0.0f}, scene_->bounds,
                    scene_->refractive_corners);
@@ -44,7 +48,7 @@ protected:
                                     const std::vector<LayerRequest>& requests,
                                     float opaque = float(PELLUCID_EMPTY_DEPTH), int* drawn = nullptr) {
         for (int frames = 1;; ++frames) {
-            source.begin_frame(builder, false);
+            source.begin_frame(builder);
             opaque_.emplace(opaque_surfaces(opaque));
             std::vector<Layers> built;
             for (const LayerRequest& request : requests) {
@@ -185,38 +189,40 @@ TEST_F(LayersTest, AgreeWithRayCasting) {
     const HostLayers drawn = single_pass(12), computed = build(LayerBuilder::kCompute, 12);
     const glm::dvec3 forward = -glm::dvec3(camera().world_from_view[2]);
     for (const HostLayers& layers : {drawn, computed}) {
-    int compared = 0, crossed = 0;
-    for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
-            bool ambiguous = false;
-            const auto expected = cast_ray(scene.meshes[0], pixel_ray(camera(), size, size, x, y), forward, ambiguous);
-            // On an edge the rasteriser's rule decides between neighbours.
-            if (ambiguous || expected.size() > 12) continue;
-            ++compared;
-            const auto i = std::size_t(y * size + x);
-            for (std::size_t k = 0; k < 12; ++k) {
-                const std::uint32_t triangle = layers.triangle[k][i];
-                if (k >= expected.size()) {
-                    EXPECT_EQ(triangle, PELLUCID_NO_TRIANGLE) << x << "," << y << " layer " << k;
-                    continue;
+        int compared = 0, crossed = 0;
+        for (int y = 0; y < size; ++y) {
+            for (int x = 0; x < size; ++x) {
+                bool ambiguous = false;
+                const auto expected =
+                    cast_ray(scene.meshes[0], pixel_ray(camera(), size, size, x, y), forward, ambiguous);
+                // On an edge the rasteriser's rule decides between neighbours.
+                if (ambiguous || expected.size() > 12) continue;
+                ++compared;
+                const auto i = std::size_t(y * size + x);
+                for (std::size_t k = 0; k < 12; ++k) {
+                    const std::uint32_t triangle = layers.triangle[k][i];
+                    if (k >= expected.size()) {
+                        EXPECT_EQ(triangle, PELLUCID_NO_TRIANGLE) << x << "," << y << " layer " << k;
+                        continue;
+                    }
+                    ++crossed;
+                    EXPECT_EQ(triangle & ~PELLUCID_BACK_FACE, expected[k].triangle) << x << "," << y << " layer " << k;
+                    EXPECT_EQ((triangle & PELLUCID_BACK_FACE) != 0, expected[k].back)
+                        << x << "," << y << " layer " << k;
+                    // Depth is interpolated in single precision, between corners that have been rounded.
+                    double rounding = 0.0;
+                    for (const glm::dvec2 way : {glm::dvec2(snap, 0.0), glm::dvec2(0.0, snap)}) {
+                        const WorldRay beside = pixel_ray(camera(), size, size, x + way.x, y + way.y);
+                        const double depth = plane_depth(scene.meshes[0], expected[k].triangle, beside, forward);
+                        rounding += std::abs(depth - expected[k].depth);
+                    }
+                    EXPECT_NEAR(layers.depth[k][i], expected[k].depth, 2e-5 * expected[k].depth + rounding)
+                        << x << "," << y << " layer " << k;
                 }
-                ++crossed;
-                EXPECT_EQ(triangle & ~PELLUCID_BACK_FACE, expected[k].triangle) << x << "," << y << " layer " << k;
-                EXPECT_EQ((triangle & PELLUCID_BACK_FACE) != 0, expected[k].back) << x << "," << y << " layer " << k;
-                // Depth is interpolated in single precision, between corners that have been rounded.
-                double rounding = 0.0;
-                for (const glm::dvec2 way : {glm::dvec2(snap, 0.0), glm::dvec2(0.0, snap)}) {
-                    const WorldRay beside = pixel_ray(camera(), size, size, x + way.x, y + way.y);
-                    const double depth = plane_depth(scene.meshes[0], expected[k].triangle, beside, forward);
-                    rounding += std::abs(depth - expected[k].depth);
-                }
-                EXPECT_NEAR(layers.depth[k][i], expected[k].depth, 2e-5 * expected[k].depth + rounding)
-                    << x << "," << y << " layer " << k;
             }
         }
-    }
-    EXPECT_GT(compared, size * size / 2);
-    EXPECT_GT(crossed, 1000);
+        EXPECT_GT(compared, size * size / 2);
+        EXPECT_GT(crossed, 1000);
     }
 }
 
@@ -231,6 +237,69 @@ TEST_F(LayersTest, BuildersAgreeOnShapes) {
             expect_sorted(peeled);
         }
         EXPECT_GT(fragments(peel(11)), 1000u) << shape;
+    }
+}
+
+/// Pixels whose triangles differ, layer by layer.
+int different_pixels(const HostLayers& a, const HostLayers& b) {
+    int different = 0;
+    for (std::size_t i = 0; i < a.triangle.front().size(); ++i) {
+        bool same = true;
+        for (std::size_t k = 0; k < a.triangle.size(); ++k) same = same && a.triangle[k][i] == b.triangle[k][i];
+        different += same ? 0 : 1;
+    }
+    return different;
+}
+
+// The rasteriser of the device rounds corners to 1/256 pixel or less, that of the compute shaders does not: they may differ
+// at centres so close to an edge, one in a hundred or less here.
+TEST_F(LayersTest, ComputedLayersAgreeButOnEdges) {
+    for (const char* shape : {"shape:sphere", "shape:goblet", "shape:cube", "shape:slab", "shape:infinity-ring"}) {
+        set_scene(load_scene(shape), {131, 77});
+        for (const std::uint32_t count : {1u, 4u, 14u}) {
+            const HostLayers drawn = single_pass(count), computed = build(LayerBuilder::kCompute, count);
+            expect_sorted(computed);
+            EXPECT_LE(different_pixels(drawn, computed), 131 * 77 / 100) << shape << ", " << count << " layers";
+            EXPECT_TRUE(computed == build(LayerBuilder::kCompute, count)) << shape;
+        }
+    }
+}
+
+// Neighbours share no pixel centre and leave none out, also where large triangles are cut into tiles, where centres lie
+// on edges, and where triangles reach behind the eye.
+TEST_F(LayersTest, ComputedLayersHaveNoSeams) {
+    Mesh grid;
+    constexpr int kCells = 16;
+    for (int y = 0; y <= kCells; ++y)
+        for (int x = 0; x <= kCells; ++x) grid.positions.push_back({x - kCells / 2, y - kCells / 2, 0});
+    for (unsigned y = 0; y < kCells; ++y) {
+        for (unsigned x = 0; x < kCells; ++x) {
+            const unsigned a = y * (kCells + 1) + x, b = a + 1, c = a + kCells + 1, d = c + 1;
+            grid.triangles.push_back({a, b, d});
+            grid.triangles.push_back({a, d, c});
+        }
+    }
+    grid.normals.assign(grid.positions.size(), {0, 0, 1});
+    const Scene scene = glass_scene({grid});
+    for (const std::uint32_t size : {16u, 64u, 400u}) {
+        for (const float tilt : {0.0f, 0.4f, 1.5f}) {
+            Camera camera;
+            camera.vertical_fov = 0.9f;
+            camera.world_from_view = glm::rotate(glm::mat4(1.0f), tilt, glm::vec3(1, 0, 0)) *
+                                     glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, tilt > 1.0f ? 1.0f : 6.0f));
+            set_scene(scene, {size, size}, camera);
+            const HostLayers layers = build(LayerBuilder::kCompute, 2);
+            int covered = 0;
+            for (std::size_t i = 0; i < layers.triangle[0].size(); ++i) {
+                EXPECT_EQ(layers.triangle[1][i], PELLUCID_NO_TRIANGLE) << size << " " << tilt << ", pixel " << i;
+                covered += layers.triangle[0][i] != PELLUCID_NO_TRIANGLE ? 1 : 0;
+            }
+            if (tilt < 1.0f) {
+                EXPECT_EQ(covered, int(size * size)) << tilt;
+            } else {
+                EXPECT_GT(covered, int(size * size) / 4);
+            }
+        }
     }
 }
 
@@ -266,6 +335,9 @@ TEST_F(LayersTest, PoolGrowsAndBandsChangeNothing) {
     EXPECT_TRUE(expected == single_pass(9, {.capacity = 16, .bands = 7}));
     EXPECT_TRUE(expected == single_pass(9, {.capacity = 100000, .bands = 61}));
     EXPECT_TRUE(expected == single_pass(9, {.capacity = 100000, .bands = 1000}));
+    const HostLayers computed = build(LayerBuilder::kCompute, 9);
+    EXPECT_TRUE(computed == build(LayerBuilder::kCompute, 9, {.capacity = 16, .bands = 1}));
+    EXPECT_TRUE(computed == build(LayerBuilder::kCompute, 9, {.capacity = 16, .bands = 7}));
 }
 
 // Peeling by depth alone would lose all but one of the surfaces that lie at one depth.
@@ -308,9 +380,11 @@ TEST_F(LayersTest, MirroredObjectsKeepTheirSides) {
     Scene scene = load_scene("shape:sphere");
     scene.objects[0].world_from_object[0][0] = -1.0f;
     set_scene(scene, {32, 32});
-    const HostLayers layers = single_pass(2);
-    EXPECT_EQ(layers.triangle[0][16 * 32 + 16] & PELLUCID_BACK_FACE, 0u);
-    EXPECT_NE(layers.triangle[1][16 * 32 + 16] & PELLUCID_BACK_FACE, 0u);
+    const HostLayers layers = single_pass(2), computed = build(LayerBuilder::kCompute, 2);
+    for (const HostLayers& each : {layers, computed}) {
+        EXPECT_EQ(each.triangle[0][16 * 32 + 16] & PELLUCID_BACK_FACE, 0u);
+        EXPECT_NE(each.triangle[1][16 * 32 + 16] & PELLUCID_BACK_FACE, 0u);
+    }
     EXPECT_TRUE(layers == dual_peel(2));
 }
 

@@ -33,7 +33,8 @@ TEST_F(RendererSuite, AnySizeInAnyOrder) {
     renderer().set_scene(load_scene("shape:torus"));
     for (const auto& [width, height] :
          {std::pair{17u, 13u}, {1u, 1u}, {4001u, 3u}, {3u, 1501u}, {64u, 64u}, {17u, 13u}}) {
-        for (const LayerBuilder builder : {LayerBuilder::kSinglePass, LayerBuilder::kDepthPeeling, LayerBuilder::kDualDepthPeeling}) {
+        for (const LayerBuilder builder : {LayerBuilder::kSinglePass, LayerBuilder::kCompute,
+                                           LayerBuilder::kDepthPeeling, LayerBuilder::kDualDepthPeeling}) {
             RenderSettings settings = sized(width, height);
             settings.layer_builder = builder;
             settings.aovs = all_aovs();
@@ -161,6 +162,7 @@ TEST_F(RendererSuite, AllLayerBuildersDrawTheSamePicture) {
         RenderSettings settings = sized(200, 150);
         settings.technique = "wang-2014";
         settings.samples = samples;
+        settings.layer_builder = LayerBuilder::kSinglePass;
         const RenderResult single = renderer().render(settings);
         EXPECT_EQ(single.layer_passes, 1u);
         for (const char* builder : {"depth-peeling", "dual-depth-peeling"}) {
@@ -198,12 +200,14 @@ TEST_F(RendererSuite, PresetsStandForTechniquesOfTheDevice) {
 }
 
 TEST_F(RendererSuite, LayerBuildersHaveNames) {
+    EXPECT_EQ(parse_layer_builder("automatic"), LayerBuilder::kAutomatic);
     EXPECT_EQ(parse_layer_builder("single-pass"), LayerBuilder::kSinglePass);
     EXPECT_EQ(parse_layer_builder("compute"), LayerBuilder::kCompute);
     EXPECT_EQ(parse_layer_builder("depth-peeling"), LayerBuilder::kDepthPeeling);
     EXPECT_EQ(parse_layer_builder("dual-depth-peeling"), LayerBuilder::kDualDepthPeeling);
-    EXPECT_THAT([] { parse_layer_builder("dual"); },
-                ThrowsMessage<Error>(HasSubstr("known: single-pass, compute, depth-peeling, dual-depth-peeling")));
+    EXPECT_THAT(
+        [] { parse_layer_builder("dual"); },
+        ThrowsMessage<Error>(HasSubstr("known: automatic, single-pass, compute, depth-peeling, dual-depth-peeling")));
 }
 
 TEST_F(RendererSuite, PassTimesAreThere) {
