@@ -76,11 +76,20 @@ constexpr std::uint32_t kCoarsest = 8;  // texels; what a scene whose maps do no
 
 SurfaceMap MeshMaps::buffers() const { return {&maps_, &triangles_, &texels_, &records_, &pyramid_, &objects_}; }
 
+/// Finer where there are many triangles: a ray tests all of those in a texel that it crosses, and along walls seen
+/// edge-on these are many times the mean.
+std::uint32_t MeshMaps::texels_across(const GpuMesh& mesh) const {
+    constexpr double kMostTrianglesPerTexel = 0.5;
+    const double texels = double(resolution_) * resolution_ * kMostTrianglesPerTexel;
+    const double finer = std::max(std::sqrt(double(mesh.triangle_count) / texels), 1.0);
+    return std::uint32_t(std::min(std::ceil(texels_across_ * finer), 8192.0));
+}
+
 /// Whether every mesh that has moved still fits where it was.
 bool MeshMaps::fits(const Frame& frame) const {
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         if (!meshes_[m].shown) continue;
-        const MapBox box = box_of(frame.scene.meshes[m], texels_across_);
+        const MapBox box = box_of(frame.scene.meshes[m], texels_across(frame.scene.meshes[m]));
         for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
             const MapRecord record = record_along(axis, box);
             const Place& place = meshes_[m].places[axis];
@@ -96,7 +105,7 @@ MeshMaps::Room MeshMaps::place_maps(const GpuScene& scene) {
         Mapped& mesh = meshes_[m];
         mesh.built = false;
         if (!mesh.shown) continue;
-        const MapBox box = box_of(scene.meshes[m], texels_across_);
+        const MapBox box = box_of(scene.meshes[m], texels_across(scene.meshes[m]));
         for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
             const MapRecord record = record_along(axis, box);
             Place& place = mesh.places[axis];
@@ -129,7 +138,7 @@ void MeshMaps::lay_out(const Frame& frame) {
     };
     // Coarser maps find the same surfaces, in more time.
     while (too_much() && texels_across_ > kCoarsest) {
-        texels_across_ = std::max(texels_across_ / 2, kCoarsest);
+        texels_across_ = std::max(texels_across_ * 4 / 5, kCoarsest);
         tiles_ = std::uint64_t(texels_across_) * texels_across_ / 4 + 1024;
         for (Mapped& mesh : meshes_) {
             for (Place& place : mesh.places) place.records = 0;
@@ -158,7 +167,7 @@ void MeshMaps::write_tables(const Frame& frame) {
     auto* records = reinterpret_cast<MapRecord*>(maps_.mapped());
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         if (!meshes_[m].shown) continue;
-        const MapBox box = box_of(scene.meshes[m], texels_across_);
+        const MapBox box = box_of(scene.meshes[m], texels_across(scene.meshes[m]));
         for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
             const Place& place = meshes_[m].places[axis];
             MapRecord record = record_along(axis, box);
@@ -171,7 +180,7 @@ void MeshMaps::write_tables(const Frame& frame) {
     auto* objects = reinterpret_cast<MappedObject*>(objects_.mapped());
     for (std::uint32_t i = 0; i < scene.object_count; ++i) {
         const std::uint32_t m = scene.mesh_of_object[i];
-        const MapBox box = box_of(scene.meshes[m], texels_across_);
+        const MapBox box = box_of(scene.meshes[m], texels_across(scene.meshes[m]));
         objects[i] = {box.low, m * kAxes, box.high, scene.meshes[m].first_corner / 3};
     }
 }

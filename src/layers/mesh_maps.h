@@ -55,8 +55,9 @@ private:
     void write_tables(const Frame& frame);
     SurfaceMap buffers() const;
 
-    std::uint32_t resolution_ = 0;     ///< asked for,
-    std::uint32_t texels_across_ = 0;  ///< and what there is room for
+    std::uint32_t texels_across(const GpuMesh& mesh) const;  ///< along the longest side of its box
+    std::uint32_t resolution_ = 0;                           ///< asked for,
+    std::uint32_t texels_across_ = 0;                        ///< and what there is room for
     std::vector<Mapped> meshes_;
     std::vector<std::uint32_t> building_;  ///< meshes, in the frame that is being recorded
     std::uint64_t found_ = 0, tiles_ = 0;  ///< room while a map is built
