@@ -73,14 +73,15 @@ void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, vec3 
     uint channel = mark & kChannelMask;
     uint c = channel == 0u ? 1u : channel - 1u;  // the direction is green's, unless the path has another channel
     float eta = n_i[c] / n_t[c];
-    if (kStochastic && kRough && material.roughness > 0.0) n = sampled_normal(n, path, material.roughness);
+    bool facets = kRough && (kStochastic || kTree);  // of rough glass, one per sample
+    if (facets && material.roughness > 0.0) n = sampled_normal(n, path, material.roughness);
     float cos_theta_i = -dot(path.direction, n);
     path.side_conflict = path.side_conflict || cos_theta_i < 0.0;
     ++path.events;
     vec3 incident = path.direction, carried = path.transmittance, refracted;
     bool total = !refract_direction(incident, n, eta, refracted);
     float reflectance = total ? 1.0 : fresnel_dielectric(cos_theta_i, eta);
-    float alpha = kRough ? material.roughness * material.roughness : 0.0;
+    float alpha = kRough && !facets ? material.roughness * material.roughness : 0.0;
     float bending = 0.5 * (max(n_i[c], n_t[c]) / min(n_i[c], n_t[c]) - 1.0);  // of a facet's tilt, beside reflection
     if (total) ++path.reflections;
     path.direction = refracted;  // under total reflection that is the reflected direction
@@ -127,7 +128,7 @@ void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, vec3 
         }
         path.transmittance *= tint;
     }
-    if (kRough && !kStochastic && alpha > 0.0) widen(total ? alpha : alpha * bending);
+    if (alpha > 0.0) widen(total ? alpha : alpha * bending);
     settle(path.direction, surface, leaving);
 }
 
