@@ -22,8 +22,7 @@ struct MapProjection {
 /// whenever the scene changes.
 ///
 /// Per texel a list of records, each a triangle and the range of depths at which its surface crosses the texel. A
-/// triangle is in every texel that it touches if it is steep, a crease or a rim (its neighbours do not continue it);
-/// otherwise only where it covers the texel's centre, and whoever finds it walks on to its neighbours.
+/// triangle is in every texel that it touches: what a ray meets in a texel is in its list.
 /// Over the texels a pyramid of depth ranges: up to four per node, in which all of its records lie.
 struct SurfaceMap {
     const Buffer* maps;       ///< MapRecord[]
