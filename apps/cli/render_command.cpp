@@ -106,7 +106,6 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"driver", device.driver},
                                 {"version", version()},
                                 {"scene", arguments.scene},
-                                {"technique", technique.name},
                                 {"environment", arguments.environment},
                                 {"width", settings.width},
                                 {"height", settings.height},
@@ -117,7 +116,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"side_conflicts", result.side_conflicts}};
     if (arguments.how.animation) json["animation"] = *arguments.how.animation;
     if (arguments.how.time_s) json["time_s"] = *arguments.how.time_s;
-    if (technique.name != technique.info().name) json["stands_for"] = technique.info().name;
+    add_technique(json, technique);
     json["parameters"] = describe_parameters(technique.info(), parameters_of(technique, settings.parameters));
     for (std::uint32_t status = 0; status < kStatusCount; ++status) {
         const double share = result.covered > 0 ? double(result.status[status]) / double(result.covered) : 0.0;

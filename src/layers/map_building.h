@@ -12,12 +12,11 @@ namespace pellucid {
 /// Twin of MapRecord in surface_map.glsl.
 struct MapRecord {
     glm::mat4 map_from_space;
-    glm::vec4 eye;
     float near_w;
     std::uint32_t width, height, log2_width, log2_height;
     std::uint32_t first_head, first_node, first_triangle;
 };
-static_assert(sizeof(MapRecord) == 112);
+static_assert(sizeof(MapRecord) == 96);
 
 /// Twin of MapCount in map_count.glsl.
 struct MapCount {

@@ -49,8 +49,6 @@ MapRecord record_along(std::uint32_t axis, const MapBox& box) {
     q.w = -deep * box.low[depth];
     MapProjection projection;
     projection.map_from_world = glm::transpose(glm::mat4(x, y, q, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
-    projection.eye[depth] = -1.0f;
-    projection.eye.w = 0.0f;
     projection.near_w = 0.5f;
     const auto texels = [&](int side) {
         return std::uint32_t(std::max(std::ceil((box.high[side] - box.low[side]) * scale - 1e-3f), 1.0f));

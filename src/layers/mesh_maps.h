@@ -22,8 +22,8 @@ public:
     static constexpr std::uint32_t kAxes = 3;
 
     /// Builds the maps of meshes that are new or have moved since the last call, within the frame. `resolution`:
-    /// texels along the longest side of each mesh's box; half as many, and so on, where the device has no room for
-    /// that. Throws Error if it has none even for coarse ones.
+    /// texels along the longest side of each mesh's box, more where it has many triangles; fewer where the device has no
+    /// room for them. Throws Error if it has none even for coarse ones.
     SurfaceMap bring_up_to_date(Recorder& recorder, const Frame& frame, std::uint32_t resolution);
     /// After the frame has run: true if something did not fit; then the frame must be recorded again.
     bool must_repeat();

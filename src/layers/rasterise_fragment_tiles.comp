@@ -3,13 +3,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
-#include "layers/map_count.glsl"
 #include "layers/objects.glsl"
 #include "layers/triangle_fragments.glsl"
+#define PELLUCID_READS_TILES
+#include "layers/triangle_tiles.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430, set = 0, binding = 8) readonly buffer Tiles { uvec2 tiles[]; };
 layout(push_constant) uniform Push {
     uint counter;
     uint capacity;
@@ -26,7 +26,7 @@ void main() {
     PlacedMesh mesh =
         PlacedMesh(object.world_from_object, object.first_triangle, object.first_corner, object.mirrored, 0u);
     ScreenTriangle t = screen_triangle(mesh, triangle, ivec2(0, first_row), ivec2(frame.width, row_end));
-    ivec2 first = kTile * ivec2(tiles[i].y & 0xffffu, tiles[i].y >> 16);
+    ivec2 first = tile_corner(i);
     ivec2 low = max(first, t.low), high = min(first + kTile - 1, t.high);
     for (int y = low.y; y <= high.y; ++y) {
         for (int x = low.x; x <= high.x; ++x) {

@@ -4,12 +4,11 @@
 // invocation has much more to do than its neighbours.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
-#include "layers/map_count.glsl"
 #include "layers/triangle_fragments.glsl"
+#include "layers/triangle_tiles.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430, set = 0, binding = 8) writeonly buffer Tiles { uvec2 tiles[]; };  // triangle, tile's x | y << 16
 layout(push_constant) uniform Push {
     PlacedMesh object;
     uint triangle_count;
@@ -48,10 +47,5 @@ void main() {
         }
         return;
     }
-    ivec2 first_tile = t.low / kTile, tile_count = t.high / kTile - first_tile + 1;
-    uint at = atomicAdd(counts.tiles, uint(tile_count.x * tile_count.y));
-    for (int i = 0; i < tile_count.x * tile_count.y; ++i) {
-        ivec2 tile = first_tile + ivec2(i % tile_count.x, i / tile_count.x);
-        if (at + uint(i) < tile_capacity) tiles[at + uint(i)] = uvec2(triangle, uint(tile.x) | uint(tile.y) << 16);
-    }
+    cut_into_tiles(triangle, t.low, t.high, tile_capacity);
 }

@@ -1,20 +1,19 @@
 #version 460
-// Lists every triangle of the scene, or of one mesh in its own frame, in the texels of a map: small ones here; large ones are cut into tiles for
-// rasterise_tiles.comp, so that no invocation has much more to do than its neighbours.
+// Lists every triangle of the scene, or of one mesh in its own frame, in the texels of a map: small ones here; large
+// ones are cut into tiles for rasterise_tiles.comp.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
-#include "gpu/octahedral.glsl"
 #include "gpu/vertices.glsl"
 #include "layers/map_triangle_setup.glsl"
 #include "layers/map_records.glsl"
 #include "layers/objects.glsl"
+#include "layers/triangle_tiles.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer MapTriangles { vec4 map_triangles[]; };
-layout(std430, set = 0, binding = 8) writeonly buffer Tiles { uvec2 tiles[]; };  // triangle, tile's x | y << 16
 layout(constant_id = 0) const bool kOfMesh = false;
 layout(constant_id = 1) const bool kOneObject = false;
 layout(push_constant) uniform Push {
@@ -25,7 +24,6 @@ layout(push_constant) uniform Push {
     uint row;  // invocations in a row of the dispatch
 };
 
-const int kTile = 8;              // texels along a side
 const int kSmall = 2 * kTile * kTile;  // texels of a box that one invocation goes through
 
 void main() {
@@ -44,14 +42,12 @@ void main() {
     uvec3 corners = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);
     if (mirrored) corners.yz = corners.zy;
     vec3 v[3];
-    uint normals[3];
     for (int i = 0; i < 3; ++i) {
         v[i] = (space_from_object * vec4(vertex_position(corners[i]), 1.0)).xyz;
-        normals[i] = pack_direction(vertex_normal(corners[i]));
     }
-    map_triangles[3u * triangle] = vec4(v[0], uintBitsToFloat(normals[0]));
-    map_triangles[3u * triangle + 1u] = vec4(v[1] - v[0], uintBitsToFloat(normals[1]));
-    map_triangles[3u * triangle + 2u] = vec4(v[2] - v[0], uintBitsToFloat(normals[2]));
+    map_triangles[3u * triangle] = vec4(v[0], 0.0);
+    map_triangles[3u * triangle + 1u] = vec4(v[1] - v[0], 0.0);
+    map_triangles[3u * triangle + 2u] = vec4(v[2] - v[0], 0.0);
 
     vec4 p[3];
     for (int i = 0; i < 3; ++i) p[i] = map.map_from_space * vec4(v[i], 1.0);
@@ -68,10 +64,5 @@ void main() {
         }
         return;
     }
-    ivec2 first_tile = c.low / kTile, tile_count = c.high / kTile - first_tile + 1;
-    uint at = atomicAdd(counts.tiles, uint(tile_count.x * tile_count.y));
-    for (int i = 0; i < tile_count.x * tile_count.y; ++i) {
-        ivec2 tile = first_tile + ivec2(i % tile_count.x, i / tile_count.x);
-        if (at + uint(i) < tile_capacity) tiles[at + uint(i)] = uvec2(triangle, uint(tile.x) | uint(tile.y) << 16);
-    }
+    cut_into_tiles(triangle, c.low, c.high, tile_capacity);
 }

@@ -3,19 +3,18 @@
 #extension GL_GOOGLE_include_directive : require
 #include "layers/map_triangle_setup.glsl"
 #include "layers/map_records.glsl"
+#define PELLUCID_READS_TILES
+#include "layers/triangle_tiles.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 4) readonly buffer MapTriangles { vec4 map_triangles[]; };
-layout(std430, set = 0, binding = 8) readonly buffer Tiles { uvec2 tiles[]; };
 layout(push_constant) uniform Push {
     uint record_capacity;
     uint tile_capacity;
     uint map_index;
 };
-
-const int kTile = 8;  // twin in rasterise_surfaces.comp
 
 void main() {
     uint group = gl_WorkGroupID.x * gl_NumWorkGroups.y + gl_WorkGroupID.y;
@@ -23,7 +22,7 @@ void main() {
     if (i >= min(counts.tiles, tile_capacity)) return;
     MapRecord map = maps[map_index];
     uint triangle = tiles[i].x;
-    ivec2 first = kTile * ivec2(tiles[i].y & 0xffffu, tiles[i].y >> 16);
+    ivec2 first = tile_corner(i);
     vec3 corner = map_triangles[3u * triangle].xyz;
     vec4 p[3] = vec4[3](map.map_from_space * vec4(corner, 1.0),
                         map.map_from_space * vec4(corner + map_triangles[3u * triangle + 1u].xyz, 1.0),

@@ -51,7 +51,6 @@ const Buffer& counts_on_host(const Frame& frame) {
 MapRecord record_of(const MapProjection& projection) {
     MapRecord record{};
     record.map_from_space = projection.map_from_world;
-    record.eye = projection.eye;
     record.near_w = projection.near_w;
     record.width = projection.extent.width;
     record.height = projection.extent.height;

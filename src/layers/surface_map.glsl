@@ -8,7 +8,6 @@
 // Twin of MapRecord in surface_map.cpp.
 struct MapRecord {
     mat4 map_from_space;   // (X, Y, Q, W)
-    vec4 eye;              // (position, 1), or (minus the direction of all its rays, 0)
     float near_w;
     uint width, height;    // texels
     uint log2_width, log2_height;  // of the pyramid's finest level
@@ -16,8 +15,7 @@ struct MapRecord {
     uint first_triangle;           // of its mesh among all meshes'; 0: of all objects
 };
 
-// A triangle in the space of its map is three vec4: its first corner, and the ways from it to the second and third;
-// their w are the bits of the corners' normals, octahedral, in the frame of the mesh.
+// A triangle in the space of its map is three vec4: its first corner, and the ways from it to the second and third.
 
 // A record: the surface of a triangle crosses its texel at depths of `range`, lowest | highest << 16. Those of a texel
 // lie one after the other.

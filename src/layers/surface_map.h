@@ -13,7 +13,6 @@ namespace pellucid {
 /// Y / W count texels, Q / W is a depth that grows away from the eye, 0..1 over what the map holds.
 struct MapProjection {
     glm::mat4 map_from_world{1.0f};
-    glm::vec4 eye{0.0f};  ///< world: (position, 1), or (minus the direction that all rays have, 0)
     float near_w = 0.0f;  ///< what has a smaller W is not in the map
     vk::Extent2D extent;  ///< texels
 };

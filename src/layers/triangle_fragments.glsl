@@ -118,6 +118,4 @@ void append_fragment(ivec2 pixel, Fragment fragment, uint counter, uint capacity
     nodes[node] = Node(fragment, next);
 }
 
-const int kTile = 8;  // pixels along a side
-
 #endif

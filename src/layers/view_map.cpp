@@ -42,10 +42,8 @@ MapProjection view_projection(const gpu::FrameConstants& view, vk::Extent2D pixe
         w = {0.0f, 0.0f, -1.0f, 0.0f};
     }
     const glm::mat4 map_from_view = glm::transpose(glm::mat4(x, y, q, w));
-    const glm::vec4 forward = -view.world_from_view[2];
     const auto texels = [&](std::uint32_t side) { return std::uint32_t(std::ceil(float(side) * texels_per_pixel)); };
     return {map_from_view * view.view_from_world,
-            parallel ? glm::vec4(-glm::vec3(forward), 0.0f) : view.world_from_view[3],
             parallel ? 0.5f : view.near_plane,
             {texels(pixels.width), texels(pixels.height)}};
 }
