@@ -26,13 +26,21 @@ struct MapCount {
 };
 
 inline constexpr vk::DeviceSize kMapTriangleSize = 48;
-inline constexpr vk::DeviceSize kMapTexelSize = 8;    ///< TexelRecords
-inline constexpr vk::DeviceSize kMapRecordSize = 16;  ///< SurfaceRecord
+inline constexpr vk::DeviceSize kMapTexelSize = 8;   ///< TexelRecords
+inline constexpr vk::DeviceSize kMapFoundSize = 16;  ///< a record before it is sorted into its texel
+inline constexpr vk::DeviceSize kMapRangeSize = 4;
+inline constexpr vk::DeviceSize kMapRecordSize = 8;  ///< SurfaceRecord
+/// Records of a texel start at a multiple of it. Twin of kRangeBlock in surface_map.glsl.
+inline constexpr std::uint64_t kMapRangeBlock = 4;
+constexpr std::uint64_t whole_range_blocks(std::uint64_t records) {
+    return (records + kMapRangeBlock - 1) / kMapRangeBlock * kMapRangeBlock;
+}
 inline constexpr vk::DeviceSize kMapNodeSize = 16;
 inline constexpr vk::DeviceSize kMapTileSize = 8;
-/// In which rays read what the buffers of a SurfaceMap hold, except the maps and objects.
+/// In which rays read what the buffers of a SurfaceMap hold, except the maps and objects: triangles, ranges and nodes,
+/// and what has eight bytes.
 inline constexpr vk::Format kMapFormat = vk::Format::eR32G32B32A32Uint;
-inline constexpr vk::Format kMapTexelFormat = vk::Format::eR32G32Uint;
+inline constexpr vk::Format kMapPairFormat = vk::Format::eR32G32Uint;
 
 /// Its parts lie at the start of their buffers.
 MapRecord record_of(const MapProjection& projection);
@@ -54,7 +62,7 @@ struct MapBuild {
 void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topology, const MapBuild& build,
                const Buffer& counts);
 
-/// How many items of a size a buffer of the device can have.
+/// How many items of a size a buffer of the device can have, in whole blocks.
 std::uint32_t most_map_items(const Device& device, vk::DeviceSize item_size);
 /// `room` if it is enough for what was `needed`, otherwise more. Throws Error, naming `what`, if the device has no
 /// room for it.

@@ -72,7 +72,9 @@ constexpr std::uint32_t kCoarsest = 8;  // texels; what a scene whose maps do no
 
 }  // namespace
 
-SurfaceMap MeshMaps::buffers() const { return {&maps_, &triangles_, &texels_, &records_, &pyramid_, &objects_}; }
+SurfaceMap MeshMaps::buffers() const {
+    return {&maps_, &triangles_, &normals_, &texels_, &ranges_, &records_, &pyramid_, &objects_};
+}
 
 /// Finer where there are many triangles: a ray tests all of those in a texel that it crosses, and along walls seen
 /// edge-on these are many times the mean.
@@ -112,7 +114,7 @@ MeshMaps::Room MeshMaps::place_maps(const GpuScene& scene) {
             place.first_node = room.nodes;
             place.nodes = node_count(record);
             // Most closed surfaces are crossed twice or four times along an axis, over half of their box.
-            if (place.records == 0) place.records = place.texels + scene.meshes[m].triangle_count;
+            if (place.records == 0) place.records = whole_range_blocks(place.texels + scene.meshes[m].triangle_count);
             place.first_record = room.records;
             room.texels += place.texels;
             room.nodes += place.nodes;
@@ -131,7 +133,7 @@ void MeshMaps::lay_out(const Frame& frame) {
     const auto too_much = [&] {
         return room.texels > most_map_items(device, kMapTexelSize) ||
                room.nodes > most_map_items(device, kMapNodeSize) ||
-               std::max(room.records, room.found) > most_map_items(device, kMapRecordSize) ||
+               std::max(room.records, room.found) > most_map_items(device, kMapFoundSize) ||
                tiles_ > most_map_items(device, kMapTileSize);
     };
     // Coarser maps find the same surfaces, in more time.
@@ -149,10 +151,13 @@ void MeshMaps::lay_out(const Frame& frame) {
                         meshes_.size(), room.records, device.info().name));
     }
     found_ = std::max<std::uint64_t>(room.found, 1);
-    make_room(texels_, device, "texels of the meshes' maps", room.texels * kMapTexelSize, kMapTexelFormat);
+    make_room(texels_, device, "texels of the meshes' maps", room.texels * kMapTexelSize, kMapPairFormat);
     make_room(pyramid_, device, "pyramids of the meshes' maps", room.nodes * kMapNodeSize, kMapFormat);
-    make_room(records_, device, "surfaces in the meshes' maps", room.records * kMapRecordSize, kMapFormat);
+    make_room(ranges_, device, "depths in the meshes' maps", room.records * kMapRangeSize, kMapFormat);
+    make_room(records_, device, "surfaces in the meshes' maps", room.records * kMapRecordSize, kMapPairFormat);
     make_room(triangles_, device, "triangles of the meshes' maps", scene.indices.size() / 12 * kMapTriangleSize,
+              kMapFormat);
+    make_room(normals_, device, "normals of the meshes' maps", scene.indices.size() / 12 * kMapTriangleSize,
               kMapFormat);
     make_room(maps_, device, "meshes' maps", meshes_.size() * kAxes * sizeof(MapRecord), {}, true);
     make_room(counts_, device, "counts of the meshes' maps", meshes_.size() * kAxes * sizeof(MapCount), {}, true);
@@ -225,9 +230,10 @@ bool MeshMaps::must_repeat() {
             MapCount count{};
             std::memcpy(&count, counts_.mapped() + (m * kAxes + axis) * sizeof(count), sizeof(count));
             Place& place = meshes_[m].places[axis];
-            if (count.records <= place.records && count.tiles <= tiles_) continue;
+            const std::uint64_t records = std::max(count.records, count.placed);
+            if (records <= place.records && count.tiles <= tiles_) continue;
             // With room to spare, as deforming meshes need a little more in one frame and less in the next.
-            if (count.records > place.records) place.records = count.records + count.records / 4;
+            if (records > place.records) place.records = whole_range_blocks(records + records / 4);
             if (count.tiles > tiles_) tiles_ = count.tiles + count.tiles / 4;
             repeat = true;
         }

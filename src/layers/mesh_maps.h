@@ -62,7 +62,7 @@ private:
     std::vector<std::uint32_t> building_;  ///< meshes, in the frame that is being recorded
     std::uint64_t found_ = 0, tiles_ = 0;  ///< room while a map is built
     bool laid_out_ = false;
-    Buffer maps_, objects_, counts_, triangles_, texels_, records_, pyramid_;
+    Buffer maps_, objects_, counts_, triangles_, normals_, texels_, ranges_, records_, pyramid_;
 };
 
 }  // namespace pellucid

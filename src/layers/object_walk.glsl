@@ -6,7 +6,7 @@
 // Every object whose box the ray meets nearer than the best hit so far is walked, in the order of the scene: what a
 // ray costs grows with the objects whose boxes lie on its way, and with the number of objects by a box test each.
 //
-// Needs: frame, objects (ObjectRecord[]), traits (per object), and what surface_walk.glsl needs; can_meet() is asked
+// Needs: frame, kMapPerMesh (otherwise there is one map of all the scene), objects (ObjectRecord[]), traits (per object), and what surface_walk.glsl needs; can_meet() is asked
 // with triangles numbered over all objects.
 
 // Twin of MappedObject in mesh_maps.cpp.
@@ -17,7 +17,6 @@ struct MappedObject {
     uint first_triangle;  // of the mesh, among all meshes'
 };
 layout(std430, set = 0, binding = 26) readonly buffer MappedObjects { MappedObject mapped_objects[]; };
-layout(constant_id = 8) const bool kMapPerMesh = false;  // otherwise there is one map of all the scene
 
 uint walked_traits;  // of the object that is being walked
 uint walked_shift;   // from a triangle of its mesh to its own

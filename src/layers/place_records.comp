@@ -12,7 +12,8 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
 layout(set = 0, binding = 6) uniform utextureBuffer texels;
 layout(set = 0, binding = 7) uniform utextureBuffer found;
-layout(std430, set = 0, binding = 8) writeonly buffer Records { uvec4 records[]; };
+layout(std430, set = 0, binding = 8) writeonly buffer Ranges { uint ranges[]; };
+layout(std430, set = 0, binding = 9) writeonly buffer Records { SurfaceRecord records[]; };
 layout(constant_id = 0) const bool kOneObject = false;
 layout(push_constant) uniform Push {
     uint found_capacity;
@@ -27,5 +28,7 @@ void main() {
     if (record.x == kNoTexel) return;
     uint object = kOneObject ? 0u : find_object(record.z);
     uint place = texelFetch(texels, int(record.x)).x + record.y;
-    if (place < end) records[place] = uvec4(record.w, record.z, traits[object], 0u);
+    if (place >= end) return;
+    ranges[place] = record.w;
+    records[place] = SurfaceRecord(record.z, traits[object]);
 }

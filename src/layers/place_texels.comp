@@ -15,6 +15,8 @@ layout(push_constant) uniform Push {
 
 const int kBlock = 16;  // texels
 
+uint whole_blocks(uint records) { return (records + kRangeBlock - 1u) / kRangeBlock * kRangeBlock; }
+
 void main() {
     MapRecord map = maps[map_index];
     int low = kBlock * int(gl_GlobalInvocationID.x), count = 1 << (map.log2_width + map.log2_height);
@@ -22,11 +24,11 @@ void main() {
     int high = int(map.first_head) + min(low + kBlock, count);
     low += int(map.first_head);
     uint sum = 0u;
-    for (int i = low; i < high; ++i) sum += texels[i].count;
+    for (int i = low; i < high; ++i) sum += whole_blocks(texels[i].count);
     if (sum == 0u) return;
     uint first = first_record + atomicAdd(counts.placed, sum);
     for (int i = low; i < high; ++i) {
         texels[i].first = first;
-        first += texels[i].count;
+        first += whole_blocks(texels[i].count);
     }
 }

@@ -38,6 +38,9 @@ constexpr std::uint32_t kReduceTexels[] = {
 #include "reduce_texels.comp.inc"
 };
 
+/// Twin of kNoRange in surface_map.glsl.
+constexpr std::uint32_t kNoRange = 0x0000ffff;
+
 constexpr std::uint32_t kGroup = 64;  // of the shaders that go through triangles
 
 std::uint32_t log2_ceil(std::uint32_t size) { return std::uint32_t(std::bit_width(size - 1)); }
@@ -64,8 +67,9 @@ std::uint64_t node_count(const MapRecord& record) { return 4 * texel_count(recor
 
 std::uint32_t most_map_items(const Device& device, vk::DeviceSize item_size) {
     const vk::DeviceSize bytes = std::min<vk::DeviceSize>(device.max_storage_binding(), device.max_allocation());
-    return std::uint32_t(
-        std::min<vk::DeviceSize>(bytes / item_size, std::min(device.limits().maxTexelBufferElements, 0x7ffffffeu)));
+    const vk::DeviceSize most =
+        std::min<vk::DeviceSize>(bytes / item_size, std::min(device.limits().maxTexelBufferElements, 0x7ffffffeu));
+    return std::uint32_t(most / kMapRangeBlock * kMapRangeBlock);
 }
 
 std::uint32_t room_for(const Device& device, std::uint32_t room, std::uint32_t needed, vk::DeviceSize item_size,
@@ -75,7 +79,7 @@ std::uint32_t room_for(const Device& device, std::uint32_t room, std::uint32_t n
     if (needed > most) {
         throw Error(fmt::format("{} {} in the picture; {} has room for {}", needed, what, device.info().name, most));
     }
-    return std::uint32_t(std::min<std::uint64_t>(most, std::uint64_t(needed) + needed / 4));
+    return std::uint32_t(std::min<std::uint64_t>(most, whole_range_blocks(std::uint64_t(needed) + needed / 4)));
 }
 
 void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topology, const MapBuild& build,
@@ -85,13 +89,14 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     const SurfaceMap& map = build.map;
     const MapRecord& record = build.record;
     const Buffer& counters = workspace.buffer("map counters", sizeof(MapCount));
-    const Buffer& found = workspace.buffer("map records found", build.found * kMapRecordSize, false, kMapFormat);
+    const Buffer& found = workspace.buffer("map records found", build.found * kMapFoundSize, false, kMapFormat);
     const Buffer& groups = workspace.buffer("map workgroups", 3 * sizeof(std::uint32_t));
     const Buffer& tiles = workspace.buffer("map tiles", build.tiles * kMapTileSize);
 
     recorder.fill(counters, 0);
     const std::uint32_t texels = std::uint32_t(texel_count(record));
     recorder.fill(*map.texels, record.first_head * kMapTexelSize, texels * kMapTexelSize, 0);
+    recorder.fill(*map.ranges, build.first_record * kMapRangeSize, build.records * kMapRangeSize, kNoRange);
     const std::uint32_t row_groups = workspace.device().limits().maxComputeWorkGroupCount[0];
     const std::uint32_t all_groups = (build.triangle_count + kGroup - 1) / kGroup;
     const std::uint32_t rows = all_groups / row_groups + 1;
@@ -105,8 +110,8 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
         workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}, {build.of_mesh ? 1u : 0u, one_object}),
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
          reads("Vertices", scene.vertices), reads("Maps", *map.maps), writes("MapTriangles", *map.triangles),
-         updates("MapCounters", counters), updates("Texels", *map.texels), writes("Found", found),
-         writes("Tiles", tiles)},
+         writes("MapNormals", *map.normals), updates("MapCounters", counters), updates("Texels", *map.texels),
+         writes("Found", found), writes("Tiles", tiles)},
         Push{build.triangle_count, build.found, build.tiles, build.index, row}, {row, rows});
     const Program& dispatch = workspace.compute({"dispatch_map.comp", kDispatchMap});
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
@@ -121,16 +126,17 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
                      std::array{build.index, build.first_record}, {(texels + 15) / 16, 1});
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
                      std::array{1u, build.found, row_groups}, {1, 1});
-    recorder.compute_indirect(workspace.compute({"place_records.comp", kPlaceRecords}, {one_object}),
-                              {reads("Frame", frame.constants), reads("Objects", scene.objects),
-                               reads("Traits", topology.traits), updates("MapCounters", counters),
-                               reads("texels", *map.texels), reads("found", found), writes("Records", *map.records)},
-                              std::array{build.found, build.first_record + build.records}, groups);
+    recorder.compute_indirect(
+        workspace.compute({"place_records.comp", kPlaceRecords}, {one_object}),
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Traits", topology.traits),
+         updates("MapCounters", counters), reads("texels", *map.texels), reads("found", found),
+         writes("Ranges", *map.ranges), writes("Records", *map.records)},
+        std::array{build.found, build.first_record + build.records}, groups);
     recorder.copy(counters, counts, sizeof(MapCount), build.index * sizeof(MapCount));
 
     const vk::Extent2D padded{1u << record.log2_width, 1u << record.log2_height};
     recorder.compute(workspace.compute({"summarise_texels.comp", kSummariseTexels}),
-                     {reads("Maps", *map.maps), reads("texels", *map.texels), reads("records", *map.records),
+                     {reads("Maps", *map.maps), reads("texels", *map.texels), reads("ranges", *map.ranges),
                       writes("Pyramid", *map.pyramid)},
                      build.index, padded);
     for (std::uint32_t level = 1; level <= std::min(record.log2_width, record.log2_height); ++level) {
@@ -147,7 +153,7 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     const MapRecord record = record_of(projection);
     const std::uint64_t texels = texel_count(record);
     if (map_pool_.records == 0) {
-        map_pool_.records = std::uint32_t(std::min<std::uint64_t>(4 * texels, most_map_items(device, kMapRecordSize)));
+        map_pool_.records = std::uint32_t(std::min<std::uint64_t>(4 * texels, most_map_items(device, kMapFoundSize)));
         map_pool_.tiles =
             std::uint32_t(std::min<std::uint64_t>(texels / 4 + 1024, most_map_items(device, kMapTileSize)));
     }
@@ -159,8 +165,10 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     const std::uint64_t triangles = std::max<std::uint64_t>(frame.scene.triangle_count, 1);
     const SurfaceMap map{&maps,
                          buffer("map triangles", triangles * kMapTriangleSize, kMapFormat),
-                         buffer("map texels", texels * kMapTexelSize, kMapTexelFormat),
-                         buffer("map records", map_pool_.records * kMapRecordSize, kMapFormat),
+                         buffer("map normals", triangles * kMapTriangleSize, kMapFormat),
+                         buffer("map texels", texels * kMapTexelSize, kMapPairFormat),
+                         buffer("map ranges", map_pool_.records * kMapRangeSize, kMapFormat),
+                         buffer("map records", map_pool_.records * kMapRecordSize, kMapPairFormat),
                          buffer("map pyramid", node_count(record) * kMapNodeSize, kMapFormat),
                          nullptr};
     build_map(recorder, frame, topology,
@@ -175,9 +183,10 @@ bool LayerSource::must_enlarge_map(const Frame& frame) {
     if (!mapped_) return false;
     MapCount count{};
     std::memcpy(&count, counts_on_host(frame).mapped(), sizeof(count));
-    if (count.records <= map_pool_.records && count.tiles <= map_pool_.tiles) return false;
+    const std::uint32_t records = std::max(count.records, count.placed);
+    if (records <= map_pool_.records && count.tiles <= map_pool_.tiles) return false;
     const Device& device = frame.workspace.device();
-    map_pool_.records = room_for(device, map_pool_.records, count.records, kMapRecordSize, "surfaces");
+    map_pool_.records = room_for(device, map_pool_.records, records, kMapFoundSize, "surfaces");
     map_pool_.tiles = room_for(device, map_pool_.tiles, count.tiles, kMapTileSize, "tiles of large triangles");
     return true;
 }

@@ -15,20 +15,20 @@ struct MapRecord {
     uint first_triangle;           // of its mesh among all meshes'; 0: of all objects
 };
 
-// A triangle in the space of its map is three vec4: its first corner, and the ways from it to the second and third.
+// A triangle in the space of its map is three vec4: its first corner, and the ways from it to the second and third;
+// its vertices' normals, unit and outward, are three more.
 
-// A record: the surface of a triangle crosses its texel at depths of `range`, lowest | highest << 16. Those of a texel
-// lie one after the other.
+// A record says that the surface of a triangle crosses its texel. Its depths there, lowest | highest << 16, lie in a
+// list of their own, which rays read four at a time; kNoRange where there is no record.
 struct SurfaceRecord {
-    uint range;
     uint triangle;
     uint traits;    // of its object, object_traits.glsl
-    uint reserved;
 };
-// Where they lie.
+// Where those of a texel lie, one after the other; `first` is a multiple of kRangeBlock.
 struct TexelRecords {
     uint first, count;
 };
+const uint kRangeBlock = 4u;
 const uint kNoTexel = 0xffffffffu;
 
 // Depths in 16 bits.

@@ -26,7 +26,9 @@ struct MapProjection {
 struct SurfaceMap {
     const Buffer* maps;       ///< MapRecord[]
     const Buffer* triangles;  ///< see surface_map.glsl; in the world, or in the frames of meshes
+    const Buffer* normals;    ///< of their corners, likewise
     const Buffer* texels;     ///< TexelRecords[]: per texel, where its records lie
+    const Buffer* ranges;     ///< depths of each record
     const Buffer* records;    ///< SurfaceRecord[]
     const Buffer* pyramid;    ///< uvec4[]: levels from the finest on
     const Buffer*

@@ -4,18 +4,7 @@
 // What layer records leave out, interpolated between the vertices of their triangles: normals, and whatever else is
 // known per vertex.
 // Needs: frame (FrameConstants), objects (ObjectRecord[]), gpu/vertices.glsl.
-
-// Weights of a triangle's corners where a line meets its plane (Moeller & Trumbore 1997); kept to the triangle,
-// which a rasteriser's rounding can leave a little. `a` is the first corner seen from the line's origin.
-vec3 corner_weights(vec3 direction, vec3 a, vec3 edge_b, vec3 edge_c) {
-    vec3 p = cross(direction, edge_c), q = cross(a, edge_b);
-    float determinant = dot(edge_b, p);
-    vec2 w = vec2(-dot(a, p), -dot(direction, q)) / determinant;
-    if (!(abs(w.x) + abs(w.y) < 1e6)) w = vec2(1.0 / 3.0);  // the triangle is seen edge-on
-    w = max(w, vec2(0.0));
-    w /= max(w.x + w.y, 1.0);
-    return vec3(1.0 - w.x - w.y, w);
-}
+#include "layers/corner_weights.glsl"
 
 // A point of a triangle, between its corners.
 struct SurfacePoint {

@@ -7,7 +7,7 @@
 // coordinate. At a node of the pyramid none of whose depth ranges the ray passes, it skips the node and climbs;
 // otherwise it descends. In a texel the records whose ranges it passes are intersected exactly.
 //
-// Needs: maps, map_triangles, texels, records, pyramid (surface_map.glsl), and
+// Needs: maps, map_triangles, texels, ranges, records, pyramid (surface_map.glsl), and
 // bool can_meet(uint traits, bool leaving, uint triangle): whether a surface may be met in that sense.
 #include "layers/surface_map.glsl"
 
@@ -17,11 +17,6 @@ const float kFarthest = 1e30;
 // Nodes and records that a ray may look at in one pass: the software driver ends all loops of an invocation, without a
 // word, after 65,535 turns, and eight invocations at a time take the turns of each in step.
 const uint kMostVisits = 8000u;
-
-SurfaceRecord read_record(uint number) {
-    uvec4 words = texelFetch(records, int(number));
-    return SurfaceRecord(words.x, words.y, words.z, words.w);
-}
 
 struct MapRay {
     vec3 a, way;          // map space; from a on all of the way
@@ -144,17 +139,20 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         float t_max = distance_at(ray, min(s_out + nudge, 1.0));
         t_max += 1e-5 * abs(t_max);
         uvec2 own = texelFetch(texels, int(map.first_head) + order).xy;
-        uint number = own.x, end = own.x + own.y;
+        uint block = own.x / kRangeBlock, end = (own.x + own.y + kRangeBlock - 1u) / kRangeBlock;
         visits += own.y;
         if (visits > kMostVisits) break;
-        SurfaceRecord record;
+        uint passed = 0u;  // of a block, those whose ranges the ray passes: a bit each
         for (;;) {
-            uint triangle = PELLUCID_NO_TRIANGLE;
-            while (triangle == PELLUCID_NO_TRIANGLE && number < end) {
-                record = read_record(number++);
-                if (max(int(record.range & 0xffffu), low) <= min(int(record.range >> 16), high)) triangle = record.triangle;
+            while (passed == 0u && block < end) {
+                ivec4 depths = ivec4(texelFetch(ranges, int(block++)));
+                bvec4 passes = lessThanEqual(max(depths & 0xffff, ivec4(low)), min((depths >> 16) & 0xffff, ivec4(high)));
+                passed = uint(passes.x) | uint(passes.y) << 1 | uint(passes.z) << 2 | uint(passes.w) << 3;
             }
-            if (triangle == PELLUCID_NO_TRIANGLE) break;
+            if (passed == 0u) break;
+            uvec2 record = texelFetch(records, int(block * kRangeBlock - kRangeBlock) + findLSB(passed)).xy;
+            passed &= passed - 1u;
+            uint triangle = record.x, own_traits = record.y;
             int at = 3 * int(triangle);
             vec4 a = uintBitsToFloat(texelFetch(map_triangles, at)), b = uintBitsToFloat(texelFetch(map_triangles, at + 1)),
                  c = uintBitsToFloat(texelFetch(map_triangles, at + 2));
@@ -167,8 +165,8 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
             float least = min(weights.x, min(weights.y, weights.z));
             bool inside = least >= -kSlack;
             bool leaving = determinant < 0.0;
-            if (inside && t > t_min && t <= t_max && can_meet(record.traits, leaving, triangle))
-                take_nearer(hit, SurfaceHit(t, triangle, record.traits, leaving));
+            if (inside && t > t_min && t <= t_max && can_meet(own_traits, leaving, triangle))
+                take_nearer(hit, SurfaceHit(t, triangle, own_traits, leaving));
         }
         if (hit.t < kFarthest) break;
         s = s_out;

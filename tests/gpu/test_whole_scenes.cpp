@@ -311,6 +311,16 @@ TEST_F(WholeScenes, WhiteFurnace) {
     }
 }
 
+// How many surfaces a dispatch follows a path to is a matter of time: not a bit of the picture depends on it.
+TEST_F(WholeScenes, SurfacesPerPassChangeTheTimeOnly) {
+    set(nested(), Environment{});
+    const Image one_by_one = draw("visibility-layers", 2, {{"surfaces-per-pass", 1}}).radiance;
+    for (const double surfaces : {3.0, 16.0}) {
+        const Image drawn = draw("visibility-layers", 2, {{"surfaces-per-pass", surfaces}}).radiance;
+        EXPECT_EQ(drawn.pixels, one_by_one.pixels) << surfaces;
+    }
+}
+
 // Both estimate the same light, from rays spread over the pixel: per pixel they differ by their noise, and in the mean
 // by so much less. Choices that go together at two interfaces of a path show in the noise: it then falls more slowly
 // than the samples grow (1.1 to 1.2 here, 1.9 to 2.0 with 1024).

@@ -3,19 +3,20 @@
 
 #include "techniques/visibility_layers/visibility_layers.h"
 
+#include <algorithm>
 #include <array>
 
 namespace pellucid {
 namespace {
 
-constexpr std::array kParameters = {
-    ParameterInfo{"resolution", "", 512, 2, 8192, true, "texels of a mesh's maps along the longest side of its box"},
-    kPathParameters[0],
-    kPathParameters[1],
-    kPathParameters[2],
-    kPathParameters[3],
-    kPathParameters[4],
-};
+constexpr ParameterInfo kResolution{
+    "resolution", "", 512, 2, 8192, true, "texels of a mesh's maps along the longest side of its box"};
+
+constexpr auto kParameters = [] {
+    std::array<ParameterInfo, kPathParameters.size() + 1> all{kResolution};
+    std::copy(kPathParameters.begin(), kPathParameters.end(), all.begin() + 1);
+    return all;
+}();
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
     const SurfaceMap map = layers.source.map_meshes(recorder, frame, parameters.whole("resolution"));

@@ -2,6 +2,7 @@
 // View rays, and what they do at the first surface of glass.
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/visibility_layers/visibility_bindings.glsl"
+#include "layers/surface_map.glsl"
 
 layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
 layout(std430, set = 0, binding = 4) readonly buffer Solids { uint solids[]; };  // per rank: its material
@@ -9,6 +10,9 @@ layout(set = 0, binding = 9, r32ui) readonly uniform uimage2DArray layer_triangl
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray path_radiance;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray reflected_radiance;
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
+
+layout(set = 0, binding = 15) uniform utextureBuffer map_triangles;
+layout(set = 0, binding = 29) uniform utextureBuffer map_normals;
 
 #include "techniques/visibility_layers/path_state.glsl"
 #include "techniques/visibility_layers/cross_surface.glsl"

@@ -1,8 +1,8 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_CROSS_SURFACE_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_CROSS_SURFACE_GLSL
 
-// What a path does at a surface. Needs: path_state.glsl, gpu/vertices.glsl, objects, materials, solids, find_object(),
-// threshold, most_branches, branch_capacity.
+// What a path does at a surface. Needs: path_state.glsl, objects, materials, solids, map_triangles, map_normals
+// (surface_map.glsl), threshold, most_branches, branch_capacity.
 #include "gpu/object_traits.glsl"
 #include "techniques/visibility_layers/microfacets.glsl"
 
@@ -14,17 +14,26 @@ struct Surface {
     uint material;
 };
 
+vec3 map_vector(utextureBuffer vectors, int number) { return uintBitsToFloat(texelFetch(vectors, number)).xyz; }
+
 Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
     ObjectRecord o = objects[object];
-    uint corner = o.first_corner + 3u * (triangle - o.first_triangle);
-    uvec3 v = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);
-    vec3 a = (o.world_from_object * vec4(vertex_position(v.x), 1.0)).xyz;
-    vec3 edge_b = (o.world_from_object * vec4(vertex_position(v.y), 1.0)).xyz - a;
-    vec3 edge_c = (o.world_from_object * vec4(vertex_position(v.z), 1.0)).xyz - a;
+    int at = 3 * int(kMapPerMesh ? triangle - o.first_triangle + o.first_corner / 3u : triangle);
+    vec3 a = map_vector(map_triangles, at), edge_b = map_vector(map_triangles, at + 1),
+         edge_c = map_vector(map_triangles, at + 2);
+    if (kMapPerMesh) {
+        a = (o.world_from_object * vec4(a, 1.0)).xyz;
+        edge_b = mat3(o.world_from_object) * edge_b;
+        edge_c = mat3(o.world_from_object) * edge_c;
+    }
     vec3 weights = corner_weights(direction, a - origin, edge_b, edge_c);
-    vec3 normal = mat3(o.world_from_object_normal) * (weights.x * vertex_normal(v.x) + weights.y * vertex_normal(v.y) +
-                                                      weights.z * vertex_normal(v.z));
-    vec3 geometric = cross(edge_b, edge_c) * (o.mirrored != 0u ? -1.0 : 1.0);
+    vec3 normal = weights.x * map_vector(map_normals, at) + weights.y * map_vector(map_normals, at + 1) +
+                  weights.z * map_vector(map_normals, at + 2);
+    vec3 geometric = cross(edge_b, edge_c);
+    if (kMapPerMesh) {
+        normal = mat3(o.world_from_object_normal) * normal;
+        geometric *= o.mirrored != 0u ? -1.0 : 1.0;
+    }
     return Surface(a + weights.y * edge_b + weights.z * edge_c,
                    normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material);
 }

@@ -21,6 +21,7 @@ layout(set = 0, binding = 16) uniform texture2D filtered_environment;
 layout(std430, set = 0, binding = 17) readonly buffer Appearance { float appearance[]; };
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 
+#include "gpu/vertices.glsl"
 #include "techniques/visibility_layers/path_state.glsl"
 #include "techniques/visibility_layers/microfacets.glsl"
 #include "gpu/opaque_surface.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Takes every path on to the next surface, and past it if that is glass; where there is none, or an opaque one, the
-// path ends.
+// Takes every path on to the next surface, or the next few, and past them if they are glass; where there is none, or an
+// opaque one, the path ends.
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/visibility_layers/visibility_bindings.glsl"
 #include "layers/surface_map.glsl"
@@ -9,8 +9,10 @@ layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; }; 
 layout(std430, set = 0, binding = 4) readonly buffer Solids { uint solids[]; };  // per rank: its material
 layout(std430, set = 0, binding = 14) readonly buffer Maps { MapRecord maps[]; };
 layout(set = 0, binding = 15) uniform utextureBuffer map_triangles;
+layout(set = 0, binding = 29) uniform utextureBuffer map_normals;
 layout(set = 0, binding = 16) uniform utextureBuffer texels;
-layout(set = 0, binding = 17) uniform utextureBuffer records;
+layout(set = 0, binding = 17) uniform utextureBuffer ranges;
+layout(set = 0, binding = 28) uniform utextureBuffer records;
 layout(set = 0, binding = 22) uniform utextureBuffer pyramid;
 // Twin of ObjectBox in scene_topology.cpp.
 struct ObjectBox {
@@ -22,6 +24,8 @@ struct ObjectBox {
 layout(std430, set = 0, binding = 27) readonly buffer Boxes { ObjectBox boxes[]; };  // per object, world
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
+
+layout(constant_id = 10) const uint kSurfacesPerPass = 1u;
 
 #include "techniques/visibility_layers/path_state.glsl"
 #include "techniques/visibility_layers/cross_surface.glsl"
@@ -67,12 +71,8 @@ int boundary_rank(SurfaceHit hit, uint before, uint beyond) {
     return rank == before || rank == beyond ? int(rank) : -1;
 }
 
-void main() {
-    ivec2 texel;
-    if (!listed_pixel(texel)) return;
-    uint i = uint(texel.y) * frame.width + uint(texel.x);
-    seed = hash(uvec3(texel, 1u)).x;
-    Path path = load_path(i);
+// Takes the path to the next surface, and past it. False: it ends there, or nowhere.
+bool go_on(uint i, inout Path path) {
     uint rank = filling_rank();
     SurfaceHit hit;
     bool gave_up;
@@ -98,11 +98,7 @@ void main() {
         path.status = kStatusEventLimit;
         found = false;
     }
-    if (!found) {
-        save_path(i, path);
-        append_ended(texel);
-        return;
-    }
+    if (!found) return false;
     // Where boundaries of two objects lie at one place, the order in which they are found is chance: both are crossed
     // at once. What a solid stands on is outside of it.
     bool touching = false;
@@ -135,7 +131,18 @@ void main() {
     if (ends) mark |= kMetOpaque;
     else if (!glass) pass_pane(path, surface);
     else if (beyond != before) meet_boundary(i, path, surface, hit.leaving, filling_iors(before), filling_iors(beyond), false);
+    return !ends;
+}
+
+void main() {
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
+    uint i = uint(texel.y) * frame.width + uint(texel.x);
+    seed = hash(uvec3(texel, 1u)).x;
+    Path path = load_path(i);
+    bool goes_on = true;
+    for (uint k = 0u; k < kSurfacesPerPass && goes_on; ++k) goes_on = go_on(i, path);
     save_path(i, path);
-    if (ends) append_ended(texel);
-    else append_next(texel);
+    if (goes_on) append_next(texel);
+    else append_ended(texel);
 }

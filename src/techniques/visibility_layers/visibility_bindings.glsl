@@ -12,15 +12,15 @@ layout(constant_id = 3) const bool kStochastic = false;   // one way at random
 layout(constant_id = 4) const bool kDispersive = false;   // some glass disperses
 layout(constant_id = 5) const bool kRough = false;        // some glass is rough
 
+layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is one map of all the scene
 layout(constant_id = 9) const bool kTouching = false;     // surfaces of two objects may lie at one place
 
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };
-#include "gpu/vertices.glsl"
 #include "layers/layers.glsl"
 #include "layers/objects.glsl"
 #include "layers/pixel_list.glsl"
-#include "layers/surface_normal.glsl"
+#include "layers/corner_weights.glsl"
 #include "techniques/refraction.glsl"
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;

@@ -18,8 +18,8 @@ constexpr std::uint32_t kEndPaths[] = {
 #include "end_paths.comp.inc"
 };
 
-/// Passes beyond those of the longest path, for each branch: most branches leave soon.
-constexpr std::uint32_t kPassesPerBranch = 4;
+/// That there is time for beyond those of the longest path, for each branch: most branches leave soon.
+constexpr std::uint32_t kSurfacesPerBranch = 4;
 
 /// Twin of Push in visibility_bindings.glsl.
 struct Push {
@@ -29,6 +29,11 @@ struct Push {
     float coincidence;
     std::uint32_t closing;
 };
+
+/// Surfaces that a path meets in one dispatch. Each dispatch waits for its longest path: the fewer, the less a GPU idles;
+/// on a CPU device eight paths in step wait for the longest among them, so those that have ended had better be left out.
+constexpr std::uint32_t kSurfacesPerPass = 16;
+constexpr std::uint32_t kSurfacesPerPassOnCpu = 4;
 
 enum class Ways { kTransmitted, kTree, kStochastic };
 
@@ -44,6 +49,10 @@ public:
         push_.most_branches = given >= 0.0 ? std::uint32_t(given) : many ? 16 : 0;
         push_.threshold = float(parameters["threshold"]);
         push_.coincidence = 1e-6f * (glm::length(frame.scene.bounds.center) + frame.scene.bounds.radius);
+        const std::uint32_t given_surfaces = parameters.whole("surfaces-per-pass");
+        surfaces_per_pass_ = given_surfaces > 0                  ? given_surfaces
+                             : frame.workspace.device().is_cpu() ? kSurfacesPerPassOnCpu
+                                                                 : kSurfacesPerPass;
         ways_ = parameters.whole("one-branch") != 0 ? Ways::kStochastic
                 : push_.most_branches > 0           ? Ways::kTree
                                                     : Ways::kTransmitted;
@@ -57,7 +66,11 @@ public:
 
     Refraction follow() {
         begin();
-        const std::uint32_t passes = push_.max_events + push_.most_branches * kPassesPerBranch + 1;
+        const auto in_passes = [&](std::uint32_t surfaces) {
+            return (surfaces + surfaces_per_pass_ - 1) / surfaces_per_pass_;
+        };
+        const std::uint32_t passes = in_passes(push_.max_events + 1) +
+                                     push_.most_branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1);
         // Ends that lead to nothing else are done all at once.
         const bool at_once = ways_ != Ways::kTree && frame_.scene.opaque.empty();
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
@@ -76,7 +89,7 @@ public:
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::array<std::uint32_t, 10> constants() const {
+    std::array<std::uint32_t, 11> constants() const {
         const GpuScene& scene = frame_.scene;
         return {words_,
                 scene.object_count == 1 ? 1u : 0u,
@@ -87,11 +100,12 @@ private:
                 frame_.environment_kind,
                 scene.opaque.empty() ? 0u : 1u,
                 map_.objects != nullptr ? 1u : 0u,
-                topology_.all_alone ? 0u : 1u};
+                topology_.all_alone ? 0u : 1u,
+                surfaces_per_pass_};
     }
     const Program& program(ShaderCode shader) {
         const auto c = constants();
-        return frame_.workspace.compute(shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9]});
+        return frame_.workspace.compute(shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10]});
     }
 
     void begin() {
@@ -101,12 +115,13 @@ private:
         recorder_.compute_indirect(
             program({"begin_paths.comp", kBeginPaths}),
             {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
-             reads("Indices", scene.indices), reads("Vertices", scene.vertices), reads("Traits", topology_.traits),
-             reads("Solids", topology_.materials), reads("layer_triangle", layers_.triangle),
-             reads("PixelList", layers_.covered), updates("NextList", *next_), updates("PathPlaces", places_),
-             updates("PathWays", ways_buffer_), updates("PathWeights", weights_), updates("PathMedia", media_),
-             updates("Waiting", waiting_), updates("Branches", *branches_),
-             writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)},
+             reads("map_triangles", *map_.triangles), reads("map_normals", *map_.normals),
+             reads("Traits", topology_.traits), reads("Solids", topology_.materials),
+             reads("layer_triangle", layers_.triangle), reads("PixelList", layers_.covered),
+             updates("NextList", *next_), updates("PathPlaces", places_), updates("PathWays", ways_buffer_),
+             updates("PathWeights", weights_), updates("PathMedia", media_), updates("Waiting", waiting_),
+             updates("Branches", *branches_), writes("path_radiance", *refraction_.radiance),
+             writes("reflected_radiance", reflected_)},
             push_, layers_.covered);
     }
 
@@ -118,8 +133,6 @@ private:
                                    {reads("Frame", frame_.constants),
                                     reads("Objects", scene.objects),
                                     reads("Materials", scene.materials),
-                                    reads("Indices", scene.indices),
-                                    reads("Vertices", scene.vertices),
                                     reads("Solids", topology_.materials),
                                     reads("PixelList", list),
                                     updates("NextList", *next_),
@@ -132,7 +145,9 @@ private:
                                     updates("Branches", *branches_),
                                     reads("Maps", *map_.maps),
                                     reads("map_triangles", *map_.triangles),
+                                    reads("map_normals", *map_.normals),
                                     reads("texels", *map_.texels),
+                                    reads("ranges", *map_.ranges),
                                     reads("records", *map_.records),
                                     reads("pyramid", *map_.pyramid),
                                     reads("Traits", topology_.traits),
@@ -182,6 +197,7 @@ private:
     Ways ways_ = Ways::kTransmitted;
     Push push_{};
     std::uint32_t words_ = 1;
+    std::uint32_t surfaces_per_pass_ = 1;
     const Buffer& places_ = frame_.workspace.buffer("path places", pixels() * 16);
     const Buffer& ways_buffer_ = frame_.workspace.buffer("path ways", pixels() * 16);
     const Buffer& weights_ = frame_.workspace.buffer("path weights", pixels() * 16);

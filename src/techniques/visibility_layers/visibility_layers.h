@@ -16,6 +16,8 @@ inline constexpr std::array kPathParameters = {
     ParameterInfo{"threshold", "", 0.01, 0, 1, false, "share of the light that a reflected way carries at least"},
     ParameterInfo{"one-branch", "", 0, 0, 1, true,
                   "1: each sample takes one way at random, refracted or reflected, and through rough glass one facet"},
+    ParameterInfo{"surfaces-per-pass", "", 0, 0, 64, true,
+                  "surfaces that a path meets in one dispatch, which changes the time only; 0: chosen for the device"},
     ParameterInfo{"layers", "", 1, 1, 64, true,
                   "surfaces along a view ray that the AOV `layers` counts at most; paths look at all that there are"},
 };
