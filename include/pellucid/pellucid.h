@@ -13,3 +13,4 @@
 #include <pellucid/renderer.h>
 #include <pellucid/scene.h>
 #include <pellucid/technique.h>
+#include <pellucid/thickness.h>

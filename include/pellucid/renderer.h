@@ -8,6 +8,7 @@
 #include <pellucid/refracted_path.h>
 #include <pellucid/scene.h>
 #include <pellucid/technique.h>
+#include <pellucid/thickness.h>
 
 #include <array>
 #include <cstdint>
@@ -59,6 +60,7 @@ struct RenderSettings {
     /// False: the samples stand for frames that follow each other, each drawn with what a picture of one sample would
     /// spend; for timing. A technique may do more for each sample of a still.
     bool still = true;
+    ThicknessSettings thickness;  ///< of translucent objects that lights shine through
     ToneMap tonemap = ToneMap::kNeutral;
     float exposure_ev = 0.0f;       ///< stops; radiance is multiplied by 2^exposure_ev
     std::vector<std::string> aovs;  ///< names of aov_infos() wanted in RenderResult::aovs
@@ -91,6 +93,7 @@ struct RenderResult {
     /// first frame of a size includes compiling the shaders.
     std::vector<std::vector<PassTime>> frames;
     std::uint32_t layer_passes = 0;                    ///< geometry passes that built the last frame's layers
+    std::uint64_t cut_rays = 0;                        ///< ThicknessResult::cut_rays of the first frame, all lights
     std::uint64_t covered = 0;                         ///< pixels whose first surface is refracting glass
     std::array<std::uint64_t, kStatusCount> status{};  ///< covered pixels by Status
     std::uint64_t side_conflicts = 0;   ///< covered pixels where shading and geometric normal disagreed about the side
@@ -126,6 +129,9 @@ public:
     /// settings out of range, unknown names, or sizes beyond the device, DeviceError for a technique that
     /// the device does not offer.
     RenderResult render(const RenderSettings& settings);
+    /// The length of solid between a light and each visible point of a translucent surface, through pixel centres, as
+    /// render() finds it. Throws Error for settings out of range, or if there is no such light.
+    ThicknessResult measure_thickness(const ThicknessRequest& request);
     /// Throws what render() would throw at once for these settings.
     void check(const RenderSettings& settings) const;
 

@@ -52,10 +52,17 @@ struct Material {
     glm::vec3 attenuation_color{1.0f};  ///< 0..1, what is left of white light after attenuation_distance
     float attenuation_distance = std::numeric_limits<float>::infinity();  ///< metres, > 0
 
+    /// KHR_materials_diffuse_transmission: share of the diffusely scattered light that leaves on the other side, 0..1.
+    /// Through a solid it is weakened by sigma_a() along the way that light from a Light takes in it.
+    float diffuse_transmission = 0.0f;
+    glm::vec3 diffuse_transmission_color{1.0f};  ///< linear RGB, 0..1; tints that light
+
     bool transmissive() const { return transmission > 0.0f; }
+    /// An opaque surface that lets light of lights through, scattered.
+    bool translucent() const { return diffuse_transmission > 0.0f && !transmissive() && !unlit && metallic < 1.0f; }
     /// Bounds a solid of glass, as opposed to an opaque or a thin-walled surface.
     bool refractive() const { return transmissive() && thickness > 0.0f; }
-    /// Absorption coefficient per metre, `-ln(attenuation_color) / attenuation_distance`.
+    /// Absorption (translucent: extinction) coefficient per metre, `-ln(attenuation_color) / attenuation_distance`.
     glm::vec3 sigma_a() const;
 };
 
@@ -136,11 +143,21 @@ struct Bounds {
 /// Bounds of all objects: centre of the box, radius to the farthest vertex.
 Bounds scene_bounds(const Scene& scene);
 
+/// What makes a solid wax, jade or skin.
+struct Translucency {
+    glm::vec3 color{1.0f};  ///< 0..1, what is left of white light after `distance`
+    float distance = 1.0f;  ///< m, > 0
+};
+/// Makes every material of the scene translucent: opaque and no metal, half of what it scatters on either side. Its
+/// base colour, roughness and textures stay. Throws Error for values out of range.
+void make_translucent(Scene& scene, const Translucency& translucency);
+
 /// How files without materials of their own become glass, how meshes are repaired, and what animated files show.
 struct LoadOptions {
     std::optional<float> ior;                    ///< >= 1; overrides every refractive material
     std::optional<glm::vec3> attenuation_color;  ///< 0..1; likewise
     std::optional<float> attenuation_distance;   ///< metres, > 0; likewise
+    std::optional<Translucency> translucent;     ///< see make_translucent()
     /// Made normals are shared across edges bent less than this (radians, 0..pi).
     float crease_angle = 3.14159265f;
     /// Replace normals that a mesh file brings along by made ones.

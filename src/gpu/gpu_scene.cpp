@@ -120,13 +120,19 @@ gpu::MaterialRecord material_record(const Material& material, TextureTable& text
     record.metallic = material.metallic;
     record.roughness = material.roughness;
     record.dispersion = material.dispersion;
+    if (material.translucent()) {
+        const float share = material.diffuse_transmission;
+        record.translucent = 1;
+        record.diffuse_transmission = glm::vec4(share * material.diffuse_transmission_color, 0.0f);
+        record.base_color = glm::vec4((1.0f - share) * glm::vec3(material.base_color), material.base_color.a);
+    }
     return record;
 }
 
-std::vector<glm::vec3> refractive_box_corners(const Scene& scene) {
+std::vector<glm::vec3> box_corners(const Scene& scene, bool (Material::*which)() const) {
     std::vector<glm::vec3> corners;
     for (const Object& object : scene.objects) {
-        if (!scene.materials[std::size_t(object.material)].refractive()) continue;
+        if (!(scene.materials[std::size_t(object.material)].*which)()) continue;
         append_box_corners(scene.meshes[std::size_t(object.mesh)], object.world_from_object, corners);
     }
     return corners;
@@ -135,7 +141,8 @@ std::vector<glm::vec3> refractive_box_corners(const Scene& scene) {
 }  // namespace
 
 GpuScene::GpuScene(const Device& device, const Scene& scene)
-    : bounds(scene_bounds(scene)), refractive_corners(refractive_box_corners(scene)) {
+    : bounds(scene_bounds(scene)), refractive_corners(box_corners(scene, &Material::refractive)),
+      translucent_corners(box_corners(scene, &Material::translucent)) {
     const Geometry geometry = join_meshes(scene);
     TextureTable texture_table(scene);
     std::vector<gpu::MaterialRecord> material_records;
@@ -165,6 +172,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
                             std::uint32_t(object_records.size())};
         auto& list = material.refractive() ? refractive : material.transmissive() ? thin_walled : opaque;
         list.push_back(call);
+        if (material.translucent()) translucent.push_back(call);
         rough = rough || (material.transmissive() ? material.roughness > 0.0f : !material.unlit);
         if (material.refractive()) {
             rough_glass = rough_glass || material.roughness > 0.0f;
@@ -205,7 +213,8 @@ void GpuScene::move_vertices(const Device& device, const Scene& scene, std::span
     // First, so that nothing derived from the old shape passes for current if an upload fails.
     ++moves;
     bounds = scene_bounds(scene);
-    refractive_corners = refractive_box_corners(scene);
+    refractive_corners = box_corners(scene, &Material::refractive);
+    translucent_corners = box_corners(scene, &Material::translucent);
     const bool glass = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
         return scene.materials[std::size_t(object.material)].refractive() &&
                std::find(moved.begin(), moved.end(), object.mesh) != moved.end();

@@ -60,10 +60,12 @@ struct GpuScene {
     bool rough_glass = false;                   ///< some refracting object is rough
     bool dispersive = false;                    ///< some refracting object disperses
     std::vector<DrawCall> opaque;
-    bool rough = false;  ///< something reflects or refracts a blurred environment
+    std::vector<DrawCall> translucent;  ///< those of them that let light of lights through
+    bool rough = false;                 ///< something reflects or refracts a blurred environment
     Bounds bounds;
-    std::vector<glm::vec3> refractive_corners;  ///< corners of the refractive objects' boxes, world
-    std::optional<SceneTopology> topology;      ///< see prepare_topology()
+    std::vector<glm::vec3> refractive_corners;   ///< corners of the refractive objects' boxes, world
+    std::vector<glm::vec3> translucent_corners;  ///< of the translucent ones
+    std::optional<SceneTopology> topology;       ///< see prepare_topology()
     /// What techniques have computed from the scene, by name; kept as long as the scene is.
     std::map<std::string, Buffer, std::less<>> prepared;
 };

@@ -4,6 +4,7 @@
 // Light of the environment that an opaque surface reflects, as src/reference/bsdf.h has it: the metallic-roughness
 // material of glTF 2.0, its diffuse layer under a coat. No shadows, and no light from other surfaces.
 // Needs: what gpu/filtered_environment.glsl and gpu/texture.glsl need.
+#include "gpu/coat.glsl"
 #include "gpu/diffuse.glsl"
 #include "gpu/filtered_environment.glsl"
 #include "gpu/texture.glsl"
@@ -14,12 +15,6 @@ struct OpaqueSurface {
     float roughness;  // perceptual, 0..1
     float ior;        // of the coat; 1: none
 };
-
-// Schlick, "An inexpensive BRDF model for physically-based rendering", 1994.
-float schlick_weight(float cos_theta) {
-    float grazing = 1.0 - cos_theta, squared = grazing * grazing;
-    return squared * squared * grazing;
-}
 
 // The table of tabulate_facets.comp, bilinear.
 vec3 facet_reflection(float cos_theta, float roughness) {
@@ -38,7 +33,7 @@ vec3 opaque_radiance(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
     vec3 at_normal = mix(vec3(coat_at_normal), surface.base_color, surface.metallic);
     // Where nothing is reflected head-on there is no boundary to reflect at grazing angles either.
     vec3 at_grazing = vec3(greaterThan(at_normal, vec3(0.0)));
-    float coat = coat_at_normal > 0.0 ? mix(coat_at_normal, 1.0, schlick_weight(cos_theta)) : 0.0;
+    float coat = coat_reflectance(surface.ior, cos_theta);
 
     vec3 radiance = diffuse_radiance((1.0 - surface.metallic) * (1.0 - coat) * surface.base_color, normal);
     if (at_grazing == vec3(0.0)) return radiance;

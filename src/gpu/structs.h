@@ -78,7 +78,8 @@ struct MaterialRecord {
     float metallic;
     float roughness;  // perceptual
     float dispersion;
-    uint reserved0;
+    uint translucent;  // 1: diffuse_transmission is not 0
+    vec4 diffuse_transmission;  // rgb, colour times factor; base_color is without that factor's share
 };
 
 // Part of a texture page, and how to sample it.
@@ -98,7 +99,7 @@ struct TextureRecord {
 #ifdef __cplusplus
 static_assert(sizeof(FrameConstants) == 3 * 64 + 16 + 3 * 16 + 16 + 9 * 16);
 static_assert(sizeof(ObjectRecord) == 144);
-static_assert(sizeof(MaterialRecord) == 96);
+static_assert(sizeof(MaterialRecord) == 112);
 static_assert(sizeof(TextureRecord) == 64);
 }  // namespace pellucid::gpu
 #endif

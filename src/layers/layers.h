@@ -58,6 +58,7 @@ struct LayerRequest {
 struct FragmentPool {
     std::uint32_t capacity = 0;  ///< fragments; 0: choose
     std::uint32_t bands = 1;     ///< the picture is done in this many horizontal bands
+    std::uint32_t builds = 1;    ///< a frame makes at most this many, or one of each solid of glass and of all
 };
 
 /// Room for a surface map; likewise. 0: choose.

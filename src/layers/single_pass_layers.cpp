@@ -51,9 +51,11 @@ std::uint32_t first_guess(const Frame& frame) {
     return std::uint32_t(std::clamp<std::uint64_t>(fragments, 1024, largest_pool(frame.workspace.device())));
 }
 
-/// Fragments per band of each build of a frame. A frame builds all solids together, and each of them alone at most.
+/// Fragments per band of each build of a frame. A camera's frame builds all solids of glass together, and each of them
+/// alone at most.
 vk::DeviceSize counter_bytes(const Frame& frame, const FragmentPool& pool) {
-    return vk::DeviceSize(frame.scene.refractive.size() + 1) * pool.bands * sizeof(std::uint32_t);
+    const std::size_t builds = std::max<std::size_t>(frame.scene.refractive.size() + 1, pool.builds);
+    return vk::DeviceSize(builds) * pool.bands * sizeof(std::uint32_t);
 }
 
 const Buffer& counters_on_host(const Frame& frame, const FragmentPool& pool) {

@@ -127,7 +127,10 @@ void PathWalk::emit(const Vertex& vertex) {
 
 Bsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
     const auto [metallic, roughness] = metallic_roughness(world_.scene, vertex.material, vertex.attributes);
-    return OpaqueBsdf(glm::dvec3(vertex.base), double(metallic), double(roughness), double(vertex.material.ior));
+    // What a translucent surface sends to the other side it does not reflect. (That light is not followed.)
+    const double reflected = vertex.material.translucent() ? 1.0 - double(vertex.material.diffuse_transmission) : 1.0;
+    return OpaqueBsdf(reflected * glm::dvec3(vertex.base), double(metallic), double(roughness),
+                      double(vertex.material.ior));
 }
 
 double PathWalk::roughness_at(const Vertex& vertex) const {

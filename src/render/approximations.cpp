@@ -2,9 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 namespace pellucid {
+namespace {
+
+bool all_translucent(const Scene& scene) {
+    return std::all_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        return scene.materials[std::size_t(object.material)].translucent();
+    });
+}
+
+}  // namespace
 
 std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique) {
     if (technique.all_light) return {};
@@ -41,9 +51,14 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
                   "walls"
                 : "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
-    if (!scene.lights.empty()) {
+    const bool translucent = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        return scene.materials[std::size_t(object.material)].translucent();
+    });
+    if (!scene.lights.empty() && !translucent) {
         lines.push_back(
             fmt::format("{} light{} not drawn", scene.lights.size(), scene.lights.size() == 1 ? " is" : "s are"));
+    } else if (!scene.lights.empty() && translucent && !all_translucent(scene)) {
+        lines.push_back("lights light translucent objects only");
     }
     return lines;
 }

@@ -81,6 +81,20 @@ void set_camera(gpu::FrameConstants& constants, const Camera& camera, std::uint3
     constants.clip_from_view = clip_matrix(constants);
 }
 
+void set_view(gpu::FrameConstants& constants, const ViewVolume& view, std::uint32_t width, std::uint32_t height) {
+    constants.world_from_view = view.world_from_view;
+    constants.view_from_world = glm::affineInverse(view.world_from_view);
+    constants.width = width;
+    constants.height = height;
+    constants.orthographic = view.orthographic ? 1 : 0;
+    const glm::vec2 size = view.window.high - view.window.low;
+    constants.film = glm::vec4(view.window.low.x, view.window.high.y, size.x / float(width), size.y / float(height));
+    constants.near_plane = constants.glass_near = view.near_plane;
+    constants.far_plane = constants.glass_far = view.far_plane;
+    constants.depth_scale = std::exp2(-std::ceil(std::log2(view.far_plane)) - 1.0f);
+    constants.clip_from_view = clip_matrix(constants);
+}
+
 glm::vec2 sample_jitter(std::uint32_t index) {
     constexpr double kPlastic = 1.32471795724474602596;
     const double n = double(index) + 1.0;

@@ -13,6 +13,20 @@ namespace pellucid {
 void set_camera(gpu::FrameConstants& constants, const Camera& camera, std::uint32_t width, std::uint32_t height,
                 glm::vec2 jitter, const Bounds& bounds, std::span<const glm::vec3> refractive_corners);
 
+/// A part of the plane of view: in metres for an orthographic view, at depth 1 for a perspective one.
+struct FilmWindow {
+    glm::vec2 low, high;
+};
+/// A view that need not be straight ahead.
+struct ViewVolume {
+    glm::mat4 world_from_view;  ///< rigid
+    bool orthographic;
+    FilmWindow window;
+    float near_plane, far_plane;  ///< m, 0 <= near < far; 0 < near for a perspective view
+};
+/// Fills the camera part of `constants` for a picture of such a view.
+void set_view(gpu::FrameConstants& constants, const ViewVolume& view, std::uint32_t width, std::uint32_t height);
+
 /// Offset of sample `index` within the pixel: the R2 low-discrepancy sequence (Roberts 2018), -0.5..0.5.
 glm::vec2 sample_jitter(std::uint32_t index);
 

@@ -1,10 +1,12 @@
 #include "render/frame.h"
 
 namespace pellucid {
-FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source) {
+FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source,
+                         TransmittedLight& transmitted) {
     const std::uint32_t layer_count = settings.technique.layer_count(settings.parameters);
     source.begin_frame(settings.layer_builder);
     const Opaque opaque = draw_opaque(recorder, frame);
+    transmitted.add(recorder, frame, opaque);
     const Layers layers = source.build(recorder, frame, opaque, {frame.scene.refractive, layer_count});
     const Refraction refraction = settings.technique.record(recorder, frame, layers, settings.parameters);
     const SurfaceLook look = draw_surface_look(recorder, frame, opaque, layers);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "shade/shade.h"
+#include "shade/transmitted_light.h"
 #include "techniques/technique.h"
 
 namespace pellucid {
@@ -20,7 +21,8 @@ struct FrameImages {
     const GpuImage& radiance;  ///< RGBA32F, scene-linear
 };
 
-/// Records one frame: the whole renderer in five lines. To be recorded again if `source` must_repeat().
-FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source);
+/// Records one frame: the whole renderer in six lines. To be recorded again if `source` or `transmitted` must_repeat().
+FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source,
+                         TransmittedLight& transmitted);
 
 }  // namespace pellucid

@@ -6,6 +6,7 @@
 #include "render/camera_constants.h"
 #include "render/cpu_tracing.h"
 #include "render/frame.h"
+#include "render/solid_lighting.h"
 #include "scene/check_scene.h"
 
 #include <pellucid/error.h>
@@ -14,8 +15,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -47,6 +50,7 @@ void check_settings(const RenderSettings& settings, const Device& device) {
     if (!(std::abs(settings.exposure_ev) <= 64.0f)) {
         throw Error(fmt::format("exposure must be -64 to 64 stops, not {}", settings.exposure_ev));
     }
+    check_thickness(settings.thickness, device);
     check_aov_names(settings.aovs);
 }
 
@@ -83,7 +87,8 @@ std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std
 
 struct Renderer::Impl {
     explicit Impl(const DeviceOptions& options)
-        : device(options), workspace(device), recorder(device), cpu(options.threads), threads(options.threads) {}
+        : device(options), workspace(device), recorder(device), cpu(options.threads), threads(options.threads),
+          solid_lighting(device) {}
 
     Device device;
     Workspace workspace;
@@ -91,6 +96,7 @@ struct Renderer::Impl {
     CpuTracing cpu;
     std::uint32_t threads;
     bake::BakeCache bake_cache;
+    SolidLighting solid_lighting;
     LayerSource layer_source;
     vk::Extent2D layer_extent;  // the size that `layer_source` has learnt from
     std::optional<GpuScene> scene;
@@ -122,6 +128,18 @@ struct Renderer::Impl {
     /// The picture of a technique that shades its own paths.
     Picture trace_picture(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
                           RenderResult& result);
+    std::vector<std::uint32_t> all_lights() const {
+        std::vector<std::uint32_t> numbers(cpu.scene().lights.size());
+        std::iota(numbers.begin(), numbers.end(), 0u);
+        return numbers;
+    }
+    /// For pictures that `lights` shine through translucent objects of.
+    void light_solids(const ThicknessSettings& settings, const std::vector<std::uint32_t>& lights,
+                      const Progress& progress, std::vector<std::string>& warnings) {
+        bake::BakeCache passing{std::filesystem::path()};  // as in prepare()
+        solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache, threads,
+                             progress, warnings);
+    }
     void set_constants(const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample);
     Camera camera_for(const RenderSettings& settings) const;
     const GpuImage& filtered_environment_for_scene();
@@ -197,9 +215,11 @@ std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings
     }
     std::vector<PassTime> times;
     for (;;) {
-        images.emplace(record_frame(recorder, frame, chosen, layer_source));
+        TransmittedLight& transmitted = solid_lighting.transmitted();
+        images.emplace(record_frame(recorder, frame, chosen, layer_source, transmitted));
         times = with_missing_passes(recorder.submit_and_wait(), times);
-        if (!layer_source.must_repeat(frame)) return times;
+        const bool light_again = transmitted.must_repeat(frame);
+        if (!layer_source.must_repeat(frame) && !light_again) return times;
     }
 }
 
@@ -215,6 +235,12 @@ Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const
     std::memcpy(&view, constants->mapped(), sizeof(view));
     read_back(device, *images, view, scene->first_triangles, settings, result);
     result.layer_passes = layer_source.geometry_passes();
+    result.cut_rays = solid_lighting.transmitted().cut_rays();
+    if (result.cut_rays > 0) {
+        result.warnings.push_back(fmt::format(
+            "light meets more than {} surfaces on its way to {} pixels: what is behind them counts as a gap",
+            settings.thickness.layers, result.cut_rays));
+    }
     if (!draws) return trace_picture(frame, chosen, settings, result);
     if (alone) {
         result.frames.push_back(std::move(times));
@@ -267,6 +293,7 @@ void Renderer::set_scene(const Scene& scene) {
     Scene copy = scene;
     impl_->scene.reset();  // freed first: a large scene may fit once only
     impl_->layer_source = LayerSource();
+    impl_->solid_lighting.forget();
     impl_->cpu.set_scene(Scene{});
     impl_->scene_camera.reset();
     try {
@@ -309,6 +336,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
     impl.prepare(chosen, settings.progress, result.warnings);
+    impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
     const Frame frame{impl.workspace,
                       *impl.scene,
                       *impl.constants,
@@ -328,8 +356,55 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
         impl.layer_source = LayerSource();
+        impl.solid_lighting.forget();
         throw;
     }
+    return result;
+}
+
+ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
+    Impl& impl = *impl_;
+    RenderSettings settings;
+    settings.width = request.width;
+    settings.height = request.height;
+    settings.thickness = request.settings;
+    check_settings(settings, impl.device);
+    if (request.light >= impl.cpu.scene().lights.size()) {
+        throw Error(
+            fmt::format("there is no light {}; the scene has {}", request.light, impl.cpu.scene().lights.size()));
+    }
+    ThicknessResult result;
+    impl.light_solids(request.settings, {request.light}, request.progress, result.warnings);
+    const Frame frame{impl.workspace,
+                      *impl.scene,
+                      *impl.constants,
+                      *impl.environment_map,
+                      impl.filtered_environment_for_scene(),
+                      std::uint32_t(impl.environment.kind),
+                      {settings.width, settings.height}};
+    impl.set_constants(settings, glm::vec2(0.0f), 0);
+    TransmittedLight& transmitted = impl.solid_lighting.transmitted();
+    try {
+        const GpuImage* thickness = nullptr;
+        do {
+            const auto start = std::chrono::steady_clock::now();
+            const Opaque opaque = draw_opaque(impl.recorder, frame);
+            thickness = &transmitted.measure(impl.recorder, frame, opaque);
+            impl.recorder.submit_and_wait();
+            result.wall_ms =
+                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        } while (transmitted.must_repeat(frame));
+        result.thickness = Image(int(settings.width), int(settings.height), 1);
+        const std::vector<std::byte> texels = download(impl.device, *thickness, 0);
+        std::memcpy(result.thickness.pixels.data(), texels.data(), texels.size());
+    } catch (...) {
+        impl.recorder.restart();  // what was recorded may name resources that are gone
+        impl.solid_lighting.forget();
+        throw;
+    }
+    result.cut_rays = transmitted.cut_rays();
+    result.geometry_passes = transmitted.geometry_passes();
+    result.light_views = transmitted.view_count();
     return result;
 }
 

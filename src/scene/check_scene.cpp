@@ -62,6 +62,8 @@ void check_material(const Material& m, const std::string& what, std::size_t imag
     require(finite(m.base_color) && finite(m.emission) && std::isfinite(m.transmission) && std::isfinite(m.metallic) &&
                 std::isfinite(m.roughness),
             what, "a factor is not finite");
+    require(m.diffuse_transmission >= 0.0f && m.diffuse_transmission <= 1.0f && finite(m.diffuse_transmission_color),
+            what, "the diffuse transmission must be within 0..1, its colour finite");
     require(m.ior >= 1.0f && std::isfinite(m.ior), what, "the index of refraction must be at least 1");
     require(m.dispersion >= 0.0f && std::isfinite(m.dispersion), what,
             "the dispersion must be finite and not negative");

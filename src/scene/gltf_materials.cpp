@@ -72,6 +72,7 @@ public:
         read_surface(from, material);
         read_alpha(from, material);
         read_glass(from.extensions, material);
+        read_diffuse_transmission(from.extensions, material);
         warn_about_unused_textures(from);
         return material;
     }
@@ -114,6 +115,26 @@ private:
             material.alpha_cutoff = 0.5f;
             warnings_.add(fmt::format("{}: alpha blending is drawn cut out at 0.5", user_));
         }
+    }
+
+    void read_diffuse_transmission(const tinygltf::ExtensionMap& extensions, Material& material) {
+        const Properties diffuse(extensions, "KHR_materials_diffuse_transmission");
+        material.diffuse_transmission =
+            in_range(diffuse.number("diffuseTransmissionFactor", 0.0), 0.0, 1.0, "diffuseTransmissionFactor");
+        for (int k = 0; k < 3; ++k)
+            material.diffuse_transmission_color[k] = in_range(diffuse.number("diffuseTransmissionColorFactor", k, 1.0),
+                                                              0.0, 1.0, "diffuseTransmissionColorFactor");
+        for (const char* name : {"diffuseTransmissionTexture", "diffuseTransmissionColorTexture"}) {
+            const int index = diffuse.texture(name).index;
+            if (index < 0) continue;
+            tinygltf::TextureInfo info;
+            info.index = index;
+            images_.expect(image_of(info), user_);
+            warnings_.add(fmt::format("{}: {} is not used", user_, name));
+        }
+        // Light that goes straight through leaves no share to be scattered; glass with a little of both is drawn as glass.
+        if (material.diffuse_transmission > 0.0f && material.transmissive())
+            warnings_.add(fmt::format("{}: diffuse transmission of glass is not drawn", user_));
     }
 
     void read_glass(const tinygltf::ExtensionMap& extensions, Material& material) {

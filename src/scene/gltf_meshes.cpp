@@ -181,7 +181,8 @@ void GltfMeshes::read(const tinygltf::Mesh& from, int gltf_mesh, std::vector<Pri
         const bool deforms = !shape.targets.empty() || !shape.influences.first.empty();
 
         MeshOrigin origin;
-        origin.refractive = scene_.materials[std::size_t(material)].refractive();
+        const Material& looks = scene_.materials[std::size_t(material)];
+        origin.refractive = looks.refractive() || looks.translucent() || options_.translucent.has_value();
         origin.make_normals = mesh.normals.empty() || options_.remake_normals;
         // glTF asks for flat triangles where a file brings no normals (section 3.7.2.1).
         origin.crease_angle = options_.remake_normals ? options_.crease_angle : 0.0f;

@@ -9,6 +9,7 @@
 #include "scene/load_mesh_file.h"
 #include "scene/mesh_repair.h"
 #include "scene/shapes.h"
+#include "scene/translucency.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,6 +35,7 @@ void check(const LoadOptions& options) {
     }
     if (options.attenuation_distance && !(*options.attenuation_distance > 0.0f))
         throw Error(fmt::format("attenuation distance {}: must be greater than 0", *options.attenuation_distance));
+    if (options.translucent) check_translucency(*options.translucent);  // before anything is read
     // The constant is pi rounded to a float, as is the option's default.
     if (!(options.crease_angle >= 0.0f && options.crease_angle <= kPi))
         throw Error(fmt::format("crease angle {}: must be within 0..pi radians", options.crease_angle));
@@ -96,6 +98,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     Scene scene = load_by_kind(source, options, warnings);
     scene.source = source;
     apply_overrides(scene, options);
+    if (options.translucent) make_translucent(scene, *options.translucent);
     if (scene.triangle_count() == 0) fail(source, "contains no triangles");
     const Bounds bounds = scene_bounds(scene);
     // Squares and products of positions must stay finite on the GPU, in 32 bits.

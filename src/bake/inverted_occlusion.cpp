@@ -1,0 +1,48 @@
+#include "bake/inverted_occlusion.h"
+
+#include "bake/mesh_rays.h"
+#include "bake/parallel_items.h"
+
+#include "core/math.h"
+
+#include <cmath>
+
+namespace pellucid::bake {
+namespace {
+
+/// Direction `index` of `count` about +Z, with a density that is proportional to the cosine: a lattice of golden
+/// ratios on the disc below (Malley's method).
+glm::vec3 cosine_weighted(std::uint32_t index, std::uint32_t count) {
+    const double r2 = (index + 0.5) / count, angle = 2.399963229728653 * index;
+    const double r = std::sqrt(r2);
+    return {float(r * std::cos(angle)), float(r * std::sin(angle)), float(std::sqrt(1.0 - r2))};
+}
+
+/// Turns +Z into `n` (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
+glm::mat3 basis_of(const glm::vec3& n) {
+    const float sign = std::copysign(1.0f, n.z), a = -1.0f / (sign + n.z), b = n.x * n.y * a;
+    return {glm::vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x), glm::vec3(b, sign + n.y * n.y * a, -n.y), n};
+}
+
+}  // namespace
+
+std::vector<float> inverted_occlusion(const Mesh& mesh, std::uint32_t rays, std::uint32_t threads,
+                                      const Progress& progress) {
+    const MeshRays tracer(mesh, threads);
+    std::vector<float> thickness(mesh.positions.size());
+    for_each_item(thickness.size(), threads, progress, [&](std::size_t vertex) {
+        const glm::mat3 into = basis_of(-mesh.normals[vertex]);
+        double sum = 0.0;
+        std::uint32_t found = 0;
+        for (std::uint32_t ray = 0; ray < rays; ++ray) {
+            const auto hit = tracer.leave_from_vertex(std::uint32_t(vertex), into * cosine_weighted(ray, rays));
+            if (!hit) continue;
+            sum += double(hit->distance);
+            ++found;
+        }
+        thickness[vertex] = found > 0 ? float(sum / found) : 0.0f;
+    });
+    return thickness;
+}
+
+}  // namespace pellucid::bake

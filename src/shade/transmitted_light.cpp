@@ -1,0 +1,201 @@
+// Chen, "Real-time transmission of translucent objects by depth peeling": thickness from layers that are peeled from
+// the light, in the frame that is drawn.
+#include "shade/transmitted_light.h"
+
+#include "layers/pixel_list.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace pellucid {
+namespace {
+
+constexpr std::uint32_t kSurfaceVertex[] = {
+#include "surface.vert.inc"
+};
+constexpr std::uint32_t kTranslucentSurface[] = {
+#include "translucent_surface.frag.inc"
+};
+constexpr std::uint32_t kTransmitLight[] = {
+#include "transmit_light.comp.inc"
+};
+
+constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;
+
+/// Twin of PunctualLight in punctual_light.glsl.
+struct PunctualLight {
+    glm::vec3 position;
+    std::uint32_t kind;
+    glm::vec3 direction;
+    float inverse_range;
+    glm::vec3 intensity;
+    std::uint32_t reserved;
+    float cos_inner, cos_outer;
+    float padding[2];
+};
+static_assert(sizeof(PunctualLight) == 64);
+
+PunctualLight punctual_light(const Light& light) {
+    return {light.position,
+            std::uint32_t(light.kind),
+            glm::normalize(light.direction),
+            std::isfinite(light.range) ? 1.0f / light.range : 0.0f,
+            light.intensity,
+            0,
+            std::cos(light.inner_cone_angle),
+            std::cos(light.outer_cone_angle),
+            {}};
+}
+
+/// As transmit_light.comp names them.
+std::uint32_t method_constant(ThicknessMethod method) {
+    if (method == ThicknessMethod::kLocalThickness) return 2;
+    return method == ThicknessMethod::kTranslucentShadowMap ? 1 : 0;
+}
+
+}  // namespace
+
+/// The nearest opaque surfaces where they are translucent; `pixels` lists those.
+struct TransmittedLight::Surfaces {
+    const GpuImage &triangle, &normal, &reflected, &transmitted;
+    const Buffer& pixels;
+};
+
+void TransmittedLight::begin(TransmittedLightSetup setup) {
+    workspace_.trim();
+    counted_ = nullptr;
+    any_ = false;
+    const bool same_maps = setup.resolution == setup_.resolution && setup.layers == setup_.layers &&
+                           setup.views.size() == setup_.views.size();
+    if (!same_maps) source_ = LayerSource({.builds = std::uint32_t(setup.views.size())});
+    setup_ = std::move(setup);
+}
+
+void TransmittedLight::forget() { source_ = LayerSource({.builds = std::uint32_t(setup_.views.size())}); }
+
+Frame TransmittedLight::light_frame(const Frame& frame, const Buffer& constants) const {
+    return {workspace_,
+            frame.scene,
+            constants,
+            frame.environment,
+            frame.filtered_environment,
+            frame.environment_kind,
+            {setup_.resolution, setup_.resolution}};
+}
+
+TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, const Frame& frame,
+                                                           const Opaque& opaque) {
+    Workspace& workspace = frame.workspace;
+    const GpuScene& scene = frame.scene;
+    const Program& program =
+        workspace.graphics({.vertex = {"surface.vert", kSurfaceVertex},
+                            .fragment = {"translucent_surface.frag", kTranslucentSurface},
+                            .colors = {kLookFormat, kLookFormat, vk::Format::eR32Uint, vk::Format::eR32Uint},
+                            .depth = true});
+    const GpuImage& reflected = workspace.image("translucent reflected", kLookFormat, frame.extent);
+    const GpuImage& transmitted = workspace.image("translucent transmitted", kLookFormat, frame.extent);
+    const GpuImage& triangle = workspace.image("translucent triangle", vk::Format::eR32Uint, frame.extent);
+    const GpuImage& normal = workspace.image("translucent normal", vk::Format::eR32Uint, frame.extent);
+    const GpuImage& nearest = workspace.image("translucent depth test", vk::Format::eD32Sfloat, frame.extent);
+    const Recorder::Scope scope(recorder, "translucent surfaces");
+    const RenderTarget target{.extent = frame.extent,
+                              .colors = {{&reflected, 0, clear_to(0.0f)},
+                                         {&transmitted, 0, clear_to(0.0f)},
+                                         {&triangle, 0, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})},
+                                         {&normal, 0, clear_to({0u, 0u, 0u, 0u})}},
+                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
+                              .scissor = {}};
+    recorder.draw(program,
+                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+                   reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
+                   reads("Materials", scene.materials), reads("Textures", scene.textures),
+                   reads("texture_pages", scene.texture_pages), reads("opaque_depth", opaque.depth)},
+                  target, scene.translucent);
+    const Buffer& pixels =
+        list_pixels(recorder, frame, triangle, PELLUCID_NO_TRIANGLE, "translucent pixels", 0, frame.extent.height);
+    return {triangle, normal, reflected, transmitted, pixels};
+}
+
+void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const Opaque& opaque,
+                                   const Surfaces& surfaces, const GpuImage& thickness, std::size_t number,
+                                   bool measures) {
+    const LightView& view = setup_.views[number];
+    const GpuScene& scene = frame.scene;
+    const Buffer& constants =
+        workspace_.buffer(fmt::format("light constants {}", number), sizeof(gpu::FrameConstants), true);
+    gpu::FrameConstants values = view.constants;
+    values.object_count = scene.object_count;
+    std::memcpy(constants.mapped(), &values, sizeof(values));
+
+    // A shadow map is the first layer.
+    const std::uint32_t layer_count = setup_.method == ThicknessMethod::kTranslucentShadowMap ? 1 : setup_.layers;
+    const GpuImage* triangles = nullptr;
+    if (needs_layers()) {
+        const Frame from_light = light_frame(frame, constants);
+        triangles = &source_.build(recorder, from_light, opaque, {scene.opaque, layer_count, false, "light"}).triangle;
+    } else {
+        triangles = &workspace_.image("no layers", vk::Format::eR32Uint, {1, 1});
+    }
+    // Something has to be bound where nothing is baked.
+    const Buffer& nothing = workspace_.buffer("nothing baked", 16);
+    struct Push {
+        PunctualLight light;
+        std::uint32_t face, layer_count;
+    };
+    const Recorder::Scope scope(recorder, "transmitted light");
+    recorder.compute_indirect(
+        frame.workspace.compute({"transmit_light.comp", kTransmitLight},
+                                {method_constant(setup_.method), measures ? 1u : 0u,
+                                 scene.opaque.size() == 1 && scene.object_count == 1 ? 1u : 0u}),
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
+         reads("LightFrame", constants), reads("surface_triangle", surfaces.triangle),
+         reads("surface_normals", surfaces.normal), reads("surface_reflected", surfaces.reflected),
+         reads("surface_transmitted", surfaces.transmitted), reads("layer_triangle", *triangles),
+         reads("LocalThickness", setup_.local ? setup_.local->values : nothing),
+         reads("LocalObjects", setup_.local ? setup_.local->objects : nothing), updates("radiance", opaque.radiance),
+         writes("thickness", thickness), updates("LightCounters", workspace_.buffer("light counters", 4)),
+         reads("PixelList", surfaces.pixels), reads("Indices", scene.indices), reads("Vertices", scene.vertices)},
+        Push{punctual_light(setup_.lights.at(view.light)), view.face, layer_count}, surfaces.pixels);
+}
+
+void TransmittedLight::record(Recorder& recorder, const Frame& frame, const Opaque& opaque, const GpuImage& thickness,
+                              bool measures) {
+    any_ = !setup_.views.empty() && !frame.scene.translucent.empty();
+    if (!any_) return;
+    source_.begin_frame(setup_.builder);
+    const Surfaces surfaces = draw_surfaces(recorder, frame, opaque);
+    const Buffer& counters = workspace_.buffer("light counters", 4);
+    recorder.fill(counters, 0);
+    for (std::size_t view = 0; view < setup_.views.size(); ++view)
+        record_view(recorder, frame, opaque, surfaces, thickness, view, measures);
+    counted_ = &workspace_.buffer("light counts", 4, true);
+    recorder.copy(counters, *counted_, 4);
+}
+
+void TransmittedLight::add(Recorder& recorder, const Frame& frame, const Opaque& opaque) {
+    record(recorder, frame, opaque, workspace_.image("no thickness", vk::Format::eR32Sfloat, {1, 1}), false);
+}
+
+const GpuImage& TransmittedLight::measure(Recorder& recorder, const Frame& frame, const Opaque& opaque) {
+    const GpuImage& thickness = frame.workspace.image("thickness", vk::Format::eR32Sfloat, frame.extent);
+    recorder.clear(thickness, vk::ClearColorValue(std::array{kNotTranslucent, 0.0f, 0.0f, 0.0f}));
+    record(recorder, frame, opaque, thickness, true);
+    return thickness;
+}
+
+bool TransmittedLight::must_repeat(const Frame& frame) {
+    if (!any_ || !needs_layers()) return false;
+    return source_.must_repeat(light_frame(frame, frame.constants));
+}
+
+std::uint64_t TransmittedLight::cut_rays() const {
+    std::uint32_t count = 0;
+    if (any_ && counted_ != nullptr) std::memcpy(&count, counted_->mapped(), sizeof(count));
+    return count;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "layers/layers.h"
+
+#include <pellucid/thickness.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace pellucid {
+
+/// What a light's map looks at: all that its light reaches of the translucent surfaces, or a face of a cube around it.
+struct LightView {
+    static constexpr std::uint32_t kWhole = 6;
+    gpu::FrameConstants constants;  ///< camera part
+    std::uint32_t light;            ///< Scene::lights
+    std::uint32_t face = kWhole;    ///< +x, -x, +y, -y, +z, -z, or kWhole
+};
+
+/// Thickness that was baked per vertex.
+struct LocalThickness {
+    Buffer values;   ///< float, m in the frame of each object's mesh
+    Buffer objects;  ///< uvec2 per object: its first value, less its mesh's first vertex; metres of the world per unit
+};
+
+/// What lights a picture, and how its way through solids is found.
+struct TransmittedLightSetup {
+    ThicknessMethod method = ThicknessMethod::kLayers;
+    LayerBuilder builder = LayerBuilder::kSinglePass;  ///< of the light's layers
+    std::uint32_t layers = 8;
+    std::uint32_t resolution = 1024;  ///< texels along a side of a map
+    std::vector<Light> lights;
+    std::vector<LightView> views;
+    const LocalThickness* local = nullptr;  ///< kLocalThickness needs it
+};
+
+/// Light of lights that comes through translucent solids (Chen): layers from every light, in a frame of the light's own
+/// with a layer source of its own, and the way of the light through them. Opaque objects cast shadows on translucent
+/// ones; glass does not.
+class TransmittedLight {
+public:
+    explicit TransmittedLight(const Device& device) : workspace_(device) {}
+
+    /// Before the frames of a picture, when none is in flight.
+    void begin(TransmittedLightSetup setup);
+    /// Adds the light to `opaque.radiance` where a translucent surface is seen.
+    void add(Recorder& recorder, const Frame& frame, const Opaque& opaque);
+    /// The thickness (R32F) for the lights of the setup instead: m, kNotTranslucent or kShadowed.
+    const GpuImage& measure(Recorder& recorder, const Frame& frame, const Opaque& opaque);
+    /// As LayerSource::must_repeat().
+    bool must_repeat(const Frame& frame);
+    /// Of the frame that has run: pixels whose ray of light crosses more surfaces than there are layers.
+    std::uint64_t cut_rays() const;
+    std::uint32_t geometry_passes() const { return any_ ? source_.geometry_passes() : 0; }
+    std::uint32_t view_count() const { return std::uint32_t(setup_.views.size()); }
+    /// Forgets what it has learnt of a scene.
+    void forget();
+
+private:
+    struct Surfaces;
+    Surfaces draw_surfaces(Recorder& recorder, const Frame& frame, const Opaque& opaque);
+    void record(Recorder& recorder, const Frame& frame, const Opaque& opaque, const GpuImage& thickness, bool measures);
+    void record_view(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Surfaces& surfaces,
+                     const GpuImage& thickness, std::size_t view, bool measures);
+    Frame light_frame(const Frame& frame, const Buffer& constants) const;
+    bool needs_layers() const { return setup_.method != ThicknessMethod::kLocalThickness; }
+
+    mutable Workspace workspace_;
+    LayerSource source_;
+    TransmittedLightSetup setup_;
+    bool any_ = false;  ///< in this frame
+    const Buffer* counted_ = nullptr;
+};
+
+}  // namespace pellucid
