@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "options.h"
 #include "progress_bar.h"
+#include "translucency_options.h"
 
 #include "core/file.h"
 #include "core/file_extension.h"
@@ -39,6 +40,7 @@ struct RenderArguments {
     std::string layer_builder = "automatic";
     std::vector<std::string> aovs;
     std::optional<std::string> json;
+    TranslucencyArguments translucency;
     SceneArguments how;
     DeviceArguments device;
 };
@@ -70,6 +72,7 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     settings.parameters = given_parameters(arguments.parameters);
     settings.layer_builder = parse_layer_builder(arguments.layer_builder);
     settings.view = parse_view(arguments.view);
+    settings.thickness = thickness_settings(arguments.translucency);
     settings.samples = arguments.samples;
     settings.tonemap = parse_tonemap(arguments.tonemap);
     settings.exposure_ev = float(arguments.exposure_ev);
@@ -133,6 +136,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
     if (!result.standard_error.pixels.empty()) json["cut_paths"] = result.cut_paths;
     json["frames"] = result.frames.size();
     json["layer_passes"] = result.layer_passes;
+    json["cut_rays"] = result.cut_rays;
     json["warnings"] = warnings;
     return json;
 }
@@ -173,7 +177,10 @@ void render(const RenderArguments& arguments) {
     check_render_outputs(arguments);
     RenderSettings settings = render_settings(arguments);
     check_technique_name(settings.technique);  // said before any work
-    const Scene scene = load_scene(arguments.scene, load_options(arguments.how));
+    LoadOptions options = load_options(arguments.how);
+    options.translucent = parse_translucency(arguments.translucency);
+    Scene scene = load_scene(arguments.scene, options);
+    add_lights(scene, arguments.translucency);
     std::vector<std::string> warnings = scene.warnings;
     std::string environment_warning;
     const Environment environment = load_environment(arguments.environment, &environment_warning);
@@ -185,7 +192,9 @@ void render(const RenderArguments& arguments) {
     renderer.set_environment(environment);
     if (const std::optional<Camera> camera = chosen_camera(arguments, settings, scene)) renderer.set_camera(*camera);
     ProgressBar bar(settings.technique);
-    if (technique.info().reference || technique.info().bakes) settings.progress = bar.progress();
+    if (technique.info().reference || technique.info().bakes ||
+        settings.thickness.method == ThicknessMethod::kLocalThickness)
+        settings.progress = bar.progress();
     const RenderResult result = renderer.render(settings);
     bar.clear();
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
@@ -244,6 +253,7 @@ void add_render_command(CLI::App& app) {
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
+    add_translucency_options(*command, a.translucency);
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);
     add_parameter_options(*command, a.parameters);
