@@ -311,12 +311,13 @@ TEST_F(WholeScenes, WhiteFurnace) {
     }
 }
 
-// How many surfaces a dispatch follows a path to is a matter of time: not a bit of the picture depends on it.
+// How many surfaces a dispatch follows a path to is a matter of time: not a bit of the picture depends on it, unless
+// branches are cut because there are no more dispatches.
 TEST_F(WholeScenes, SurfacesPerPassChangeTheTimeOnly) {
     set(nested(), Environment{});
-    const Image one_by_one = draw("visibility-layers", 2, {{"surfaces-per-pass", 1}}).radiance;
+    const Image one_by_one = draw("visibility-layers", 2, {{"surfaces-per-pass", 1}, {"branches", 0}}).radiance;
     for (const double surfaces : {3.0, 16.0}) {
-        const Image drawn = draw("visibility-layers", 2, {{"surfaces-per-pass", surfaces}}).radiance;
+        const Image drawn = draw("visibility-layers", 2, {{"surfaces-per-pass", surfaces}, {"branches", 0}}).radiance;
         EXPECT_EQ(drawn.pixels, one_by_one.pixels) << surfaces;
     }
 }

@@ -17,7 +17,7 @@ inline constexpr std::array kPathParameters = {
     ParameterInfo{"one-branch", "", 0, 0, 1, true,
                   "1: each sample takes one way at random, refracted or reflected, and through rough glass one facet"},
     ParameterInfo{"surfaces-per-pass", "", 0, 0, 64, true,
-                  "surfaces that a path meets in one dispatch, which changes the time only; 0: chosen for the device"},
+                  "surfaces that a path meets in one dispatch, a matter of time; 0: chosen for the device"},
     ParameterInfo{"layers", "", 1, 1, 64, true,
                   "surfaces along a view ray that the AOV `layers` counts at most; paths look at all that there are"},
 };
