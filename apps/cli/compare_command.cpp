@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "options.h"
 #include "progress_bar.h"
+#include "thickness_compare.h"
 
 #include "core/file.h"
 #include "measure/report.h"
@@ -31,6 +32,9 @@ struct CompareArguments {
     double exposure_ev = 0.0;
     std::optional<std::string> json;
     std::optional<std::string> html;
+    bool thickness = false;
+    std::optional<std::string> pictures;
+    ThicknessArguments thickness_how;
     SceneArguments how;
     DeviceArguments device;
     ParameterArguments parameters;
@@ -177,7 +181,7 @@ void print_row(const nlohmann::ordered_json& run) {
 }
 
 void compare_scene(Comparison& comparison, const std::string& name) {
-    const Scene scene = load_scene(name, load_options(comparison.arguments.how));
+    const Scene scene = load_lit_scene(name, comparison.arguments.how);
     comparison.warnings.insert(scene.warnings.begin(), scene.warnings.end());
     comparison.renderer.set_scene(scene);
     if (comparison.json["runs"].empty()) print_head();
@@ -324,7 +328,25 @@ void add_compare_command(CLI::App& app, const std::string& command_line) {
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);
     add_parameter_options(*command, a.parameters);
-    command->callback([arguments] { compare(*arguments); });
+    command->add_flag("--thickness", a.thickness,
+                      "Compare the ways to find the thickness of what is translucent instead, against rays of Embree, "
+                      "for every light: from behind, from the side and from the top");
+    add_number(*command, "--thickness-layers", a.thickness_how.layers,
+               "With --thickness: surfaces that are kept of every ray of light")
+        ->capture_default_str();
+    add_number(*command, "--light-map", a.thickness_how.resolution,
+               "With --thickness: texels along a side of a light's map")
+        ->capture_default_str();
+    command->add_option("--pictures", a.pictures, "With --thickness: pictures of thickness and error, .png")
+        ->type_name("DIR");
+    command->callback([arguments] {
+        const CompareArguments& given = *arguments;
+        if (!given.thickness && given.pictures) throw Error("--pictures: goes with --thickness; otherwise give --html");
+        if (!given.thickness) return compare(given);
+        if (given.html) throw Error("--html: has no thickness; give --pictures");
+        compare_thickness(
+            {given.scenes, given.size, given.thickness_how, given.pictures, given.json, given.how, given.device});
+    });
 }
 
 }  // namespace pellucid::cli

@@ -62,6 +62,7 @@ void check_json(const ExperimentArguments& arguments, const std::vector<const Ex
     std::vector<std::string> missing, sources;
     ModelFolder models(arguments.models.value_or(""), missing);
     for (const ExperimentSpec* spec : chosen) {
+        if (spec->scenes == nullptr) continue;
         for (const ExperimentScene& scene : spec->scenes(models)) {
             if (!scene.how.source.empty()) sources.push_back(scene.how.source);
         }
@@ -83,20 +84,25 @@ nlohmann::ordered_json run_one(const ExperimentArguments& arguments, const Exper
                       .warnings = {}};
     std::vector<std::string> missing;
     ModelFolder models(arguments.models.value_or(""), missing);
-    const std::vector<ExperimentScene> scenes = spec.scenes(models);
+    const std::vector<ExperimentScene> scenes =
+        spec.scenes != nullptr ? spec.scenes(models) : std::vector<ExperimentScene>();
     run.warnings.insert(missing.begin(), missing.end());
     const std::vector<Variant> variants = available_variants(spec, run);
     const std::string command = fmt::format("pellucid experiment {}{}", spec.name, arguments.options);
     std::vector<std::string> warnings;
     const std::filesystem::path folder = std::filesystem::path(arguments.report) / spec.name;
-    if (scenes.empty() || variants.empty()) {
+    if (spec.run == nullptr && (scenes.empty() || variants.empty())) {
         if (std::filesystem::is_directory(folder))
             ExperimentPage(folder, spec);  // an older page would pass for this one
         warnings.assign(run.warnings.begin(), run.warnings.end());
         warnings.push_back("nothing is left to measure");
     } else {
         ExperimentPage page(folder, spec);
-        run_experiment(run, spec, scenes, variants, page);
+        if (spec.run != nullptr)
+            spec.run(run, spec, models, page);
+        else
+            run_experiment(run, spec, scenes, variants, page);
+        run.warnings.insert(missing.begin(), missing.end());
         warnings.assign(run.warnings.begin(), run.warnings.end());
         const DeviceInfo& device = renderer.device();
         page.finish({.device = device.name,

@@ -1,6 +1,7 @@
 #include "experiments.h"
 
 #include "experiment_scenes.h"
+#include "thickness_experiments.h"
 
 #include <fmt/format.h>
 
@@ -289,9 +290,9 @@ ExperimentSpec wang_many_objects() {
 }  // namespace
 
 std::span<const ExperimentSpec> experiments() {
-    static const std::vector<ExperimentSpec> all = {wang_search_step(), wang_environment(), wang_layers(),
-                                                    interfaces(),       wyman_speed(),      wang_table_4_1(),
-                                                    wang_many_objects()};
+    static const std::vector<ExperimentSpec> all = {wang_search_step(),  wang_environment(), wang_layers(),
+                                                    interfaces(),        wyman_speed(),      wang_table_4_1(),
+                                                    wang_many_objects(), chen_error(),       chen_speed()};
     return all;
 }
 

@@ -47,6 +47,14 @@ struct Plot {
     std::vector<Column> lines;
 };
 
+struct ExperimentRun;
+class ExperimentPage;
+struct ExperimentSpec;
+
+/// Measures something else than refraction: fills the runs and the page's pictures.
+using RunExperiment = void (*)(ExperimentRun& run, const ExperimentSpec& spec, ModelFolder& models,
+                               ExperimentPage& page);
+
 /// An experiment of a publication, as far as it is data.
 struct ExperimentSpec {
     const char* name;
@@ -56,9 +64,10 @@ struct ExperimentSpec {
     std::pair<std::uint32_t, std::uint32_t> size = {512, 512};
     std::vector<Variant> variants = {};
     Variant truth = {"exact", "reference"};  ///< whose picture FLIP and RMSE are taken against
-    std::vector<ExperimentScene> (*scenes)(ModelFolder& models);
-    bool timed = false;  ///< frames, in turn with Embree
-    bool zoom = false;   ///< pictures of the worst region of the first variant as well
+    std::vector<ExperimentScene> (*scenes)(ModelFolder& models) = nullptr;
+    RunExperiment run = nullptr;  ///< instead of variants and scenes
+    bool timed = false;           ///< frames, in turn with Embree
+    bool zoom = false;            ///< pictures of the worst region of the first variant as well
     std::vector<Column> columns;
     std::vector<Plot> plots = {};
     const char* remark = "";

@@ -46,7 +46,15 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
                     "Animation of a glTF file, by name or number ('pellucid info SCENE' lists them), whose pose is "
                     "shown; default: the file at rest, or with --time its first animation")
         ->type_name("NAME|N");
+    add_translucency_options(command, arguments.translucency);
     add_number(command, "--time", arguments.time_s, "Time in the animation, s, from 0 (default 0)")->type_name("S");
+}
+
+Scene load_lit_scene(const std::string& source, const SceneArguments& arguments) {
+    const std::vector<Light> lights = parse_lights(arguments.translucency);  // wrong ones are said before any work
+    Scene scene = load_scene(source, load_options(arguments));
+    scene.lights.insert(scene.lights.end(), lights.begin(), lights.end());
+    return scene;
 }
 
 LoadOptions load_options(const SceneArguments& arguments) {
@@ -59,6 +67,7 @@ LoadOptions load_options(const SceneArguments& arguments) {
     if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
     options.crease_angle = radians_from_degrees(float(arguments.crease_angle_deg));
     options.remake_normals = arguments.remake_normals;
+    options.translucent = parse_translucency(arguments.translucency);
     options.animation = arguments.animation;
     options.time_s = arguments.time_s;
     return options;

@@ -3,6 +3,7 @@
 // Options that several commands share.
 
 #include "arguments.h"
+#include "translucency_options.h"
 
 #include <pellucid/pellucid.h>
 
@@ -35,9 +36,12 @@ struct SceneArguments {
     bool remake_normals = false;
     std::optional<std::string> animation;
     std::optional<double> time_s;
+    TranslucencyArguments translucency;
 };
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
 LoadOptions load_options(const SceneArguments& arguments);
+/// load_scene(), and the lights that the command line adds.
+Scene load_lit_scene(const std::string& source, const SceneArguments& arguments);
 
 struct DeviceArguments {
     std::string device;

@@ -3,7 +3,6 @@
 #include "commands.h"
 #include "options.h"
 #include "progress_bar.h"
-#include "translucency_options.h"
 
 #include "core/file.h"
 #include "core/file_extension.h"
@@ -40,7 +39,7 @@ struct RenderArguments {
     std::string layer_builder = "automatic";
     std::vector<std::string> aovs;
     std::optional<std::string> json;
-    TranslucencyArguments translucency;
+    ThicknessArguments thickness;
     SceneArguments how;
     DeviceArguments device;
 };
@@ -72,8 +71,8 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     settings.parameters = given_parameters(arguments.parameters);
     settings.layer_builder = parse_layer_builder(arguments.layer_builder);
     settings.view = parse_view(arguments.view);
-    settings.thickness = thickness_settings(arguments.translucency);
     settings.samples = arguments.samples;
+    settings.thickness = thickness_settings(arguments.thickness);
     settings.tonemap = parse_tonemap(arguments.tonemap);
     settings.exposure_ev = float(arguments.exposure_ev);
     for (const std::string& aov : arguments.aovs) settings.aovs.push_back(parse_aov(aov).first);
@@ -177,10 +176,7 @@ void render(const RenderArguments& arguments) {
     check_render_outputs(arguments);
     RenderSettings settings = render_settings(arguments);
     check_technique_name(settings.technique);  // said before any work
-    LoadOptions options = load_options(arguments.how);
-    options.translucent = parse_translucency(arguments.translucency);
-    Scene scene = load_scene(arguments.scene, options);
-    add_lights(scene, arguments.translucency);
+    const Scene scene = load_lit_scene(arguments.scene, arguments.how);
     std::vector<std::string> warnings = scene.warnings;
     std::string environment_warning;
     const Environment environment = load_environment(arguments.environment, &environment_warning);
@@ -253,7 +249,7 @@ void add_render_command(CLI::App& app) {
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
-    add_translucency_options(*command, a.translucency);
+    add_thickness_options(*command, a.thickness, "--thickness-method", "--thickness-layers");
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);
     add_parameter_options(*command, a.parameters);

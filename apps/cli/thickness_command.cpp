@@ -1,5 +1,3 @@
-// pellucid thickness: the length of solid between a light and every visible point, as an image and in numbers.
-#include "arguments.h"
 #include "commands.h"
 #include "options.h"
 #include "progress_bar.h"
@@ -8,136 +6,166 @@
 #include "core/file.h"
 #include "core/file_extension.h"
 
-#include <pellucid/pellucid.h>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <vector>
 
 namespace pellucid::cli {
 namespace {
 
-struct ThicknessArguments {
-    std::string scene, output;
+constexpr const char* kExact = "exact";
+
+struct ThicknessCommandArguments {
+    std::string scene;
+    std::string output;
+    ThicknessArguments thickness;
     std::string size = "512x512";
-    std::optional<std::string> camera, json;
+    std::optional<std::string> camera;
     std::uint32_t light = 0;
-    bool compare = false;
-    TranslucencyArguments translucency;
+    std::optional<std::string> picture;
+    std::optional<std::string> json;
     SceneArguments how;
     DeviceArguments device;
 };
 
-/// Of the pixels that have a thickness.
 nlohmann::ordered_json statistics(const Image& thickness) {
-    std::vector<double> values;
-    std::size_t shadowed = 0;
+    std::uint64_t points = 0, lit = 0, shadowed = 0;
+    double sum = 0.0, largest = 0.0;
     for (const float d : thickness.pixels) {
-        if (d >= 0.0f)
-            values.push_back(double(d));
-        else if (d == kShadowed)
-            ++shadowed;
+        shadowed += d == kShadowed ? 1 : 0;
+        if (d < 0.0f) continue;
+        ++points;
+        lit += d == 0.0f ? 1 : 0;
+        sum += double(d);
+        largest = std::max(largest, double(d));
     }
-    nlohmann::ordered_json json{{"points", values.size()}, {"shadowed", shadowed}};
-    if (values.empty()) return json;
-    double sum = 0.0;
-    std::size_t lit = 0;
-    for (const double d : values) sum += d, lit += d == 0.0;
-    std::sort(values.begin(), values.end());
-    json["lit_side"] = lit;
-    json["mean_m"] = sum / double(values.size());
-    json["median_m"] = values[values.size() / 2];
-    json["largest_m"] = values.back();
+    const std::uint64_t through = points - lit;
+    return {{"points", points},
+            {"lit", lit},
+            {"shadowed", shadowed},
+            {"mean_m", through > 0 ? sum / double(through) : 0.0},
+            {"largest_m", largest}};
+}
+
+nlohmann::ordered_json describe(const ThicknessCommandArguments& arguments, const Image& thickness) {
+    nlohmann::ordered_json json{
+        {"version", version()},     {"scene", arguments.scene}, {"method", arguments.thickness.method},
+        {"light", arguments.light}, {"width", thickness.width}, {"height", thickness.height}};
+    json.update(statistics(thickness));
     return json;
 }
 
-void measure(const ThicknessArguments& a) {
-    if (lower_extension(a.output) != ".exr")
-        throw Error(fmt::format("--output: '{}': thickness is written as .exr", a.output));
-    std::vector<std::string> outputs{a.output};
-    if (a.json) outputs.push_back(*a.json);
-    check_outputs(outputs, {a.scene});
-    ThicknessRequest request;
-    std::tie(request.width, request.height) = parse_size(a.size);
-    request.settings = thickness_settings(a.translucency);
-    request.light = a.light;
-    LoadOptions options = load_options(a.how);
-    options.translucent = parse_translucency(a.translucency);
-    Scene scene = load_scene(a.scene, options);
-    add_lights(scene, a.translucency);
-    Renderer renderer(device_options(a.device));
-    renderer.set_scene(scene);
-    const Camera camera = a.camera                 ? parse_camera(*a.camera, scene, Camera{}.vertical_fov)
-                          : !scene.cameras.empty() ? scene.cameras.front()
-                                                   : framing_camera(scene_bounds(scene), request.width, request.height,
-                                                                    Camera{}.vertical_fov);
-    renderer.set_camera(camera);
-    ProgressBar bar(a.translucency.method);
-    request.progress = bar.progress();
-    const ThicknessResult result = renderer.measure_thickness(request);
+void check_arguments(const ThicknessCommandArguments& arguments) {
+    if (lower_extension(arguments.output) != ".exr")
+        throw Error(fmt::format("--output: '{}': thickness is written as .exr", arguments.output));
+    std::vector<std::string> outputs{arguments.output};
+    if (arguments.picture) {
+        if (lower_extension(*arguments.picture) != ".png")
+            throw Error(fmt::format("--picture: '{}': pictures are written as .png", *arguments.picture));
+        outputs.push_back(*arguments.picture);
+    }
+    if (arguments.json) outputs.push_back(*arguments.json);
+    check_outputs(outputs, {arguments.scene});
+    if (arguments.thickness.method != kExact) parse_thickness_method(arguments.thickness.method);
+}
+
+void measure(const ThicknessCommandArguments& arguments) {
+    check_arguments(arguments);
+    const auto [width, height] = parse_size(arguments.size);
+    const Scene scene = load_lit_scene(arguments.scene, arguments.how);
+    if (scene.lights.empty())
+        throw Error(fmt::format("{}: there is no light; give one with --add-light", arguments.scene));
+    if (arguments.light >= scene.lights.size())
+        throw Error(
+            fmt::format("--light: there is no light {}; the scene has {}", arguments.light, scene.lights.size()));
+    Camera camera = framing_camera(scene_bounds(scene), width, height, Camera{}.vertical_fov);
+    if (arguments.camera)
+        camera = parse_camera(*arguments.camera, scene, Camera{}.vertical_fov);
+    else if (!scene.cameras.empty())
+        camera = scene.cameras.front();
+
     std::vector<std::string> warnings = scene.warnings;
-    warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
-    nlohmann::ordered_json json{{"device", renderer.device().name},
-                                {"version", version()},
-                                {"scene", a.scene},
-                                {"width", request.width},
-                                {"height", request.height},
-                                {"method", a.translucency.method},
-                                {"layers", request.settings.layers},
-                                {"light_map", request.settings.resolution},
-                                {"light", request.light},
-                                {"cut_rays", result.cut_rays},
-                                {"geometry_passes", result.geometry_passes},
-                                {"light_views", result.light_views},
-                                {"wall_ms", result.wall_ms},
-                                {"thickness", statistics(result.thickness)}};
-    if (a.compare) {
-        bar.set_label("exact");
-        const Image exact = ThicknessTracer(scene, a.device.threads)
-                                .trace(camera, request.width, request.height, request.light, bar.progress());
-        const ThicknessError error = thickness_error(exact, result.thickness);
-        json["error"] = {{"relative", error.relative}, {"mean_m", error.mean},   {"p95_m", error.p95},
-                         {"largest_m", error.largest}, {"points", error.points}, {"unmatched", error.unmatched}};
+    nlohmann::ordered_json json;
+    Image thickness;
+    ProgressBar bar(arguments.thickness.method);
+    if (arguments.thickness.method == kExact) {
+        thickness = ThicknessTracer(scene, arguments.device.threads)
+                        .trace(camera, width, height, arguments.light, bar.progress());
+        json = describe(arguments, thickness);
+    } else {
+        Renderer renderer(device_options(arguments.device));
+        renderer.set_scene(scene);
+        renderer.set_camera(camera);
+        ThicknessResult result = renderer.measure_thickness({.width = width,
+                                                             .height = height,
+                                                             .settings = thickness_settings(arguments.thickness),
+                                                             .light = arguments.light,
+                                                             .progress = bar.progress()});
+        thickness = std::move(result.thickness);
+        warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+        if (result.cut_rays > 0)
+            warnings.push_back(
+                fmt::format("light meets more than {} surfaces on its way to {} pixels: give more --layers",
+                            arguments.thickness.layers, result.cut_rays));
+        json = describe(arguments, thickness);
+        json.update({{"layers", arguments.thickness.layers},
+                     {"light_map", arguments.thickness.resolution},
+                     {"light_views", result.light_views},
+                     {"cut_rays", result.cut_rays},
+                     {"geometry_passes", result.geometry_passes},
+                     {"wall_ms", result.wall_ms},
+                     {"device", renderer.device().name},
+                     {"driver", renderer.device().driver}});
+        check_validation(renderer);
     }
     bar.clear();
-    write_image(a.output, result.thickness, {"thickness"});
-    if (a.json) write_text_file(*a.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-    const auto& found = json["thickness"];
-    fmt::print("{} points", found["points"].get<std::size_t>());
-    if (found.contains("mean_m"))
-        fmt::print(", {} on the lit side; mean {:.6g} m, median {:.6g} m, largest {:.6g} m",
-                   found["lit_side"].get<std::size_t>(), found["mean_m"].get<double>(), found["median_m"].get<double>(),
-                   found["largest_m"].get<double>());
-    if (a.compare)
-        fmt::print("; off by {:.4f}% of the exact thickness", 100.0 * json["error"]["relative"].get<double>());
-    fmt::print("\n");
+    if (json["points"] == 0 && json["shadowed"] == 0)
+        warnings.push_back(
+            "no translucent surface is seen that the light reaches; --translucent makes one of any mesh");
+    json["warnings"] = warnings;
+    write_image(arguments.output, thickness, {"thickness"});
+    if (arguments.picture) write_image(*arguments.picture, color_thickness(thickness, largest_value(thickness)));
+    // Names inside files need not be UTF-8, as JSON must.
+    if (arguments.json)
+        write_text_file(*arguments.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    fmt::print("{} points, {} of them lit, {} in shadow; through the others: mean {:.6g} m, largest {:.6g} m\n",
+               json["points"].get<std::uint64_t>(), json["lit"].get<std::uint64_t>(),
+               json["shadowed"].get<std::uint64_t>(), json["mean_m"].get<double>(), json["largest_m"].get<double>());
     print_warnings(warnings);
-    check_validation(renderer);
 }
 
 }  // namespace
 
 void add_thickness_command(CLI::App& app) {
-    auto arguments = std::make_shared<ThicknessArguments>();
-    ThicknessArguments& a = *arguments;
+    auto arguments = std::make_shared<ThicknessCommandArguments>();
+    ThicknessCommandArguments& a = *arguments;
     CLI::App* command = app.add_subcommand(
-        "thickness", "Measure the length of solid between a light and every visible point of translucent objects");
+        "thickness", "Measure how much solid lies between a light and every visible point of what is translucent");
     command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     command->add_option("scene", a.scene, shape_help())->required()->type_name("SCENE");
-    command->add_option("-o,--output", a.output, "Image: .exr, metres; below 0 where there is no thickness")
+    command
+        ->add_option("-o,--output", a.output,
+                     ".exr, one channel: metres; -1 where nothing translucent is seen or no light arrives, -2 in the "
+                     "shadow of something opaque")
         ->required()
         ->type_name("FILE");
+    add_thickness_options(*command, a.thickness, "--method", "--layers");
+    command->get_option("--method")
+        ->description(command->get_option("--method")->get_description() + "; or exact (rays of Embree)");
     command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
-    command->add_option("--camera", a.camera, "As of render")->type_name("NAME|orbit:AZ,EL,DIST");
-    add_number(*command, "--light-number", a.light, "The light, in the order of the file and then of --light, from 0")
+    command
+        ->add_option("--camera", a.camera,
+                     "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
+                     "default: the file's first camera, or one that frames the scene")
+        ->type_name("NAME|orbit:AZ,EL,DIST");
+    add_number(*command, "--light", a.light, "Which light: the file's are numbered from 0, then those of --add-light")
         ->capture_default_str();
-    command->add_flag("--exact", a.compare, "Say how far that is off the exact thickness, traced on the CPU");
-    command->add_option("--json", a.json, "Write every measure")->type_name("FILE");
-    add_translucency_options(*command, a.translucency);
+    command->add_option("--picture", a.picture, "Also a .png: thin is dark blue, thick is pale yellow")
+        ->type_name("FILE");
+    command->add_option("--json", a.json, "Write statistics, passes, time and warnings")->type_name("FILE");
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);
     command->callback([arguments] { measure(*arguments); });

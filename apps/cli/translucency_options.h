@@ -1,5 +1,7 @@
 #pragma once
 
+// Options about translucent solids and the lights that shine through them.
+
 #include <pellucid/pellucid.h>
 
 #include <CLI/CLI.hpp>
@@ -11,20 +13,40 @@
 
 namespace pellucid::cli {
 
-/// What commands ask for that let light through solids.
+/// What the command line adds to a scene. Strings are parsed when the command runs, so that errors are ours.
 struct TranslucencyArguments {
-    std::optional<std::string> translucent;  ///< "R,G,B,M"
-    std::vector<std::string> lights;         ///< "AZ,EL" or "AZ,EL,E" each
+    std::optional<std::string> translucent;
+    std::vector<std::string> lights;
+};
+void add_translucency_options(CLI::App& command, TranslucencyArguments& arguments);
+std::optional<Translucency> parse_translucency(const TranslucencyArguments& arguments);
+/// Throws Error naming what is wrong with one of them.
+std::vector<Light> parse_lights(const TranslucencyArguments& arguments);
+
+/// How thickness is found. `method`, `layers`, `map`: the names of the flags, which differ from command to command.
+struct ThicknessArguments {
     std::string method = "layers";
     std::uint32_t layers = ThicknessSettings{}.layers;
     std::uint32_t resolution = ThicknessSettings{}.resolution;
 };
-void add_translucency_options(CLI::App& command, TranslucencyArguments& arguments);
+void add_thickness_options(CLI::App& command, ThicknessArguments& arguments, const std::string& method_flag,
+                           const std::string& layers_flag);
+ThicknessSettings thickness_settings(const ThicknessArguments& arguments);
 
-/// Of load_scene(): what --translucent says.
-std::optional<Translucency> parse_translucency(const TranslucencyArguments& arguments);
-/// Adds the lights of --light to the scene.
-void add_lights(Scene& scene, const TranslucencyArguments& arguments);
-ThicknessSettings thickness_settings(const TranslucencyArguments& arguments);
+/// "translucent-shadow-map (from the first surface ...); ...".
+std::string thickness_method_list();
+
+/// Cameras that look at a scene as light goes through it.
+struct NamedCamera {
+    std::string name;  ///< behind: towards the light; side; top
+    Camera camera;
+};
+std::vector<NamedCamera> cameras_about_light(const Scene& scene, const Light& light, std::uint32_t width,
+                                             std::uint32_t height);
+
+/// Pictures of a thickness or of an error from 0 to `full` metres, for display: dark blue to pale yellow, dark grey
+/// where there is none, darker in an opaque object's shadow.
+Image color_thickness(const Image& thickness, float full);
+float largest_value(const Image& thickness);
 
 }  // namespace pellucid::cli

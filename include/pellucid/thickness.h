@@ -49,6 +49,7 @@ struct ThicknessRequest {
     std::uint32_t height = 512;
     ThicknessSettings settings;
     std::uint32_t light = 0;  ///< Scene::lights
+    bool time_maps = false;   ///< build the light's maps once more, alone, for ThicknessResult::map_ms
     Progress progress;        ///< of baking
 };
 
@@ -63,6 +64,7 @@ struct ThicknessResult {
     std::uint32_t geometry_passes = 0;  ///< that built the light's layers
     std::uint32_t light_views = 0;      ///< maps that the light needed: 1, or faces of a cube around a point light
     double wall_ms = 0.0;               ///< from recording to the finished image, host and device
+    double map_ms = 0.0;                ///< of building the light's maps alone, if asked for
     std::vector<std::string> warnings;
 };
 

@@ -73,6 +73,10 @@ Image display_image(vk::Extent2D extent, const std::vector<std::byte>& data) {
     return image;
 }
 
+double ms_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Adds what an earlier attempt at the frame did and this one need not do again, as building a hierarchy.
 std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std::vector<PassTime>& earlier) {
     for (const PassTime& pass : earlier) {
@@ -391,9 +395,17 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
             const Opaque opaque = draw_opaque(impl.recorder, frame);
             thickness = &transmitted.measure(impl.recorder, frame, opaque);
             impl.recorder.submit_and_wait();
-            result.wall_ms =
-                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+            result.wall_ms = ms_since(start);
         } while (transmitted.must_repeat(frame));
+        result.geometry_passes = transmitted.geometry_passes();
+        if (request.time_maps) {
+            const Opaque opaque = draw_opaque(impl.recorder, frame);
+            impl.recorder.submit_and_wait();
+            const auto start = std::chrono::steady_clock::now();
+            transmitted.build_maps(impl.recorder, frame, opaque);
+            impl.recorder.submit_and_wait();
+            result.map_ms = ms_since(start);
+        }
         result.thickness = Image(int(settings.width), int(settings.height), 1);
         const std::vector<std::byte> texels = download(impl.device, *thickness, 0);
         std::memcpy(result.thickness.pixels.data(), texels.data(), texels.size());
@@ -403,7 +415,6 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
         throw;
     }
     result.cut_rays = transmitted.cut_rays();
-    result.geometry_passes = transmitted.geometry_passes();
     result.light_views = transmitted.view_count();
     return result;
 }

@@ -55,15 +55,33 @@ Crossing crossing(uint triangle, uint object, LitPoint point) {
     return Crossing(at, length(cross(normal, way)) / max(abs(speed), 1e-30));
 }
 
-// By the layers of a texel. The light is in a solid while it has entered more than it has left; a solid that it enters
-// and does not leave up to the point counts nothing, unless it is the point's own. So a surface that is met a little
-// before the point instead of at it does no harm: where the light enters there it has no exit, and where it leaves,
-// the length is the same.
-SolidOnRay solid_in_layers(ivec2 texel, LitPoint point) {
+// Lengths of solid on the way, and the one that is open.
+struct Tally {
+    float thickness;
+    vec3 optical_depth;
+    float entry;  // of the open one
+    vec3 sigma;
+};
+void close_solid(inout Tally tally, float at) {
+    float inside = max(at - tally.entry, 0.0);
+    tally.thickness += inside;
+    tally.optical_depth += inside * tally.sigma;
+}
+
+// By the layers of a texel. The light is in a solid while it has entered more than it has left. Entries and exits that
+// have no partner count nothing: those of open meshes, and those at silhouettes, where the texel's ray passes a solid
+// that the point's does not. An exit without an entry is passed over. Of an entry without an exit it is only known at
+// the end that it has none; `above` tallies the solids since the last time outside as if it were not there.
+// A visible point is where its light leaves the last solid that it is in, or is outside.
+//
+// No bias tells the point's own surface from others. Met a little before the point, it has no partner where the light
+// enters, and where it leaves the length is the same. Only on the lit side, in a crease, the exit of what is in front
+// may come to lie behind the point by less than a texel: `own` is what the point's surface itself, or one that meets
+// it, can be off by. An entry farther in front than that, and than the exit is behind, is that of a solid in front.
+SolidOnRay solid_in_layers(ivec2 texel, LitPoint point, float width, float tan_theta) {
     SolidOnRay solid = SolidOnRay(0.0, vec3(0.0), false, false);
+    Tally outer = Tally(0.0, vec3(0.0), 0.0, vec3(0.0)), above = outer;
     uint entered = 0u;
-    float entry = 0.0;
-    vec3 sigma = vec3(0.0);
     bool ended = false;
     for (uint layer = 0u; layer < layer_count; ++layer) {
         uint word = imageLoad(layer_triangle, ivec3(texel, layer)).r;
@@ -71,8 +89,16 @@ SolidOnRay solid_in_layers(ivec2 texel, LitPoint point) {
         ended = true;
         if (word == PELLUCID_NO_TRIANGLE || triangle == point.triangle) break;
         uint object = kOneObject ? point.object : find_object(triangle);
-        float at = crossing(triangle, object, point).at;
-        if (at >= 0.0) break;
+        Crossing crossed = crossing(triangle, object, point);
+        float at = crossed.at;
+        if (at >= 0.0) {
+            float own = 1.41421356 * width * (1.0 + max(tan_theta, crossed.tan_theta));
+            if (back_face(word) && !point.leaving && entered == 1u && -outer.entry > max(at, own)) {
+                close_solid(outer, 0.0);
+                entered = 0u;
+            }
+            break;
+        }
         ended = false;
         MaterialRecord material = materials[objects[object].material];
         if (material.translucent == 0u) {
@@ -80,18 +106,24 @@ SolidOnRay solid_in_layers(ivec2 texel, LitPoint point) {
             return solid;
         }
         if (!back_face(word)) {
-            if (entered++ == 0u) entry = at, sigma = material.sigma_a.rgb;
-        } else if (entered > 0u && --entered == 0u) {
-            float inside = max(at - entry, 0.0);
-            solid.thickness += inside;
-            solid.optical_depth += inside * sigma;
+            ++entered;
+            if (entered == 1u) {
+                outer.entry = at, outer.sigma = material.sigma_a.rgb;
+                above.thickness = 0.0, above.optical_depth = vec3(0.0);
+            }
+            if (entered == 2u) above.entry = at, above.sigma = material.sigma_a.rgb;
+        } else if (entered > 0u) {
+            if (entered == 2u) close_solid(above, at);
+            if (entered == 1u) close_solid(outer, at);
+            --entered;
         }
     }
     solid.cut = !ended;
-    if (point.leaving && entered > 0u) {
-        solid.thickness -= entry;
-        solid.optical_depth -= entry * sigma;
-    }
+    uint without_exit = entered - (point.leaving && entered > 0u ? 1u : 0u);
+    if (point.leaving && entered == 1u) close_solid(outer, 0.0);
+    if (point.leaving && entered == 2u) close_solid(above, 0.0);
+    solid.thickness = outer.thickness + (without_exit > 0u ? above.thickness : 0.0);
+    solid.optical_depth = outer.optical_depth + (without_exit > 0u ? above.optical_depth : vec3(0.0));
     return solid;
 }
 

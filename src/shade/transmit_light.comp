@@ -99,7 +99,7 @@ void main() {
             if (weight == 0.0) continue;
             ivec2 read = clamp(first + corner, ivec2(0), last);
             SolidOnRay solid = kMethod == kByFirst ? solid_behind_first(read, point, width, tan_theta)
-                                                   : solid_in_layers(read, point);
+                                                   : solid_in_layers(read, point, width, tan_theta);
             cut = cut || solid.cut;
             if (point.leaving && solid.thickness == 0.0 && !solid.shadowed) continue;
             known += weight;

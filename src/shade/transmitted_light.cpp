@@ -120,26 +120,35 @@ TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, c
     return {triangle, normal, reflected, transmitted, pixels};
 }
 
+const Buffer& TransmittedLight::view_constants(const Frame& frame, std::size_t number) {
+    const Buffer& constants =
+        workspace_.buffer(fmt::format("light constants {}", number), sizeof(gpu::FrameConstants), true);
+    gpu::FrameConstants values = setup_.views[number].constants;
+    values.object_count = frame.scene.object_count;
+    std::memcpy(constants.mapped(), &values, sizeof(values));
+    return constants;
+}
+
+const GpuImage& TransmittedLight::build_map(Recorder& recorder, const Frame& frame, const Opaque& opaque,
+                                            std::size_t number) {
+    const Frame from_light = light_frame(frame, view_constants(frame, number));
+    return source_.build(recorder, from_light, opaque, {frame.scene.opaque, layer_count(), false, "light"}).triangle;
+}
+
+void TransmittedLight::build_maps(Recorder& recorder, const Frame& frame, const Opaque& opaque) {
+    if (!any_ || !needs_layers()) return;
+    source_.begin_frame(setup_.builder);
+    for (std::size_t view = 0; view < setup_.views.size(); ++view) build_map(recorder, frame, opaque, view);
+}
+
 void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const Opaque& opaque,
                                    const Surfaces& surfaces, const GpuImage& thickness, std::size_t number,
                                    bool measures) {
     const LightView& view = setup_.views[number];
     const GpuScene& scene = frame.scene;
-    const Buffer& constants =
-        workspace_.buffer(fmt::format("light constants {}", number), sizeof(gpu::FrameConstants), true);
-    gpu::FrameConstants values = view.constants;
-    values.object_count = scene.object_count;
-    std::memcpy(constants.mapped(), &values, sizeof(values));
-
-    // A shadow map is the first layer.
-    const std::uint32_t layer_count = setup_.method == ThicknessMethod::kTranslucentShadowMap ? 1 : setup_.layers;
-    const GpuImage* triangles = nullptr;
-    if (needs_layers()) {
-        const Frame from_light = light_frame(frame, constants);
-        triangles = &source_.build(recorder, from_light, opaque, {scene.opaque, layer_count, false, "light"}).triangle;
-    } else {
-        triangles = &workspace_.image("no layers", vk::Format::eR32Uint, {1, 1});
-    }
+    const Buffer& constants = view_constants(frame, number);
+    const GpuImage& triangles = needs_layers() ? build_map(recorder, frame, opaque, number)
+                                               : workspace_.image("no layers", vk::Format::eR32Uint, {1, 1});
     // Something has to be bound where nothing is baked.
     const Buffer& nothing = workspace_.buffer("nothing baked", 16);
     struct Push {
@@ -154,12 +163,12 @@ void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
          reads("LightFrame", constants), reads("surface_triangle", surfaces.triangle),
          reads("surface_normals", surfaces.normal), reads("surface_reflected", surfaces.reflected),
-         reads("surface_transmitted", surfaces.transmitted), reads("layer_triangle", *triangles),
+         reads("surface_transmitted", surfaces.transmitted), reads("layer_triangle", triangles),
          reads("LocalThickness", setup_.local ? setup_.local->values : nothing),
          reads("LocalObjects", setup_.local ? setup_.local->objects : nothing), updates("radiance", opaque.radiance),
          writes("thickness", thickness), updates("LightCounters", workspace_.buffer("light counters", 4)),
          reads("PixelList", surfaces.pixels), reads("Indices", scene.indices), reads("Vertices", scene.vertices)},
-        Push{punctual_light(setup_.lights.at(view.light)), view.face, layer_count}, surfaces.pixels);
+        Push{punctual_light(setup_.lights.at(view.light)), view.face, layer_count()}, surfaces.pixels);
 }
 
 void TransmittedLight::record(Recorder& recorder, const Frame& frame, const Opaque& opaque, const GpuImage& thickness,

@@ -48,6 +48,8 @@ public:
     void add(Recorder& recorder, const Frame& frame, const Opaque& opaque);
     /// The thickness (R32F) for the lights of the setup instead: m, kNotTranslucent or kShadowed.
     const GpuImage& measure(Recorder& recorder, const Frame& frame, const Opaque& opaque);
+    /// Builds the lights' maps and nothing else, for timing; after a frame that need not be repeated.
+    void build_maps(Recorder& recorder, const Frame& frame, const Opaque& opaque);
     /// As LayerSource::must_repeat().
     bool must_repeat(const Frame& frame);
     /// Of the frame that has run: pixels whose ray of light crosses more surfaces than there are layers.
@@ -63,6 +65,12 @@ private:
     void record(Recorder& recorder, const Frame& frame, const Opaque& opaque, const GpuImage& thickness, bool measures);
     void record_view(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Surfaces& surfaces,
                      const GpuImage& thickness, std::size_t view, bool measures);
+    const Buffer& view_constants(const Frame& frame, std::size_t number);
+    const GpuImage& build_map(Recorder& recorder, const Frame& frame, const Opaque& opaque, std::size_t number);
+    /// A shadow map is the first layer.
+    std::uint32_t layer_count() const {
+        return setup_.method == ThicknessMethod::kTranslucentShadowMap ? 1 : setup_.layers;
+    }
     Frame light_frame(const Frame& frame, const Buffer& constants) const;
     bool needs_layers() const { return setup_.method != ThicknessMethod::kLocalThickness; }
 

@@ -1,12 +1,19 @@
-"""pellucid thickness, and the options by which render lets light through solids."""
+"""Light through solids: pellucid thickness, compare --thickness, and the options by which render lets light through."""
 import json
+import os
 
 import cli
 from cli import CliTest
+from pictures import read_exr
 
 BALL = "shape:sphere,segments=64"
 RADIUS = 1  # m
 WAX = ["--translucent", "0.8,0.3,0.1,0.5"]
+METHODS = ["translucent-shadow-map", "local-thickness", "depth-peeling", "dual-depth-peeling", "layers"]
+
+
+def sun(azimuth):
+    return ["--add-light", f"sun:{azimuth},0"]
 
 
 class Thickness(CliTest):
@@ -15,24 +22,25 @@ class Thickness(CliTest):
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads(self.read("d.json"))
 
-    def test_a_ball_lit_from_behind_is_as_thick_as_its_chords(self):
-        found = self.measure("--light", "180,0", "--camera", "orbit:0,0,4", "--exact")
-        self.assertAlmostEqual(found["thickness"]["largest_m"], 2 * RADIUS, delta=0.01 * RADIUS)
-        self.assertLess(found["error"]["relative"], 0.005)
+    def test_a_ball_lit_from_behind_is_as_thick_as_its_diameter(self):
+        found = self.measure(*sun(180), "--camera", "orbit:0,0,4")
+        exact = self.measure(*sun(180), "--camera", "orbit:0,0,4", "--method", "exact")
+        for measured in (found, exact):
+            self.assertAlmostEqual(measured["largest_m"], 2 * RADIUS, delta=0.01 * RADIUS)
+        self.assertAlmostEqual(found["mean_m"], exact["mean_m"], delta=0.005 * exact["mean_m"])
 
     def test_the_lit_side_has_none(self):
-        found = self.measure("--light", "0,0", "--camera", "orbit:0,0,40")
-        self.assertEqual(found["thickness"]["largest_m"], 0)
+        self.assertEqual(self.measure(*sun(0), "--camera", "orbit:0,0,40")["largest_m"], 0)
 
     def test_every_method_runs(self):
-        for method in ("translucent-shadow-map", "local-thickness", "depth-peeling", "dual-depth-peeling", "layers"):
-            self.assertGreater(self.measure("--light", "180,0", "--thickness-method", method)["thickness"]["mean_m"], 0, method)
+        for method in METHODS:
+            self.assertGreater(self.measure(*sun(180), "--method", method)["mean_m"], 0, method)
 
     def test_what_is_wrong_is_said_in_one_line(self):
-        for arguments, reason in ((["--light", "1"], "--light"), (["--light", "0,100"], "elevation"), ([], "light"),
-                                  (["--light", "0,0", "--thickness-method", "guess"], "guess"),
-                                  (["--light", "0,0", "--light-number", "7"], "7"),
-                                  (["--light", "0,0", "--thickness-layers", "0"], "layers")):
+        for arguments, reason in ((["--add-light", "sun:1"], "--add-light"), (["--add-light", "moon:1,2"], "sun"),
+                                  (["--add-light", "spot:0,0,0,0,0,0,30,1"], "nowhere"), ([], "--add-light"),
+                                  ([*sun(0), "--method", "guess"], "guess"), ([*sun(0), "--light", "7"], "7"),
+                                  ([*sun(0), "--layers", "0"], "layers"), ([*sun(0), "--picture", "x.jpg"], ".png")):
             run = self.run_cli("thickness", BALL, "-o", "d.exr", *WAX, *arguments)
             self.assertEqual(run.returncode, 2, arguments)
             self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
@@ -40,12 +48,36 @@ class Thickness(CliTest):
         self.assertEqual(self.files(), [])
 
 
+class ThicknessComparison(CliTest):
+    def test_every_method_from_three_sides_with_pictures(self):
+        run = self.run_cli("compare", BALL, "--thickness", "--size", "96x96", "--json", "c.json", "--pictures", "p", *WAX,
+                           *sun(180))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        runs = json.loads(self.read("c.json"))["runs"]
+        self.assertEqual([(r["view"], r["method"]) for r in runs],
+                         [(view, method) for view in ("behind", "side", "top") for method in METHODS])
+        for r in runs:
+            if r["method"] not in ("local-thickness", "translucent-shadow-map"):
+                self.assertLess(r["relative_error"], 0.005, r)
+        self.assertEqual(len(os.listdir(self.path("p"))), 3 * (1 + 2 * len(METHODS)))
+
+    def test_what_does_not_go_together_is_said(self):
+        for arguments in (["--pictures", "p"], ["--thickness", "--html", "x.html"]):
+            run = self.run_cli("compare", BALL, *WAX, *sun(0), *arguments)
+            self.assertEqual(run.returncode, 2, arguments)
+            self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+
+
 class TranslucentPictures(CliTest):
     def test_light_comes_through(self):
-        for name, light in (("dark", []), ("lit", ["--light", "180,10"])):
-            run = self.run_cli("render", BALL, "-o", name + ".exr", "--size", "64x64", *WAX, *light)
+        pictures = []
+        for light in ([], sun(180)):
+            run = self.run_cli("render", BALL, "-o", "x.exr", "--size", "64x64", *WAX, *light)
             self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertNotEqual(self.read("dark.exr"), self.read("lit.exr"))
+            pictures.append(read_exr(self.read("x.exr")).pixels)
+        dark, lit = pictures
+        self.assertTrue(all(b >= a for a, b in zip(dark, lit)))
+        self.assertGreater(sum(lit), 1.01 * sum(dark))
 
     def test_what_is_wrong_is_said_in_one_line(self):
         for value in ("1,1,1", "2,0,0,1", "1,1,1,0", "a,b,c,d"):

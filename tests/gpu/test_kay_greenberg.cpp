@@ -126,7 +126,7 @@ TEST_F(KayGreenberg, TiltedSlabDisplacesByTheFormula) {
     add(scene, square(1.0f), glass(glm::vec3(1.0f)),
         glm::rotate(glm::mat4(1.0f), float(tilt), glm::normalize(glm::vec3(1.0f, 1.0f, 0.0f))));
     const RenderResult result =
-        render(scene, front_camera(2.0f), {{"mode", 2}, {"thickness", share}, {"transmission", transmission}});
+        render(scene, front_camera(2.0f), {{"mode", 2}, {"slab-thickness", share}, {"transmission", transmission}});
     // Glass radius: half the diagonal of the box around the tilted square's corners.
     const Bounds bounds = scene_bounds(scene);
     const double radius = double(glm::length(bounds.half_size)), h = share * radius;
@@ -155,9 +155,9 @@ TEST_F(KayGreenberg, BackgroundIsReadWhereTheViewIsDisplacedTo) {
     right.base_color = {1.0f, 0.0f, 0.0f, 1.0f};
     add(scene, square(2.0f), left, glm::translate(glm::mat4(1.0f), glm::vec3(-2, 0, -3)));
     add(scene, square(2.0f), right, glm::translate(glm::mat4(1.0f), glm::vec3(2, 0, -3)));
-    ParameterMap parameters = {{"mode", 2}, {"thickness", 0.3}, {"transmission", 1}};
+    ParameterMap parameters = {{"mode", 2}, {"slab-thickness", 0.3}, {"transmission", 1}};
     const RenderResult thick = render(scene, front_camera(2.0f), parameters);
-    parameters["thickness"] = 0;
+    parameters["slab-thickness"] = 0;
     const RenderResult thin = render(scene, front_camera(2.0f), parameters);
     const float r = float(reflectance(std::cos(0.9)));
     int moved = 0;
@@ -179,7 +179,7 @@ TEST_F(KayGreenberg, BackgroundIsReadWhereTheViewIsDisplacedTo) {
 
 TEST_F(KayGreenberg, WithoutThicknessTheBackgroundIsUnchanged) {
     const Scene scene = load_scene("shape:knot");
-    const RenderResult result = render(scene, front_camera(3.0f), {{"mode", 2}, {"thickness", 0}, {"layers", 16}});
+    const RenderResult result = render(scene, front_camera(3.0f), {{"mode", 2}, {"slab-thickness", 0}, {"layers", 16}});
     EXPECT_GT(result.covered, 300u);
     EXPECT_EQ(result.status[std::size_t(Status::kOk)], result.covered);
     for (int i = 0; i < kSize * kSize; ++i) {

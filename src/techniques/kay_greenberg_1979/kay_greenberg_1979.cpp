@@ -18,7 +18,7 @@ constexpr std::array kParameters = {
     ParameterInfo{"min-transparency", "", 0, 0, 1, false, "of a surface seen edge-on, mode 1"},
     ParameterInfo{"max-transparency", "", 0.9, 0, 1, false,
                   "of a surface seen from the front, mode 1; anywhere, mode 0"},
-    ParameterInfo{"thickness", "glass radii", 0.1, 0, 100, false,
+    ParameterInfo{"slab-thickness", "glass radii", 0.1, 0, 100, false,
                   "h of mode 2: of every surface along its normal; in half diagonals of the box around all glass"},
     ParameterInfo{"transmission", "", 0.6, 1e-6, 1, false, "T of mode 2: share left after one glass radius inside"},
 };
@@ -52,7 +52,7 @@ Push push_of(const ParameterValues& parameters, const GpuScene& scene) {
             float(parameters["power"]),
             float(parameters["min-transparency"]),
             float(parameters["max-transparency"]),
-            float(parameters["thickness"] * radius),
+            float(parameters["slab-thickness"] * radius),
             float(std::log(parameters["transmission"]) / radius)};
 }
 
