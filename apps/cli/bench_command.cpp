@@ -5,7 +5,6 @@
 #include "options.h"
 #include "progress_bar.h"
 
-#include "core/file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -86,8 +85,8 @@ void add_deforming(BenchView& view, std::uint32_t threads) {
 
 BenchView prepare_view(Bench& bench, const BenchCase& bench_case) {
     const BenchArguments& arguments = bench.arguments;
-    auto scene = std::make_unique<const Scene>(
-        with_copies(load_scene(bench_case.source, load_options(arguments.how)), bench_case.copies));
+    auto scene =
+        std::make_unique<const Scene>(with_copies(load_lit_scene(bench_case.source, arguments.how), bench_case.copies));
     bench.warnings.insert(scene->warnings.begin(), scene->warnings.end());
     bench.renderer.set_scene(*scene);
 
@@ -181,11 +180,9 @@ void print_run(const nlohmann::ordered_json& run) {
     std::fflush(stdout);
 }
 
-void write_json(const Bench& bench) {
+void save(const Bench& bench) {
     if (!bench.arguments.json) return;
-    // Names inside files need not be UTF-8, as JSON must.
-    write_text_file(*bench.arguments.json,
-                    bench.json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    write_json(*bench.arguments.json, bench.json);
 }
 
 void run_case(Bench& bench, const BenchCase& bench_case) {
@@ -201,7 +198,7 @@ void run_case(Bench& bench, const BenchCase& bench_case) {
         bench.json["runs"].push_back(std::move(run));
     }
     bench.json["warnings"] = bench.warnings;
-    write_json(bench);  // after every case, so that a bad one later loses nothing
+    save(bench);  // after every case, so that a bad one later loses nothing
 }
 
 std::vector<BenchCase> cases_of(const BenchArguments& arguments, std::vector<std::string>& warnings) {
@@ -282,7 +279,7 @@ void run_bench(const BenchArguments& arguments) {
                   {"runs", nlohmann::ordered_json::array()}};
     print_head();
     for (const BenchCase& each : bench.cases) run_case(bench, each);
-    write_json(bench);
+    save(bench);
     print_warnings({bench.warnings.begin(), bench.warnings.end()});
     check_validation(bench.renderer);
 }

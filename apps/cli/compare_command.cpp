@@ -4,7 +4,6 @@
 #include "progress_bar.h"
 #include "thickness_compare.h"
 
-#include "core/file.h"
 #include "measure/report.h"
 
 #include <fmt/format.h>
@@ -156,11 +155,9 @@ ComparedView exact_view(Comparison& comparison, const std::string& name, const S
     return view;
 }
 
-void write_json(const Comparison& comparison) {
+void save(const Comparison& comparison) {
     if (!comparison.arguments.json) return;
-    // Names inside files need not be UTF-8, as JSON must.
-    write_text_file(*comparison.arguments.json,
-                    comparison.json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    write_json(*comparison.arguments.json, comparison.json);
 }
 
 void print_head() {
@@ -197,7 +194,7 @@ void compare_scene(Comparison& comparison, const std::string& name) {
         }
     }
     comparison.json["warnings"] = comparison.warnings;
-    write_json(comparison);  // after every scene, so that a bad one later loses nothing
+    save(comparison);  // after every scene, so that a bad one later loses nothing
 }
 
 void check_arguments(const CompareArguments& arguments) {
@@ -331,12 +328,7 @@ void add_compare_command(CLI::App& app, const std::string& command_line) {
     command->add_flag("--thickness", a.thickness,
                       "Compare the ways to find the thickness of what is translucent instead, against rays of Embree, "
                       "for every light: from behind, from the side and from the top");
-    add_number(*command, "--thickness-layers", a.thickness_how.layers,
-               "With --thickness: surfaces that are kept of every ray of light")
-        ->capture_default_str();
-    add_number(*command, "--light-map", a.thickness_how.resolution,
-               "With --thickness: texels along a side of a light's map")
-        ->capture_default_str();
+    add_light_map_options(*command, a.thickness_how, "--thickness-layers");
     command->add_option("--pictures", a.pictures, "With --thickness: pictures of thickness and error, .png")
         ->type_name("DIR");
     command->callback([arguments] {

@@ -3,7 +3,6 @@
 #include "experiment_run.h"
 #include "options.h"
 
-#include "core/file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -144,9 +143,8 @@ void run_experiments(const ExperimentArguments& arguments) {
                                 {"experiments", nlohmann::ordered_json::array()}};
     for (const ExperimentSpec* spec : chosen) {
         json["experiments"].push_back(run_one(arguments, *spec, renderer));
-        // After every experiment, so that what fails later loses nothing. Names in files need not be UTF-8, as JSON must.
-        if (arguments.json)
-            write_text_file(*arguments.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        // After every experiment, so that what fails later loses nothing.
+        if (arguments.json) write_json(*arguments.json, json);
         const std::filesystem::path index = write_experiment_index(arguments.report);
         if (spec == chosen.back()) fmt::print("Report: {}\n", index.string());
     }

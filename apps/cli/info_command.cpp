@@ -45,7 +45,7 @@ std::string counted(std::size_t count, const std::string& what, const std::strin
 
 /// What a scene holds, one thing per line; needs no device.
 void print_scene(const InfoArguments& arguments) {
-    const Scene scene = load_scene(arguments.scene, load_options(arguments.how));
+    const Scene scene = load_lit_scene(arguments.scene, arguments.how);
     const Bounds bounds = scene_bounds(scene);
     const glm::vec3 low = bounds.center - bounds.half_size, high = bounds.center + bounds.half_size;
     fmt::print("{}: {}, {}, {}\n", arguments.scene, counted(scene.objects.size(), "object", "objects"),

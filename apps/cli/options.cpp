@@ -4,6 +4,7 @@
 #include "core/math.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -157,6 +158,10 @@ std::string arguments_without_folders(const CLI::App& command, const CLI::Option
             line += " " + (option->check_lname("models") ? "DIR" : std::filesystem::path(value).filename().string());
     }
     return line;
+}
+
+void write_json(const std::string& file, const nlohmann::ordered_json& json) {
+    write_text_file(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 std::string shape_help() {

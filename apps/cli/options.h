@@ -8,6 +8,7 @@
 #include <pellucid/pellucid.h>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -69,6 +70,9 @@ bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path
 /// The arguments with which others can repeat a measurement, each after a blank: files by their names, the folder of
 /// models as DIR, without the files that are written, and without the option `left_out`.
 std::string arguments_without_folders(const CLI::App& command, const CLI::Option* left_out = nullptr);
+
+/// As text with a line feed at its end. Names inside files need not be UTF-8, as JSON must: what is not is replaced.
+void write_json(const std::string& file, const nlohmann::ordered_json& json);
 
 /// Help texts that list what there is.
 std::string shape_help();

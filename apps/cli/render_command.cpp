@@ -4,7 +4,6 @@
 #include "options.h"
 #include "progress_bar.h"
 
-#include "core/file.h"
 #include "core/file_extension.h"
 #include "core/math.h"
 
@@ -168,8 +167,7 @@ void write_outputs(const RenderArguments& arguments, const RenderResult& result,
         write_image(file, result.aovs.at(name));
     }
     if (!arguments.json) return;
-    // Names inside files need not be UTF-8, as JSON must.
-    write_text_file(*arguments.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    write_json(*arguments.json, json);
 }
 
 void render(const RenderArguments& arguments) {

@@ -3,7 +3,6 @@
 #include "progress_bar.h"
 #include "translucency_options.h"
 
-#include "core/file.h"
 #include "core/file_extension.h"
 
 #include <fmt/format.h>
@@ -128,9 +127,7 @@ void measure(const ThicknessCommandArguments& arguments) {
     json["warnings"] = warnings;
     write_image(arguments.output, thickness, {"thickness"});
     if (arguments.picture) write_image(*arguments.picture, color_thickness(thickness, largest_value(thickness)));
-    // Names inside files need not be UTF-8, as JSON must.
-    if (arguments.json)
-        write_text_file(*arguments.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    if (arguments.json) write_json(*arguments.json, json);
     fmt::print("{} points, {} of them lit, {} in shadow; through the others: mean {:.6g} m, largest {:.6g} m\n",
                json["points"].get<std::uint64_t>(), json["lit"].get<std::uint64_t>(),
                json["shadowed"].get<std::uint64_t>(), json["mean_m"].get<double>(), json["largest_m"].get<double>());

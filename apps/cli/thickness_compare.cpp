@@ -2,7 +2,6 @@
 
 #include "progress_bar.h"
 
-#include "core/file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,11 +68,7 @@ public:
 
     void finish() {
         json_["warnings"] = warnings_;
-        // Names inside files need not be UTF-8, as JSON must.
-        if (comparison_.json) {
-            write_text_file(*comparison_.json,
-                            json_.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-        }
+        if (comparison_.json) write_json(*comparison_.json, json_);
         print_warnings({warnings_.begin(), warnings_.end()});
         check_validation(renderer_);
     }

@@ -126,6 +126,10 @@ void add_thickness_options(CLI::App& command, ThicknessArguments& arguments, con
                     "How the length of solid between a light and a point is found:" + thickness_method_list())
         ->capture_default_str()
         ->type_name("NAME");
+    add_light_map_options(command, arguments, layers_flag);
+}
+
+void add_light_map_options(CLI::App& command, ThicknessArguments& arguments, const std::string& layers_flag) {
     add_number(command, layers_flag, arguments.layers, "Surfaces that are kept of every ray of light")
         ->capture_default_str();
     add_number(command, "--light-map", arguments.resolution, "Texels along a side of a light's map")

@@ -23,7 +23,7 @@ std::optional<Translucency> parse_translucency(const TranslucencyArguments& argu
 /// Throws Error naming what is wrong with one of them.
 std::vector<Light> parse_lights(const TranslucencyArguments& arguments);
 
-/// How thickness is found. `method`, `layers`, `map`: the names of the flags, which differ from command to command.
+/// How thickness is found. The names of the flags differ from command to command.
 struct ThicknessArguments {
     std::string method = "layers";
     std::uint32_t layers = ThicknessSettings{}.layers;
@@ -31,6 +31,8 @@ struct ThicknessArguments {
 };
 void add_thickness_options(CLI::App& command, ThicknessArguments& arguments, const std::string& method_flag,
                            const std::string& layers_flag);
+/// The same without the method.
+void add_light_map_options(CLI::App& command, ThicknessArguments& arguments, const std::string& layers_flag);
 ThicknessSettings thickness_settings(const ThicknessArguments& arguments);
 
 /// "translucent-shadow-map (from the first surface ...); ...".

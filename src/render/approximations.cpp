@@ -8,10 +8,10 @@
 namespace pellucid {
 namespace {
 
-bool all_translucent(const Scene& scene) {
-    return std::all_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+std::size_t translucent_objects(const Scene& scene) {
+    return std::size_t(std::count_if(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
         return scene.materials[std::size_t(object.material)].translucent();
-    });
+    }));
 }
 
 }  // namespace
@@ -51,13 +51,11 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
                   "walls"
                 : "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
-    const bool translucent = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-        return scene.materials[std::size_t(object.material)].translucent();
-    });
-    if (!scene.lights.empty() && !translucent) {
+    const std::size_t translucent = translucent_objects(scene);
+    if (!scene.lights.empty() && translucent == 0) {
         lines.push_back(
             fmt::format("{} light{} not drawn", scene.lights.size(), scene.lights.size() == 1 ? " is" : "s are"));
-    } else if (!scene.lights.empty() && translucent && !all_translucent(scene)) {
+    } else if (!scene.lights.empty() && translucent < scene.objects.size()) {
         lines.push_back("lights light translucent objects only");
     }
     return lines;
