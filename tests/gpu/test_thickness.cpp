@@ -169,6 +169,17 @@ TEST_F(Thickness, AnOddLayerOutCountsNothing) {
     }
 }
 
+// Light enters an open sheet and nothing says where it leaves: behind it gaps are gaps, and solids are solid.
+TEST_F(Thickness, AnEntryWithoutAnExitSwallowsNoGap) {
+    Scene scene = waxen("shape:sphere,segments=64", sun({0, 0, -1}));
+    add_copy(scene, moved({0.0f, 0.0f, -3.0f}));
+    add(scene, square(), wax(), glm::scale(moved({0.0f, 0.0f, 2.0f}), glm::vec3(4.0f)));
+    set(scene, 180.0f, 0.0f);
+    const int middle = int(kSize / 2);
+    for (const ThicknessMethod method : kLayered)
+        EXPECT_NEAR(double(*measure(method).at(middle, middle)), 4.0, 0.02) << name_of(method);
+}
+
 TEST_F(Thickness, OpaqueThingsCastShadows) {
     Scene scene = waxen("shape:sphere,segments=64", sun({0, 0, -1}));
     Material opaque;
