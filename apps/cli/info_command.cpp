@@ -34,9 +34,6 @@ void print_devices() {
     if (!usable) throw DeviceError("no usable Vulkan device; a software one comes with Mesa's Vulkan drivers");
     // The device itself is made as well: a driver may list a device that it then cannot open.
     fmt::print("default: {}\n", Renderer().device().name);
-    std::vector<std::string_view> methods;
-    for (const ThicknessMethodInfo& info : thickness_methods()) methods.push_back(info.name);
-    fmt::print("thickness of translucent solids: {}\n", fmt::join(methods, ", "));
 }
 
 std::string counted(std::size_t count, const std::string& what, const std::string& plural) {

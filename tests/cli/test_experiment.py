@@ -9,7 +9,7 @@ import pictures
 from cli import CliTest, TETRAHEDRON
 
 NAMES = ["wang-search-step", "wang-environment", "wang-layers", "interfaces", "wyman-speed", "wang-table-4-1",
-         "wang-many-objects"]
+         "wang-many-objects", "chen-error", "chen-speed"]
 
 
 class Experiment(CliTest):
@@ -170,6 +170,24 @@ class Experiment(CliTest):
         self.assertAlmostEqual(ratios["torus, near"], 142 / 49)
         self.assertAlmostEqual(ratios["infinity ring, far"], 133 / 79)
         self.assertIn("1.37", self.page("wang-table-4-1"))
+
+
+class ThicknessExperiments(CliTest):
+    def test_three_balls(self):
+        """The paper's figure of merit: layers and peeling are nearly exact, a shadow map is far off."""
+        result = self.run_cli("experiment", "chen-error", "--size", "480x270", "--json", "e.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        runs = {(r["scene"], r["variant"]): r["relative_error"] for r in json.loads(self.read("e.json"))["experiments"][0]["runs"]}
+        for view in ("behind", "side", "top"):
+            for method in ("layers", "depth-peeling", "dual-depth-peeling"):
+                self.assertLess(runs[view, method + ", 1024"], 0.005, (view, method))
+            self.assertGreater(runs[view, "translucent-shadow-map, 1024"], 0.5, view)
+            self.assertLess(runs[view, "rays of Embree"], 0.005, view)
+
+    def test_without_the_dragon(self):
+        result = self.run_cli("experiment", "chen-speed", "--size", "64x64")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("nothing is left to measure", result.stderr)
 
 
 if __name__ == "__main__":
