@@ -315,6 +315,36 @@ TEST(LoadGltf, ValuesOutOfRangeAreClampedWithAWarning) {
     EXPECT_NE(warnings.at(0).find("cut out at 0.5"), std::string::npos);
 }
 
+TEST(LoadGltf, DiffuseTransmission) {
+    const json volume = {{"attenuationDistance", 2}, {"attenuationColor", {0.5, 0.25, 1}}};
+    const json wax = {{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                      {"extensions",
+                       {{"KHR_materials_diffuse_transmission",
+                         {{"diffuseTransmissionFactor", 0.25}, {"diffuseTransmissionColorFactor", {0.9, 0.5, 0.1}}}},
+                        {"KHR_materials_volume", volume}}}};
+    std::vector<std::string> warnings;
+    const Material material = material_of(wax, &warnings);
+    EXPECT_TRUE(material.translucent());
+    EXPECT_EQ(material.diffuse_transmission, 0.25f);
+    EXPECT_EQ(material.diffuse_transmission_color, glm::vec3(0.9f, 0.5f, 0.1f));
+    EXPECT_NEAR(material.sigma_a().r, std::log(2.0) / 2, 1e-6);
+    EXPECT_NEAR(material.sigma_a().g, std::log(4.0) / 2, 1e-6);
+    EXPECT_EQ(material.sigma_a().b, 0.0f);
+    ASSERT_EQ(warnings.size(), 1u);  // the mesh is one triangle
+    EXPECT_NE(warnings[0].find("not a closed solid"), std::string::npos);
+
+    // Glass keeps to what goes straight through, metal scatters nothing, shares lie within 0..1.
+    json glass = wax;
+    glass["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 0.5}};
+    EXPECT_FALSE(material_of(glass, &warnings).translucent());
+    EXPECT_EQ(warnings.size(), 1u);
+    EXPECT_FALSE(material_of({{"extensions", wax["extensions"]}}).translucent());
+    json bright = wax;
+    bright["extensions"]["KHR_materials_diffuse_transmission"]["diffuseTransmissionFactor"] = 3;
+    EXPECT_EQ(material_of(bright, &warnings).diffuse_transmission, 1.0f);
+    EXPECT_EQ(warnings.size(), 2u);
+}
+
 TEST(LoadGltf, OverridesApplyToRefractiveMaterialsOnly) {
     const TemporaryFolder folder;
     GltfBuilder b = GltfBuilder::triangle();
