@@ -5,7 +5,6 @@
 #include "options.h"
 #include "progress_bar.h"
 
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -85,8 +84,8 @@ void add_deforming(BenchView& view, std::uint32_t threads) {
 
 BenchView prepare_view(Bench& bench, const BenchCase& bench_case) {
     const BenchArguments& arguments = bench.arguments;
-    auto scene =
-        std::make_unique<const Scene>(with_copies(load_lit_scene(bench_case.source, arguments.how), bench_case.copies));
+    auto scene = std::make_unique<const Scene>(
+        with_copies(load_given_scene(bench_case.source, arguments.how), bench_case.copies));
     bench.warnings.insert(scene->warnings.begin(), scene->warnings.end());
     bench.renderer.set_scene(*scene);
 

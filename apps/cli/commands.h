@@ -13,6 +13,7 @@ void add_compare_command(CLI::App& app, const std::string& command_line);
 void add_bench_command(CLI::App& app);
 void add_experiment_command(CLI::App& app);
 void add_thickness_command(CLI::App& app);
+void add_volume_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 
 }  // namespace pellucid::cli

@@ -178,7 +178,7 @@ void print_row(const nlohmann::ordered_json& run) {
 }
 
 void compare_scene(Comparison& comparison, const std::string& name) {
-    const Scene scene = load_lit_scene(name, comparison.arguments.how);
+    const Scene scene = load_given_scene(name, comparison.arguments.how);
     comparison.warnings.insert(scene.warnings.begin(), scene.warnings.end());
     comparison.renderer.set_scene(scene);
     if (comparison.json["runs"].empty()) print_head();
@@ -316,7 +316,7 @@ void add_compare_command(CLI::App& app, const std::string& command_line) {
         ->type_name("NAME");
     add_number(*command, "--truth-samples", a.truth_samples, "Paths per pixel of --truth path")->capture_default_str();
     add_environment_option(*command, a.environment);
-    command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")
+    command->add_option("--tonemap", a.tonemap, "none, reinhard, aces, neutral or krawczyk")
         ->capture_default_str()
         ->type_name("NAME");
     add_number(*command, "--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");

@@ -1,6 +1,8 @@
 #include "experiments.h"
 
 #include "experiment_scenes.h"
+#include "ihrke_experiments.h"
+#include "light_experiments.h"
 #include "thickness_experiments.h"
 
 #include <fmt/format.h>
@@ -290,9 +292,9 @@ ExperimentSpec wang_many_objects() {
 }  // namespace
 
 std::span<const ExperimentSpec> experiments() {
-    static const std::vector<ExperimentSpec> all = {wang_search_step(),  wang_environment(), wang_layers(),
-                                                    interfaces(),        wyman_speed(),      wang_table_4_1(),
-                                                    wang_many_objects(), chen_error(),       chen_speed()};
+    static const std::vector<ExperimentSpec> all = {
+        wang_search_step(), wang_environment(),  wang_layers(), interfaces(), wyman_speed(),
+        wang_table_4_1(),   wang_many_objects(), chen_error(),  chen_speed(), ihrke_rays(), ihrke_light()};
     return all;
 }
 

@@ -42,7 +42,7 @@ std::string counted(std::size_t count, const std::string& what, const std::strin
 
 /// What a scene holds, one thing per line; needs no device.
 void print_scene(const InfoArguments& arguments) {
-    const Scene scene = load_lit_scene(arguments.scene, arguments.how);
+    const Scene scene = load_given_scene(arguments.scene, arguments.how);
     const Bounds bounds = scene_bounds(scene);
     const glm::vec3 low = bounds.center - bounds.half_size, high = bounds.center + bounds.half_size;
     fmt::print("{}: {}, {}, {}\n", arguments.scene, counted(scene.objects.size(), "object", "objects"),
@@ -50,6 +50,10 @@ void print_scene(const InfoArguments& arguments) {
                counted(scene.triangle_count(), "triangle", "triangles"));
     fmt::print("box: {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g} m\n", low.x, low.y, low.z, high.x, high.y, high.z);
     for (const Camera& camera : scene.cameras) fmt::print("camera: {}\n", one_line(camera.name));
+    for (const VolumeObject& object : scene.volume_objects) {
+        const glm::uvec3 size = scene.volumes[std::size_t(object.volume)]->size;
+        fmt::print("volume: {}, {} x {} x {} voxels\n", one_line(object.name), size.x, size.y, size.z);
+    }
     for (const Light& light : scene.lights) fmt::print("light: {}\n", one_line(light.name));
     const std::vector<AnimationInfo> known = animations(scene);
     for (std::size_t i = 0; i < known.size(); ++i)

@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
     pellucid::cli::add_bench_command(app);
     pellucid::cli::add_experiment_command(app);
     pellucid::cli::add_thickness_command(app);
+    pellucid::cli::add_volume_command(app);
     pellucid::cli::add_info_command(app);
     try {
         if (argc > 1 && argv[1][0] != '-') check_command(app, argv[1]);

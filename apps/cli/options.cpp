@@ -48,12 +48,14 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
                     "shown; default: the file at rest, or with --time its first animation")
         ->type_name("NAME|N");
     add_translucency_options(command, arguments.translucency);
+    add_volume_options(command, arguments.volumes);
     add_number(command, "--time", arguments.time_s, "Time in the animation, s, from 0 (default 0)")->type_name("S");
 }
 
-Scene load_lit_scene(const std::string& source, const SceneArguments& arguments) {
+Scene load_given_scene(const std::string& source, const SceneArguments& arguments) {
     const std::vector<Light> lights = parse_lights(arguments.translucency);  // wrong ones are said before any work
-    Scene scene = load_scene(source, load_options(arguments));
+    Scene scene = load_scene(source, with_grids(load_options(arguments), source, arguments.volumes));
+    add_volumes(scene, arguments.volumes);
     scene.lights.insert(scene.lights.end(), lights.begin(), lights.end());
     return scene;
 }
@@ -166,9 +168,11 @@ void write_json(const std::string& file, const nlohmann::ordered_json& json) {
 
 std::string shape_help() {
     std::string help =
-        "Scene: a .gltf, .glb, .obj, .ply, .stl, .off or .3ds file, or shape:NAME[,PARAMETER=VALUE...] with NAME one "
-        "of";
+        "Scene: a .gltf, .glb, .obj, .ply, .stl, .off, .3ds or .vdb file, or shape:NAME[,PARAMETER=VALUE...] with "
+        "NAME one of";
     for (const ShapeInfo& shape : shape_infos()) help += fmt::format(" {}", shape.name);
+    help += ", or volume:NAME[,...] with NAME one of";
+    for (const ShapeInfo& volume : volume_infos()) help += fmt::format(" {}", volume.name);
     return help;
 }
 

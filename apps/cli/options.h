@@ -4,6 +4,7 @@
 
 #include "arguments.h"
 #include "translucency_options.h"
+#include "volume_options.h"
 
 #include <pellucid/pellucid.h>
 
@@ -38,11 +39,13 @@ struct SceneArguments {
     std::optional<std::string> animation;
     std::optional<double> time_s;
     TranslucencyArguments translucency;
+    VolumeArguments volumes;
 };
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
+/// All but --map and what --add-light and --add-volume add.
 LoadOptions load_options(const SceneArguments& arguments);
-/// load_scene(), and the lights that the command line adds.
-Scene load_lit_scene(const std::string& source, const SceneArguments& arguments);
+/// load_scene(), and the lights and volumes that the command line adds.
+Scene load_given_scene(const std::string& source, const SceneArguments& arguments);
 
 struct DeviceArguments {
     std::string device;

@@ -34,6 +34,7 @@ struct RenderArguments {
     std::uint32_t samples = 1;
     std::string tonemap = "neutral";
     double exposure_ev = 0.0;
+    double unit_luminance_cd_m2 = double(RenderSettings().unit_luminance_cd_m2);
     std::string view = "radiance";
     std::string layer_builder = "automatic";
     std::vector<std::string> aovs;
@@ -74,6 +75,7 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     settings.thickness = thickness_settings(arguments.thickness);
     settings.tonemap = parse_tonemap(arguments.tonemap);
     settings.exposure_ev = float(arguments.exposure_ev);
+    settings.unit_luminance_cd_m2 = float(arguments.unit_luminance_cd_m2);
     for (const std::string& aov : arguments.aovs) settings.aovs.push_back(parse_aov(aov).first);
     return settings;
 }
@@ -135,6 +137,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
     json["frames"] = result.frames.size();
     json["layer_passes"] = result.layer_passes;
     json["cut_rays"] = result.cut_rays;
+    if (settings.tonemap == ToneMap::kKrawczyk) json["adapted_cd_m2"] = result.adapted_cd_m2;
     json["warnings"] = warnings;
     return json;
 }
@@ -174,15 +177,15 @@ void render(const RenderArguments& arguments) {
     check_render_outputs(arguments);
     RenderSettings settings = render_settings(arguments);
     check_technique_name(settings.technique);  // said before any work
-    const Scene scene = load_lit_scene(arguments.scene, arguments.how);
+    const Scene scene = load_given_scene(arguments.scene, arguments.how);
     std::vector<std::string> warnings = scene.warnings;
     std::string environment_warning;
     const Environment environment = load_environment(arguments.environment, &environment_warning);
     if (!environment_warning.empty()) warnings.push_back(environment_warning);
 
     Renderer renderer(device_options(arguments.device));
-    const NamedTechnique technique{settings.technique, renderer.choose(settings.technique)};
     renderer.set_scene(scene);
+    const NamedTechnique technique{settings.technique, renderer.choose(settings.technique)};
     renderer.set_environment(environment);
     if (const std::optional<Camera> camera = chosen_camera(arguments, settings, scene)) renderer.set_camera(*camera);
     ProgressBar bar(settings.technique);
@@ -227,10 +230,14 @@ void add_render_command(CLI::App& app) {
     add_number(*command, "--samples", a.samples,
                "Jittered frames, averaged in linear light; of the technique path: paths per pixel")
         ->capture_default_str();
-    command->add_option("--tonemap", a.tonemap, "none, reinhard, aces or neutral")
+    command
+        ->add_option("--tonemap", a.tonemap, "none, reinhard, aces, neutral, or krawczyk, which adapts to the picture")
         ->capture_default_str()
         ->type_name("NAME");
     add_number(*command, "--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
+    add_number(*command, "--unit-luminance", a.unit_luminance_cd_m2, "Of --tonemap krawczyk: luminance of radiance 1")
+        ->capture_default_str()
+        ->type_name("CD/M2");
     command
         ->add_option("--view", a.view,
                      "radiance, or analysis: red up to two interfaces, blue more, green total internal "

@@ -74,7 +74,7 @@ void check_arguments(const ThicknessCommandArguments& arguments) {
 void measure(const ThicknessCommandArguments& arguments) {
     check_arguments(arguments);
     const auto [width, height] = parse_size(arguments.size);
-    const Scene scene = load_lit_scene(arguments.scene, arguments.how);
+    const Scene scene = load_given_scene(arguments.scene, arguments.how);
     if (scene.lights.empty())
         throw Error(fmt::format("{}: there is no light; give one with --add-light", arguments.scene));
     if (arguments.light >= scene.lights.size())

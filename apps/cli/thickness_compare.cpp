@@ -43,7 +43,7 @@ public:
     }
 
     void add_scene(const std::string& name) {
-        const Scene scene = load_lit_scene(name, comparison_.how);
+        const Scene scene = load_given_scene(name, comparison_.how);
         warnings_.insert(scene.warnings.begin(), scene.warnings.end());
         if (scene.lights.empty()) throw Error(fmt::format("{}: there is no light; give one with --add-light", name));
         renderer_.set_scene(scene);

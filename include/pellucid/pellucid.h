@@ -14,3 +14,5 @@
 #include <pellucid/scene.h>
 #include <pellucid/technique.h>
 #include <pellucid/thickness.h>
+#include <pellucid/volume.h>
+#include <pellucid/voxelize.h>

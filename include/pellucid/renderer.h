@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -46,6 +47,7 @@ enum class ToneMap {
     kReinhard,  ///< L / (1 + L) on luminance (Reinhard et al. 2002)
     kAces,      ///< Narkowicz 2015, fit of the ACES filmic curve
     kNeutral,   ///< Khronos PBR Neutral 1.0: keeps base colours, compresses highlights (default)
+    kKrawczyk,  ///< for an eye that adapts to the picture (Krawczyk et al. 2005); needs luminances, see RenderSettings
 };
 
 struct RenderSettings {
@@ -62,7 +64,13 @@ struct RenderSettings {
     bool still = true;
     ThicknessSettings thickness;  ///< of translucent objects that lights shine through
     ToneMap tonemap = ToneMap::kNeutral;
-    float exposure_ev = 0.0f;       ///< stops; radiance is multiplied by 2^exposure_ev
+    float exposure_ev = 0.0f;  ///< stops; radiance is multiplied by 2^exposure_ev; kKrawczyk: on top of what adapts
+    /// kKrawczyk: luminance of radiance 1, cd/m2, 1e-6 to 1e9. By default what other curves show as white has that of a
+    /// display's white. 1 where radiance is in cd/m2, as of glTF's lights.
+    float unit_luminance_cd_m2 = 100.0f;
+    /// kKrawczyk: seconds since the renderer's last picture with this tone map, >= 0: the eye adapts to the new one by
+    /// as much. Infinite: altogether, as to the first.
+    float adaptation_s = std::numeric_limits<float>::infinity();
     std::vector<std::string> aovs;  ///< names of aov_infos() wanted in RenderResult::aovs
     bool paths = false;             ///< fill RenderResult::paths
     Progress progress;
@@ -89,6 +97,7 @@ struct RenderResult {
     std::vector<RefractedPath> paths;  ///< if asked for: one per pixel, through its centre, rows from the top
     Image standard_error;              ///< RGB, of `radiance`, where the technique estimates it (path); else empty
     std::uint64_t cut_paths = 0;       ///< technique path: paths that reached its limit of length
+    float adapted_cd_m2 = 0.0f;        ///< tone map kKrawczyk: the luminance that the eye has adapted to; else 0
     /// One entry per sample; empty where the device has no timestamps. On the software driver the
     /// first frame of a size includes compiling the shaders.
     std::vector<std::vector<PassTime>> frames;
@@ -140,7 +149,7 @@ public:
     const Tracer& tracer();
 
     const DeviceInfo& device() const;
-    /// What a name stands for on this device. Throws Error listing the known names, of techniques and presets.
+    /// What a name stands for on this device and for the scene that was set: volumes need a technique that draws them. Throws Error listing the known names, of techniques and presets.
     TechniqueChoice choose(std::string_view name) const;
     /// What the device lacks for a technique, in words that follow "needs"; empty: it can be used.
     std::string lacking(const TechniqueInfo& technique) const;

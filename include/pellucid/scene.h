@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pellucid/image.h>
+#include <pellucid/volume.h>
 
 #include <glm/glm.hpp>
 
@@ -116,6 +117,18 @@ struct Light {
     float outer_cone_angle = 0.7853982f;                   ///< radians, > inner_cone_angle: none beyond
 };
 
+/// One placement of a volume.
+struct VolumeObject {
+    std::string name;
+    int volume = 0;
+    /// Moves, turns, mirrors and scales alike in all directions. A scale is one of all lengths: what a ray loses, scatters
+    /// and picks up on its way through stays what it is.
+    glm::mat4 world_from_volume{1.0f};
+    /// Refracting objects that it was made from: where volumes are drawn, it stands for them. Their surfaces say where
+    /// rays enter it (parameter `proxy` of ihrke-2007), sharper than its voxels can.
+    std::vector<int> objects;
+};
+
 /// Nodes, animations, skins and morph targets of a file, as load_scene() read them. See pellucid/animation.h.
 struct Rig;
 
@@ -127,6 +140,8 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<Object> objects;
+    std::vector<std::shared_ptr<const Volume>> volumes;  ///< copies of the scene share them; none is null
+    std::vector<VolumeObject> volume_objects;            ///< where boxes overlap, the smaller one counts
     std::vector<Camera> cameras;
     std::vector<Light> lights;
     std::shared_ptr<const Rig> rig;        ///< what pose_at() poses; copies share it; null where nothing is animated
@@ -140,7 +155,7 @@ struct Bounds {
     float radius = 0.0f;
     glm::vec3 half_size{0.0f};  ///< half the sides of the box, m
 };
-/// Bounds of all objects: centre of the box, radius to the farthest vertex.
+/// Bounds of all objects and volumes: centre of the box, radius to the farthest vertex or corner of a volume's box.
 Bounds scene_bounds(const Scene& scene);
 
 /// What makes a solid wax, jade or skin.
@@ -166,13 +181,15 @@ struct LoadOptions {
     /// node transforms and weights.
     std::optional<std::string> animation;
     std::optional<double> time_s;  ///< >= 0, default 0; of the animation, or without one of the file's first
+    /// Of OpenVDB files; empty: grids have the names of fields. See load_volume().
+    std::vector<GridMapping> grids;
 };
 
 /// Loads a scene.
 ///
-/// `source` is a file (`.gltf`, `.glb`, `.obj`, `.ply`, `.stl`, `.off`, `.3ds`) or a procedural
-/// shape `shape:NAME[,PARAMETER=VALUE...]` (see shape_names()). glTF brings its own materials;
-/// of every other kind the whole file is glass. Skins and morph targets of glTF are applied, at rest or as
+/// `source` is a file (`.gltf`, `.glb`, `.obj`, `.ply`, `.stl`, `.off`, `.3ds`, `.vdb`), a procedural
+/// shape `shape:NAME[,PARAMETER=VALUE...]` (see shape_infos()) or volume `volume:NAME[,...]` (volume_infos()). glTF
+/// brings its own materials; of every other kind of mesh the whole file is glass. Skins and morph targets of glTF are applied, at rest or as
 /// LoadOptions::animation says; meshes with a skin get vertices in the world's frame and objects at the identity.
 /// Throws Error in one line if the file is missing, malformed, empty, or requires a glTF extension
 /// that is not supported. What could be repaired or was left out is in Scene::warnings.
@@ -192,6 +209,8 @@ struct ShapeInfo {
     std::vector<ShapeParameter> parameters;
 };
 const std::vector<ShapeInfo>& shape_infos();
+/// The same of `volume:`.
+const std::vector<ShapeInfo>& volume_infos();
 
 /// Camera on a sphere around `bounds`, looking at its centre.
 /// azimuth_deg 0 looks along -Z from +Z, growing towards +X; elevation_deg -90..90;

@@ -50,6 +50,8 @@ struct TechniqueInfo {
     /// Refracted rays meet everything that there is, wherever it lies: opaque objects, thin walls, rough and dispersive
     /// glass.
     bool whole_scene = false;
+    /// Draws volumes (Scene::volumes); otherwise they are left out.
+    bool volumes = false;
 };
 
 /// Every technique there is: those that others are drawn by in the order of their publication, then those

@@ -39,7 +39,7 @@ std::filesystem::path link_target(const std::filesystem::path& link) {
 
 }  // namespace
 
-std::vector<std::byte> read_file(const std::filesystem::path& file) {
+std::uintmax_t check_readable(const std::filesystem::path& file) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(file, error);
     if (status.type() == std::filesystem::file_type::not_found) fail(file, "no such file");
@@ -47,12 +47,16 @@ std::vector<std::byte> read_file(const std::filesystem::path& file) {
     if (std::filesystem::is_directory(status)) fail(file, "is a folder, not a file");
     // A pipe would block and a device may never end.
     if (!std::filesystem::is_regular_file(status)) fail(file, "is not a regular file");
-
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
-    if (!stream) fail(file, std::strerror(errno));
+    if (access(file.c_str(), R_OK) != 0) fail(file, std::strerror(errno));
     const auto size = std::filesystem::file_size(file, error);
     if (error) fail(file, error.message());
-    std::vector<std::byte> bytes(size);
+    return size;
+}
+
+std::vector<std::byte> read_file(const std::filesystem::path& file) {
+    std::vector<std::byte> bytes(check_readable(file));
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+    if (!stream) fail(file, std::strerror(errno));
     if (std::fread(bytes.data(), 1, bytes.size(), stream.get()) != bytes.size())
         fail(file, "cannot be read completely");
     return bytes;

@@ -60,6 +60,12 @@ std::optional<std::uint32_t> universal_queue_family(const vk::raii::PhysicalDevi
     return std::nullopt;
 }
 
+bool has_long_atomics(const vk::raii::PhysicalDevice& physical) {
+    const auto chain = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+    return chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 &&
+           chain.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics;
+}
+
 bool has_ray_tracing(const vk::raii::PhysicalDevice& physical) {
     const auto available = physical.enumerateDeviceExtensionProperties();
     const bool extensions =
@@ -256,16 +262,18 @@ void Device::create_device(const vk::raii::PhysicalDevice& physical) {
 
     vk::PhysicalDeviceRayTracingPipelineFeaturesKHR pipelines{.rayTracingPipeline = true};
     vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures{.pNext = &pipelines, .accelerationStructure = true};
-    vk::PhysicalDeviceVulkan12Features features12{.pNext = &structures, .bufferDeviceAddress = true};
     const bool traces = has_ray_tracing(physical);
+    long_atomics_ = has_long_atomics(physical);
+    vk::PhysicalDeviceVulkan12Features features12{.pNext = traces ? &structures : nullptr,
+                                                  .shaderBufferInt64Atomics = long_atomics_,
+                                                  .bufferDeviceAddress = traces};
     if (traces) ray_tracing_ = ray_tracing_limits(physical);
 
-    vk::PhysicalDeviceVulkan13Features features13{.pNext = traces ? &features12 : nullptr,
-                                                  .synchronization2 = true,
-                                                  .dynamicRendering = true,
-                                                  .maintenance4 = true};
-    const vk::PhysicalDeviceFeatures2 features{.pNext = &features13,
-                                               .features = {.fragmentStoresAndAtomics = fragment_atomics_}};
+    vk::PhysicalDeviceVulkan13Features features13{
+        .pNext = &features12, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+    const vk::PhysicalDeviceFeatures2 features{
+        .pNext = &features13,
+        .features = {.fragmentStoresAndAtomics = fragment_atomics_, .shaderInt64 = long_atomics_}};
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queue{
         .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};

@@ -46,6 +46,8 @@ public:
     bool is_cpu() const { return is_cpu_; }  ///< a software driver
     /// Blending of RGBA32F targets, which dual depth peeling needs.
     bool float_blending() const { return float_blending_; }
+    /// 64-bit integers in shaders and atomics on them in storage buffers, which light in volumes needs.
+    bool long_atomics() const { return long_atomics_; }
     /// Ray-tracing pipelines and acceleration structures; nothing where the device has none.
     const std::optional<RayTracingLimits>& ray_tracing() const { return ray_tracing_; }
     /// Nanoseconds per timestamp tick; 0 where the queue has no timestamps.
@@ -76,6 +78,7 @@ private:
     bool fragment_atomics_ = false;
     bool is_cpu_ = false;
     bool float_blending_ = false;
+    bool long_atomics_ = false;
     std::optional<RayTracingLimits> ray_tracing_;
     bool debug_labels_ = false;
     double timestamp_period_ns_ = 0.0;

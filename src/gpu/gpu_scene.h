@@ -8,6 +8,7 @@
 #include <pellucid/scene.h>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,11 @@ struct GpuMesh {
     std::uint32_t triangle_count;
     glm::vec3 low, high;      ///< its box, in its own frame; empty (low > high) without vertices
     std::uint64_t moves = 0;  ///< GpuScene::moves when it last moved
+};
+
+/// What is kept with a scene by a room that this one does not know.
+struct PreparedState {
+    virtual ~PreparedState() = default;
 };
 
 /// A Scene in device memory.
@@ -66,6 +72,7 @@ struct GpuScene {
     std::vector<glm::vec3> refractive_corners;   ///< corners of the refractive objects' boxes, world
     std::vector<glm::vec3> translucent_corners;  ///< of the translucent ones
     std::optional<SceneTopology> topology;       ///< see prepare_topology()
+    std::unique_ptr<PreparedState> volumes;      ///< SceneVolumes (volume/scene_volumes.h), where a technique draws them
     /// What techniques have computed from the scene, by name; kept as long as the scene is.
     std::map<std::string, Buffer, std::less<>> prepared;
 };

@@ -198,6 +198,43 @@ GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk
     });
 }
 
+GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent3D extent,
+                   vk::ImageUsageFlags usage)
+    : name_(std::move(name)), format_(format), extent_{extent.width, extent.height}, depth_(extent.depth),
+      id_(next_resource_id()) {
+    const std::uint32_t limit = device.limits().maxImageDimension3D;
+    const std::uint32_t largest = std::max({extent.width, extent.height, extent.depth});
+    if (std::min({extent.width, extent.height, extent.depth}) == 0 || largest > limit) {
+        throw Error(fmt::format("{} of {}x{}x{}: {} allows 1 to {} along every axis", name_, extent.width,
+                                extent.height, extent.depth, device.info().name, limit));
+    }
+    const double bytes = double(extent.width) * extent.height * extent.depth * texel_size(format);
+    if (bytes > double(device.max_allocation())) {
+        throw Error(fmt::format("{} of {}x{}x{} needs {:.2f} GiB; {} allocates {:.2f} GiB at once", name_, extent.width,
+                                extent.height, extent.depth, bytes / double(1u << 30), device.info().name,
+                                double(device.max_allocation()) / double(1u << 30)));
+    }
+    image_ = device.handle().createImage({.imageType = vk::ImageType::e3D,
+                                          .format = format,
+                                          .extent = extent,
+                                          .mipLevels = 1,
+                                          .arrayLayers = 1,
+                                          .samples = vk::SampleCountFlagBits::e1,
+                                          .tiling = vk::ImageTiling::eOptimal,
+                                          .usage = usage,
+                                          .initialLayout = vk::ImageLayout::eUndefined});
+    memory_ = allocate(device, name_, image_.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    image_.bindMemory(*memory_, 0);
+    array_view_ = device.handle().createImageView(
+        {.image = *image_,
+         .viewType = vk::ImageViewType::e3D,
+         .format = format,
+         .subresourceRange = {.aspectMask = aspect_of(format), .levelCount = 1, .layerCount = 1}});
+    submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
+        change_layout(commands, *this, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral);
+    });
+}
+
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize offset) {
     if (data.empty()) return;
     const Buffer staging = staging_buffer(device, std::min<vk::DeviceSize>(kStagingSize, data.size()));
@@ -228,6 +265,75 @@ void upload(const Device& device, const GpuImage& image, std::uint32_t layer, st
             change_layout(commands, image, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eGeneral);
         });
     });
+}
+
+namespace {
+
+/// Calls `copy(region, bytes, offset)` for slabs of a box of a 3D image that fit the staging buffer; a single slice is
+/// always one.
+void for_each_slab(const GpuImage& image, vk::Offset3D first, vk::Extent3D extent,
+                   const std::function<void(const vk::BufferImageCopy2&, vk::DeviceSize, vk::DeviceSize)>& copy) {
+    const vk::DeviceSize slice = vk::DeviceSize(extent.width) * extent.height * texel_size(image.format());
+    const auto slab = std::uint32_t(std::max<vk::DeviceSize>(1, kStagingSize / slice));
+    for (std::uint32_t z = 0; z < extent.depth; z += slab) {
+        const std::uint32_t slices = std::min(slab, extent.depth - z);
+        copy({.imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1},
+              .imageOffset = {first.x, first.y, first.z + std::int32_t(z)},
+              .imageExtent = {extent.width, extent.height, slices}},
+             slices * slice, z * slice);
+    }
+}
+
+vk::DeviceSize slab_size(const GpuImage& image, vk::Extent3D extent) {
+    const vk::DeviceSize slice = vk::DeviceSize(extent.width) * extent.height * texel_size(image.format());
+    return slice * std::min<vk::DeviceSize>(extent.depth, std::max<vk::DeviceSize>(1, kStagingSize / slice));
+}
+
+}  // namespace
+
+void upload_box(const Device& device, const GpuImage& image, vk::Offset3D first, vk::Extent3D extent,
+                std::span<const std::byte> data) {
+    const Buffer staging = staging_buffer(device, slab_size(image, extent));
+    for_each_slab(image, first, extent,
+                  [&](const vk::BufferImageCopy2& region, vk::DeviceSize bytes, vk::DeviceSize offset) {
+                      std::memcpy(staging.mapped(), data.data() + offset, bytes);
+                      submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
+                          const auto general = vk::ImageLayout::eGeneral, target = vk::ImageLayout::eTransferDstOptimal;
+                          change_layout(commands, image, general, target);
+                          commands.copyBufferToImage2({.srcBuffer = staging.handle(),
+                                                       .dstImage = image.handle(),
+                                                       .dstImageLayout = target,
+                                                       .regionCount = 1,
+                                                       .pRegions = &region});
+                          change_layout(commands, image, target, general);
+                      });
+                  });
+}
+
+std::vector<std::byte> download_box(const Device& device, const GpuImage& image) {
+    const vk::Extent3D extent{image.extent().width, image.extent().height, image.depth()};
+    std::vector<std::byte> data(std::size_t(extent.width) * extent.height * extent.depth * texel_size(image.format()));
+    const Buffer staging = staging_buffer(device, slab_size(image, extent));
+    for_each_slab(image, {}, extent,
+                  [&](const vk::BufferImageCopy2& region, vk::DeviceSize bytes, vk::DeviceSize offset) {
+                      submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
+                          const auto general = vk::ImageLayout::eGeneral, source = vk::ImageLayout::eTransferSrcOptimal;
+                          change_layout(commands, image, general, source);
+                          commands.copyImageToBuffer2({.srcImage = image.handle(),
+                                                       .srcImageLayout = source,
+                                                       .dstBuffer = staging.handle(),
+                                                       .regionCount = 1,
+                                                       .pRegions = &region});
+                          change_layout(commands, image, source, general);
+                          const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
+                                                           .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
+                                                           .dstStageMask = vk::PipelineStageFlagBits2::eHost,
+                                                           .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+                          commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
+                      });
+                      std::memcpy(data.data() + offset, staging.mapped(), bytes);
+                  });
+    return data;
 }
 
 void upload_rgb(const Device& device, const GpuImage& destination, const Image& image) {

@@ -4,6 +4,7 @@
 
 #include <pellucid/image.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -46,7 +47,7 @@ private:
     vk::DeviceAddress address_ = 0;
 };
 
-/// A two-dimensional image or array of them, one mip level. Always in layout GENERAL, so that a
+/// A two-dimensional image, an array of them, or a three-dimensional image; one mip level. Always in layout GENERAL, so that a
 /// pass needs only memory barriers (the cost on current desktop GPUs is small, and the software
 /// driver has no layouts).
 class GpuImage {
@@ -54,13 +55,16 @@ public:
     GpuImage() = default;
     GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent2D extent, std::uint32_t layers,
              vk::ImageUsageFlags usage);
+    /// Three-dimensional. Throws Error if it is larger than the device allows.
+    GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent3D extent, vk::ImageUsageFlags usage);
 
     vk::Image handle() const { return *image_; }
-    vk::ImageView array_view() const { return *array_view_; }  ///< all layers, as a 2D array
+    vk::ImageView array_view() const { return *array_view_; }  ///< all layers, as a 2D array; or the 3D image
     vk::ImageView layer_view(std::uint32_t layer) const { return *layer_views_.at(layer); }
     vk::Format format() const { return format_; }
     vk::Extent2D extent() const { return extent_; }
-    std::uint32_t layers() const { return std::uint32_t(layer_views_.size()); }
+    std::uint32_t layers() const { return std::max<std::uint32_t>(1, std::uint32_t(layer_views_.size())); }
+    std::uint32_t depth() const { return depth_; }  ///< of a 3D image; 1 of others
     ResourceId id() const { return id_; }
     const std::string& name() const { return name_; }
 
@@ -72,6 +76,7 @@ private:
     std::vector<vk::raii::ImageView> layer_views_;
     vk::Format format_ = vk::Format::eUndefined;
     vk::Extent2D extent_;
+    std::uint32_t depth_ = 1;
     ResourceId id_ = 0;
 };
 
@@ -81,6 +86,12 @@ std::uint32_t texel_size(vk::Format format);
 /// Fills a device buffer (from byte `offset` on) or one layer of an image from host memory, and waits for it.
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize offset = 0);
 void upload(const Device& device, const GpuImage& image, std::uint32_t layer, std::span<const std::byte> data);
+
+/// Fills the box of a 3D image that begins at `first`, rows along x, then y, then z; and waits for it.
+void upload_box(const Device& device, const GpuImage& image, vk::Offset3D first, vk::Extent3D extent,
+                std::span<const std::byte> data);
+/// The whole of a 3D image, after all submitted work.
+std::vector<std::byte> download_box(const Device& device, const GpuImage& image);
 
 /// Fills an RGBA32F image with `image`, RGB of the same size; alpha is 1.
 void upload_rgb(const Device& device, const GpuImage& destination, const Image& image);

@@ -6,6 +6,8 @@ const uint kKindMask = 3u, kOpaqueKind = 0u, kThinKind = 1u, kRefractiveKind = 2
 const uint kClosed = 4u;          // bounds a solid: rays enter and leave it in turn
 const uint kTouchesOthers = 8u;   // its box meets another object's
 const uint kCutOut = 16u;         // has holes by its alpha
+const uint kReplaced = 32u;       // a volume stands for it, where those are drawn
+const uint kReplacedSolid = 0x80000000u;  // the same, of a rank, beside its material
 
 // Of overlapping solids the one of the higher rank fills the place.
 uint rank_of(uint traits) { return traits >> 8; }

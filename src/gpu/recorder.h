@@ -97,9 +97,19 @@ public:
         compute_bytes(program, bindings, {}, threads);
     }
 
+    template <class Push>
+    void compute(const Program& program, std::span<const Binding> bindings, const Push& push, vk::Extent2D threads) {
+        compute_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads);
+    }
+
     /// Runs as many workgroups as the first three words of `arguments` say when the device gets there.
     template <class Push>
     void compute_indirect(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
+                          const Buffer& arguments) {
+        compute_indirect_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), arguments);
+    }
+    template <class Push>
+    void compute_indirect(const Program& program, std::span<const Binding> bindings, const Push& push,
                           const Buffer& arguments) {
         compute_indirect_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), arguments);
     }

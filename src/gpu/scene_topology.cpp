@@ -100,8 +100,22 @@ void SceneTopology::update(const Device& device, const Scene& scene, std::uint64
     }
     upload(device, traits, std::as_bytes(std::span(words)));
     upload(device, materials, std::as_bytes(std::span(by_rank)));
+    trait_words_ = std::move(words);
+    material_words_ = std::move(by_rank);
     if (!uploaded.empty()) upload(device, boxes, std::as_bytes(std::span(uploaded)));
     moves = moves_now;
+}
+
+void SceneTopology::mark_replaced(const Device& device, const std::vector<int>& objects) {
+    constexpr std::uint32_t kReplaced = 32, kReplacedSolid = 0x80000000;  // twins in object_traits.glsl
+    std::vector<std::uint32_t> words = trait_words_, by_rank = material_words_;
+    for (const int object : objects) {
+        std::uint32_t& word = words[std::size_t(object)];
+        word |= kReplaced;
+        by_rank[word >> 8] |= kReplacedSolid;
+    }
+    upload(device, traits, std::as_bytes(std::span(words)));
+    upload(device, materials, std::as_bytes(std::span(by_rank)));
 }
 
 }  // namespace pellucid

@@ -7,12 +7,12 @@
 
 namespace pellucid {
 
-const Program& Workspace::compute(ShaderCode shader, std::initializer_list<std::uint32_t> constants) {
+const Program& Workspace::compute(ShaderCode shader, std::span<const std::uint32_t> constants) {
     std::string name(shader.name);
     for (const std::uint32_t constant : constants) name += fmt::format(" {}", constant);
     auto found = programs_.find(name);
     if (found == programs_.end()) {
-        found = programs_.emplace(name, Program::compute(device_, shader, std::span(constants))).first;
+        found = programs_.emplace(name, Program::compute(device_, shader, constants)).first;
     }
     return found->second;
 }

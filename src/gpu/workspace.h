@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -22,7 +23,10 @@ public:
     const Device& device() const { return device_; }
 
     /// Programs are made once and kept. `constants` are the shader's specialization constants.
-    const Program& compute(ShaderCode shader, std::initializer_list<std::uint32_t> constants = {});
+    const Program& compute(ShaderCode shader, std::span<const std::uint32_t> constants);
+    const Program& compute(ShaderCode shader, std::initializer_list<std::uint32_t> constants = {}) {
+        return compute(shader, std::span(constants));
+    }
     const Program& graphics(const Program::Graphics& state);
     const Program& ray_tracing(const Program::RayTracing& shaders);
 

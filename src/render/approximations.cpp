@@ -17,7 +17,13 @@ std::size_t translucent_objects(const Scene& scene) {
 }  // namespace
 
 std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique) {
-    if (technique.all_light) return {};
+    std::vector<std::string> lines;
+    if (!scene.volume_objects.empty() && !technique.volumes) {
+        const std::size_t count = scene.volume_objects.size();
+        lines.push_back(
+            fmt::format("{} volume{} not drawn (ihrke-2007 draws volumes)", count, count == 1 ? " is" : "s are"));
+    }
+    if (technique.all_light) return lines;
     std::set<int> used;
     std::size_t refractive = 0, thin = 0, opaque = 0;
     for (const Object& object : scene.objects) {
@@ -27,7 +33,6 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
         thin += material.transmissive() && !material.refractive() ? 1 : 0;
         opaque += material.transmissive() ? 0 : 1;
     }
-    std::vector<std::string> lines;
     for (const int index : used) {
         const Material& material = scene.materials[std::size_t(index)];
         const std::string name = material.name.empty() ? fmt::format("{}", index) : material.name;
@@ -52,7 +57,9 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
                 : "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
     const std::size_t translucent = translucent_objects(scene);
-    if (!scene.lights.empty() && translucent == 0) {
+    if (technique.volumes && !scene.lights.empty() && !scene.volume_objects.empty()) {
+        lines.push_back("lights shine through volumes and on opaque objects, which cast no shadows");
+    } else if (!scene.lights.empty() && translucent == 0) {
         lines.push_back(
             fmt::format("{} light{} not drawn", scene.lights.size(), scene.lights.size() == 1 ? " is" : "s are"));
     } else if (!scene.lights.empty() && translucent < scene.objects.size()) {

@@ -8,6 +8,7 @@
 #include "render/frame.h"
 #include "render/solid_lighting.h"
 #include "scene/check_scene.h"
+#include "shade/adaptation.h"
 
 #include <pellucid/error.h>
 
@@ -50,6 +51,12 @@ void check_settings(const RenderSettings& settings, const Device& device) {
     if (!(std::abs(settings.exposure_ev) <= 64.0f)) {
         throw Error(fmt::format("exposure must be -64 to 64 stops, not {}", settings.exposure_ev));
     }
+    if (!(settings.unit_luminance_cd_m2 >= 1e-6f && settings.unit_luminance_cd_m2 <= 1e9f)) {
+        throw Error(
+            fmt::format("luminance of radiance 1 must be 1e-6 to 1e9 cd/m2, not {}", settings.unit_luminance_cd_m2));
+    }
+    if (!(settings.adaptation_s >= 0.0f))
+        throw Error(fmt::format("time to adapt must be at least 0 s, not {}", settings.adaptation_s));
     check_thickness(settings.thickness, device);
     check_aov_names(settings.aovs);
 }
@@ -92,7 +99,7 @@ std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std
 struct Renderer::Impl {
     explicit Impl(const DeviceOptions& options)
         : device(options), workspace(device), recorder(device), cpu(options.threads), threads(options.threads),
-          solid_lighting(device) {}
+          solid_lighting(device), adaptation(device) {}
 
     Device device;
     Workspace workspace;
@@ -101,6 +108,7 @@ struct Renderer::Impl {
     std::uint32_t threads;
     bake::BakeCache bake_cache;
     SolidLighting solid_lighting;
+    Adaptation adaptation;
     LayerSource layer_source;
     vk::Extent2D layer_extent;  // the size that `layer_source` has learnt from
     std::optional<GpuScene> scene;
@@ -144,6 +152,16 @@ struct Renderer::Impl {
         solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache, threads,
                              progress, warnings);
     }
+    /// Display values of `scale * radiance`.
+    const GpuImage& display(const Frame& frame, const GpuImage& radiance, float scale, const RenderSettings& settings) {
+        const float exposure = std::exp2(settings.exposure_ev);
+        if (settings.tonemap != ToneMap::kKrawczyk)
+            return tonemap(recorder, frame, radiance, scale * exposure, settings.tonemap);
+        return adaptation.tonemap(recorder, frame, radiance,
+                                  {.unit_cd_m2 = scale * settings.unit_luminance_cd_m2,
+                                   .exposure = exposure,
+                                   .elapsed_s = settings.adaptation_s});
+    }
     void set_constants(const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample);
     Camera camera_for(const RenderSettings& settings) const;
     const GpuImage& filtered_environment_for_scene();
@@ -160,12 +178,12 @@ const GpuImage& Renderer::Impl::filtered_environment_for_scene() {
 Camera Renderer::Impl::camera_for(const RenderSettings& settings) const {
     if (camera) return *camera;
     if (scene_camera) return *scene_camera;
-    if (scene->object_count == 0) return Camera{};
+    if (scene->object_count == 0 && cpu.scene().volume_objects.empty()) return Camera{};
     return framing_camera(scene->bounds, settings.width, settings.height, Camera{}.vertical_fov);
 }
 
 FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const {
-    TechniqueChoice choice = choose_technique(settings.technique, device);
+    TechniqueChoice choice = choose_technique(settings.technique, device, !cpu.scene().volume_objects.empty());
     const TechniqueInfo& info = *choice.technique;
     if (const std::string lacking = lacking_for(device, info); !lacking.empty()) {
         throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
@@ -352,9 +370,10 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {
         const auto [radiance, scale] = impl.render_samples(frame, chosen, settings, result);
-        const GpuImage& display =
-            tonemap(impl.recorder, frame, radiance, scale * std::exp2(settings.exposure_ev), settings.tonemap);
+        if (chosen.technique.report != nullptr) chosen.technique.report(*impl.scene, result.warnings);
+        const GpuImage& display = impl.display(frame, radiance, scale, settings);
         impl.recorder.submit_and_wait();
+        if (settings.tonemap == ToneMap::kKrawczyk) result.adapted_cd_m2 = impl.adaptation.adapted_cd_m2();
         result.radiance = rgb_image(frame.extent, download(impl.device, radiance, 0), scale);
         result.display = display_image(frame.extent, download(impl.device, display, 0));
     } catch (...) {
@@ -426,7 +445,9 @@ void Renderer::check(const RenderSettings& settings) const {
     impl_->frame_settings(settings, warnings);
 }
 const DeviceInfo& Renderer::device() const { return impl_->device.info(); }
-TechniqueChoice Renderer::choose(std::string_view name) const { return choose_technique(name, impl_->device); }
+TechniqueChoice Renderer::choose(std::string_view name) const {
+    return choose_technique(name, impl_->device, !impl_->cpu.scene().volume_objects.empty());
+}
 
 std::string Renderer::lacking(const TechniqueInfo& technique) const {
     return lacking_for(impl_->device, find_technique(technique.name));
@@ -447,11 +468,12 @@ LayerBuilder parse_layer_builder(std::string_view name) {
 }
 
 ToneMap parse_tonemap(std::string_view name) {
-    return parse_name<ToneMap, 4>("tone map", name,
+    return parse_name<ToneMap, 5>("tone map", name,
                                   {{{"none", ToneMap::kNone},
                                     {"reinhard", ToneMap::kReinhard},
                                     {"aces", ToneMap::kAces},
-                                    {"neutral", ToneMap::kNeutral}}});
+                                    {"neutral", ToneMap::kNeutral},
+                                    {"krawczyk", ToneMap::kKrawczyk}}});
 }
 
 std::string_view version() { return PELLUCID_VERSION; }

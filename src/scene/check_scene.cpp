@@ -86,6 +86,18 @@ void check_light(const Light& light, const std::string& what) {
 
 }  // namespace
 
+bool is_similarity(const glm::mat4& transform) {
+    if (!finite(transform)) return false;
+    const glm::mat3 m(transform);
+    const float scale = glm::length(m[0]);
+    constexpr float kRounding = 1e-4f;
+    const auto same = [&](const glm::vec3& a, const glm::vec3& b, float wanted) {
+        return std::abs(glm::dot(a, b) - wanted * scale * scale) <= kRounding * scale * scale;
+    };
+    return scale > 0.0f && same(m[1], m[1], 1.0f) && same(m[2], m[2], 1.0f) && same(m[0], m[1], 0.0f) &&
+           same(m[0], m[2], 0.0f) && same(m[1], m[2], 0.0f);
+}
+
 void check_scene(const Scene& scene) {
     require(scene.image_names.size() == scene.images.size(), "scene", "needs one name per image");
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
@@ -107,6 +119,19 @@ void check_scene(const Scene& scene) {
         const glm::mat4& m = object.world_from_object;
         require(finite(m) && glm::determinant(glm::dmat3(m)) != 0.0, what,
                 "its transform is not finite and invertible");
+    }
+    for (std::size_t i = 0; i < scene.volumes.size(); ++i) {
+        require(scene.volumes[i] != nullptr, fmt::format("volume {}", i), "there is none");
+        check_volume(*scene.volumes[i]);
+    }
+    for (std::size_t i = 0; i < scene.volume_objects.size(); ++i) {
+        const VolumeObject& object = scene.volume_objects[i];
+        const std::string what = fmt::format("placement {} '{}' of a volume", i, object.name);
+        require(object.volume >= 0 && object.volume < int(scene.volumes.size()), what, "there is no such volume");
+        require(is_similarity(object.world_from_volume), what, "its transform does not scale alike in all directions");
+        for (const int stood_for : object.objects)
+            require(stood_for >= 0 && stood_for < int(scene.objects.size()), what,
+                    "an object that it stands for is none");
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         check_light(scene.lights[i], fmt::format("light {} '{}'", i, scene.lights[i].name));

@@ -11,4 +11,8 @@ void check_scene(const Scene& scene);
 void check_camera(const Camera& camera);
 void check_environment(const Environment& environment);
 
+/// True for finite transforms that scale alike in all directions: angles stay what they are, and so do the laws of
+/// refraction.
+bool is_similarity(const glm::mat4& transform);
+
 }  // namespace pellucid

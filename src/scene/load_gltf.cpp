@@ -9,6 +9,7 @@
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_volumes.h"
 #include "scene/pose_nodes.h"
 #include "scene/rig.h"
 
@@ -40,13 +41,16 @@ public:
         const NodePose pose =
             pose_nodes(rig_.tree, chosen_animation(gltf_, rig_.animations, options_), options_.time_s.value_or(0.0));
         GltfMeshes meshes(gltf_, options_, scene_, rig_, warnings_);
+        GltfVolumes volumes(gltf_, scene_);
         for (std::size_t i = 0; i < nodes.in_scene; ++i) {
             const int index = rig_.tree.order[i];
             const tinygltf::Node& node = gltf_.model.nodes[std::size_t(index)];
             const glm::dmat4& world = pose.world_from_node[std::size_t(index)];
             const std::string name = gltf_node_name(gltf_, index);
             if (!finite(world)) fail(gltf_.path, fmt::format("{}: transform is not finite", name));
+            const std::size_t first_object = scene_.objects.size();
             if (node.mesh >= 0) add_objects(meshes, index, name, pose);
+            volumes.add(node, name, world, first_object);
             add_camera(node, index, world);
             add_gltf_light(gltf_, node, name, world, scene_, warnings_);
         }

@@ -10,6 +10,7 @@
 #include "scene/mesh_repair.h"
 #include "scene/shapes.h"
 #include "scene/translucency.h"
+#include "scene/volumes/volume_source.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -64,12 +65,24 @@ Scene glass_scene(Mesh mesh, const LoadOptions& options, bool keep_normals, Warn
     return scene;
 }
 
+Scene volume_scene(Volume volume) {
+    Scene scene;
+    VolumeObject object;
+    object.name = volume.name;
+    scene.volume_objects.push_back(std::move(object));
+    scene.volumes.push_back(std::make_shared<const Volume>(std::move(volume)));
+    return scene;
+}
+
 Scene load_by_kind(const std::string& source, const LoadOptions& options, Warnings& warnings) {
     const std::filesystem::path file(source);
     const std::string extension = lower_extension(file);
-    const bool gltf = !source.starts_with(kShapePrefix) && (extension == ".gltf" || extension == ".glb");
+    const bool shape = source.starts_with(kShapePrefix), volume = names_volume(source) && !shape;
+    const bool gltf = !shape && !volume && (extension == ".gltf" || extension == ".glb");
     if (!gltf && (options.animation || options.time_s)) fail(source, "has no animations");
-    if (source.starts_with(kShapePrefix))
+    if (volume) return volume_scene(open_volume(source, {}, options.grids));
+    if (!options.grids.empty()) fail(source, "has no grids; those of .vdb files are mapped to fields");
+    if (shape)
         // A shape knows its normals exactly; made ones would only be worse.
         return glass_scene(load_shape(source.substr(kShapePrefix.size())), options, true, warnings);
     if (gltf) return load_gltf(file, options, warnings);
@@ -77,8 +90,8 @@ Scene load_by_kind(const std::string& source, const LoadOptions& options, Warnin
         Mesh mesh = load_mesh_file(file, warnings);
         return glass_scene(std::move(mesh), options, !options.remake_normals, warnings);
     }
-    fail(file, fmt::format("unknown kind of file \"{}\" (known: .gltf, .glb, {}, or shape:NAME)", extension,
-                           fmt::join(kMeshExtensions, ", ")));
+    fail(file, fmt::format("unknown kind of file \"{}\" (known: .gltf, .glb, .vdb, {}, shape:NAME or volume:NAME)",
+                           extension, fmt::join(kMeshExtensions, ", ")));
 }
 
 void apply_overrides(Scene& scene, const LoadOptions& options) {
@@ -99,7 +112,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     scene.source = source;
     apply_overrides(scene, options);
     if (options.translucent) make_translucent(scene, *options.translucent);
-    if (scene.triangle_count() == 0) fail(source, "contains no triangles");
+    if (scene.triangle_count() == 0 && scene.volume_objects.empty()) fail(source, "contains no triangles");
     const Bounds bounds = scene_bounds(scene);
     // Squares and products of positions must stay finite on the GPU, in 32 bits.
     constexpr float kLargest = 1e15f, kSmallest = 1e-15f;

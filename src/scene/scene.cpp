@@ -26,6 +26,14 @@ Bounds scene_bounds(const Scene& scene) {
             for (const glm::vec3 p : scene.meshes[std::size_t(object.mesh)].positions)
                 visit(glm::dvec3(world_from_object * glm::dvec4(p, 1.0)));
         }
+        for (const VolumeObject& object : scene.volume_objects) {
+            const Volume& volume = *scene.volumes[std::size_t(object.volume)];
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::dvec3 at(corner & 1, corner >> 1 & 1, corner >> 2);
+                const glm::dvec3 p = glm::mix(glm::dvec3(volume.low), glm::dvec3(volume.high()), at);
+                visit(glm::dvec3(glm::dmat4(object.world_from_volume) * glm::dvec4(p, 1.0)));
+            }
+        }
     };
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for_each_vertex([&](const glm::dvec3& p) {

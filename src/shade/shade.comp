@@ -25,6 +25,7 @@ layout(set = 0, binding = 14, rgba32f) readonly uniform image2DArray reflected_r
 
 #include "layers/objects.glsl"
 #include "gpu/diffuse.glsl"
+#include "shade/analysis_color.glsl"
 
 // What comes through the glass: the end of the refracted path, and what it picked up on the way.
 vec3 transmitted_radiance(ivec3 at) {
@@ -47,14 +48,8 @@ vec3 glass_radiance(ivec3 at, vec3 view_direction, vec3 normal, uint triangle) {
     return reflected + mix(scattered, tint.rgb * transmitted, tint.a);
 }
 
-// Wang 2014, figure 4.5: red up to two interfaces, blue more, green total internal reflection.
-vec3 analysis_color(ivec3 at, vec3 view_direction, vec3 normal) {
-    uint events = imageLoad(path_events, at).r;  // twin of unpack_events()
-    vec3 color = vec3(0.85, 0.1, 0.08);
-    if ((events & 0xfffu) > 2u) color = vec3(0.1, 0.2, 0.9);
-    if (((events >> 12) & 0xfffu) > 0u) color = vec3(0.1, 0.7, 0.15);
-    if (((events >> 24) & 0xfu) != 0u) color = vec3(0.35);  // the technique gave up
-    return color * (0.4 + 0.6 * abs(dot(view_direction, normal)));
+vec3 shaded_analysis_color(ivec3 at, vec3 view_direction, vec3 normal) {
+    return analysis_color(imageLoad(path_events, at).r) * (0.4 + 0.6 * abs(dot(view_direction, normal)));
 }
 
 void main() {
@@ -64,6 +59,6 @@ void main() {
     ivec3 at = ivec3(texel, 0);
     vec3 view_direction = world_view_direction(texel);
     vec3 normal = unpack_unit_vector(imageLoad(layer_normal, at).r);
-    store_radiance(texel, kAnalysis ? analysis_color(at, view_direction, normal)
+    store_radiance(texel, kAnalysis ? shaded_analysis_color(at, view_direction, normal)
                                     : glass_radiance(at, view_direction, normal, imageLoad(layer_triangle, at).r));
 }

@@ -26,6 +26,9 @@ constexpr std::uint32_t kBackground[] = {
 constexpr std::uint32_t kShade[] = {
 #include "shade.comp.inc"
 };
+constexpr std::uint32_t kComposePicture[] = {
+#include "compose_picture.comp.inc"
+};
 constexpr std::uint32_t kAccumulate[] = {
 #include "accumulate.comp.inc"
 };
@@ -160,6 +163,12 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
          reads("transmittance", refraction.transmittance), reads("path_events", refraction.events),
          reads("path_radiance", path_radiance), reads("reflected_radiance", reflected), writes("radiance", radiance)},
         layers.covered);
+    if (refraction.picture) {
+        recorder.compute(workspace.compute({"compose_picture.comp", kComposePicture}, {analysis}),
+                         {reads("picture", *refraction.picture), reads("reflected_radiance", reflected), reads("path_events", refraction.events),
+                          writes("radiance", radiance)},
+                         frame.extent);
+    }
     return radiance;
 }
 

@@ -30,7 +30,7 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
 /// Adds `radiance` to the sum of the samples before it; `sample` 0 starts a new sum.
 const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample);
 
-/// Display values (RGBA8, sRGB-encoded) of `scale * radiance`.
+/// Display values (RGBA8, sRGB-encoded) of `scale * radiance`, by a curve other than kKrawczyk (adaptation.h).
 const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale, ToneMap curve);
 
 }  // namespace pellucid

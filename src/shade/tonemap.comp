@@ -1,5 +1,7 @@
 #version 460
-// Scene-linear radiance to display values.
+// Scene-linear radiance to display values, by curves that do not look at the picture; see krawczyk.comp.
+#extension GL_GOOGLE_include_directive : require
+#include "shade/srgb.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) readonly uniform image2DArray radiance;
 layout(set = 0, binding = 1, rgba8) writeonly uniform image2DArray display;
@@ -30,10 +32,6 @@ vec3 neutral(vec3 c) {
     float compressed = 1.0 - d * d / (peak + d - start);
     float white = 1.0 / (desaturation * (peak - compressed) + 1.0);
     return mix(vec3(compressed), c * (compressed / peak), white);
-}
-
-vec3 srgb_from_linear(vec3 c) {
-    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
 }
 
 void main() {

@@ -22,7 +22,7 @@ layout(std430, set = 0, binding = 13) buffer LightCounters { uint cut_rays; };
 #include "layers/objects.glsl"
 #include "layers/pixel_list.glsl"
 #include "layers/surface_normal.glsl"
-#include "shade/punctual_light.glsl"
+#include "gpu/punctual_light.glsl"
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 

@@ -2,6 +2,8 @@
 // the light, in the frame that is drawn.
 #include "shade/transmitted_light.h"
 
+#include "gpu/punctual_light.h"
+
 #include "layers/pixel_list.h"
 
 #include <fmt/format.h>
@@ -25,31 +27,6 @@ constexpr std::uint32_t kTransmitLight[] = {
 };
 
 constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;
-
-/// Twin of PunctualLight in punctual_light.glsl.
-struct PunctualLight {
-    glm::vec3 position;
-    std::uint32_t kind;
-    glm::vec3 direction;
-    float inverse_range;
-    glm::vec3 intensity;
-    std::uint32_t reserved;
-    float cos_inner, cos_outer;
-    float padding[2];
-};
-static_assert(sizeof(PunctualLight) == 64);
-
-PunctualLight punctual_light(const Light& light) {
-    return {light.position,
-            std::uint32_t(light.kind),
-            glm::normalize(light.direction),
-            std::isfinite(light.range) ? 1.0f / light.range : 0.0f,
-            light.intensity,
-            0,
-            std::cos(light.inner_cone_angle),
-            std::cos(light.outer_cone_angle),
-            {}};
-}
 
 /// As transmit_light.comp names them.
 std::uint32_t method_constant(ThicknessMethod method) {

@@ -50,10 +50,11 @@ void check_technique_name(std::string_view name) {
         throw Error(fmt::format("unknown technique '{}'; known: {}", name, fmt::join(known, ", ")));
 }
 
-TechniqueChoice choose_technique(std::string_view name, const Device& device) {
+TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes) {
     check_technique_name(name);
     for (const Preset& preset : all_presets()) {
         if (preset.info.name != name) continue;
+        if (volumes) return {&find_technique("ihrke-2007"), {}};
         const auto offered =
             std::find_if(preset.choices.begin(), preset.choices.end(),
                          [&](const TechniqueChoice& choice) { return lacking_for(device, *choice.technique).empty(); });

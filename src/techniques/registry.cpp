@@ -1,3 +1,4 @@
+#include "techniques/ihrke_2007/ihrke_2007.h"
 #include "techniques/kay_greenberg_1979/kay_greenberg_1979.h"
 #include "techniques/oliveira_brauwers_2007/oliveira_brauwers_2007.h"
 #include "techniques/one_interface/one_interface.h"
@@ -23,9 +24,9 @@ namespace {
 
 // Every technique, one line each.
 constexpr std::array kTechniques = {
-    &kOneInterface, &kKayGreenberg1979, &kWyman2005,      &kOliveiraBrauwers2007,
-    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,
-    &kPath,         &kReference,
+    &kOneInterface, &kKayGreenberg1979, &kWyman2005,      &kOliveiraBrauwers2007, &kIhrke2007,
+    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,           &kPath,
+    &kReference,
 };
 
 constexpr auto kInfos = [] {

@@ -26,6 +26,9 @@ struct Refraction {
     /// RGBA32F: radiance that the first surface reflects, as it reaches the eye. Null: the environment's, which shade()
     /// looks up.
     const GpuImage* reflected = nullptr;
+    /// RGBA32F: radiance, to which `reflected` is added, of pixels that the technique has shaded itself, where a is 1.
+    /// Null: none.
+    const GpuImage* picture = nullptr;
     bool everywhere = false;  ///< pixels without glass hold the view ray, and what it meets
 };
 /// `with_radiance`: for techniques that pick up radiance.
@@ -84,11 +87,14 @@ struct Technique {
     /// The picture of a technique that shades its own paths, which shade() then does not do. Null: none.
     PathTracedImage (*trace_picture)(const TracedView& view, const Environment& environment, vk::Extent2D extent,
                                      std::uint32_t samples, const ParameterValues& parameters) = nullptr;
+    /// After a picture: what in it is not as it should be, a line each. Null: nothing ever.
+    void (*report)(const GpuScene& scene, std::vector<std::string>& warnings) = nullptr;
 };
 const Technique& technique_of(const TechniqueInfo& info);
 /// What the device lacks for it, in words that follow "needs"; empty: nothing.
 std::string lacking_for(const Device& device, const TechniqueInfo& info);
 /// See Renderer::choose().
-TechniqueChoice choose_technique(std::string_view name, const Device& device);
+/// `volumes`: the scene has some, and presets stand for what draws them.
+TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes = false);
 
 }  // namespace pellucid

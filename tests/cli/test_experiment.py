@@ -9,7 +9,7 @@ import pictures
 from cli import CliTest, TETRAHEDRON
 
 NAMES = ["wang-search-step", "wang-environment", "wang-layers", "interfaces", "wyman-speed", "wang-table-4-1",
-         "wang-many-objects", "chen-error", "chen-speed"]
+         "wang-many-objects", "chen-error", "chen-speed", "ihrke-rays", "ihrke-light"]
 
 
 class Experiment(CliTest):
@@ -188,6 +188,38 @@ class ThicknessExperiments(CliTest):
         result = self.run_cli("experiment", "chen-speed", "--size", "64x64")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("nothing is left to measure", result.stderr)
+
+
+class RayExperiments(CliTest):
+    def test_smoothed_ball(self):
+        """The finer the volume, the nearer to Snell's law; the shorter the step, the nearer to the curve."""
+        result = self.run_cli("experiment", "ihrke-rays", "--size", "48x40", "--frames", "2", "--json", "e.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        runs = json.loads(self.read("e.json"))["experiments"][0]["runs"]
+        surface = {(r["resolution"], r["smoothing"]): r for r in runs if "converged_mean_deg" not in r}
+        self.assertEqual(sorted(surface), [(n, s) for n in (64, 128, 256) for s in (0.5, 0.75, 1.0)])
+        for smoothing in (0.5, 0.75, 1.0):
+            for measure in ("mean_deg", "median_deg"):
+                errors = [surface[n, smoothing][measure] for n in (64, 128, 256)]
+                self.assertEqual(errors, sorted(errors, reverse=True), (smoothing, measure))
+        self.assertGreater(surface[256, 0.75]["within_5deg"], 0.9)
+        steps = {(r["integrator"], r["step"]): r for r in runs if "converged_mean_deg" in r}
+        self.assertEqual(len(steps), 8 + 5)
+        for (integrator, step), run in steps.items():
+            self.assertGreater(run["covered"], 300)
+            self.assertGreater(run["converged_mean_deg"], 0)
+            if "frame_ms" in run:
+                self.assertGreater(run["frame_ms"], 0)
+        for integrator in ("euler", "rk4"):
+            self.assertLess(steps[integrator, 0.125]["converged_mean_deg"], steps[integrator, 2.0]["converged_mean_deg"])
+        for step in (0.125, 0.25, 0.5):
+            self.assertLess(steps["rk4", step]["converged_mean_deg"], steps["euler", step]["converged_mean_deg"])
+        if "frame_ms" in steps["rk4", 1.0]:
+            equal = steps["rk4", 1.0]["euler_at_equal_error"]
+            self.assertLess(equal["step"], 0.25)
+            self.assertAlmostEqual(equal["times_as_long"], equal["frame_ms"] / steps["rk4", 1.0]["frame_ms"])
+        table = self.read("out/experiments/ihrke-rays/ihrke-rays.md").decode()
+        self.assertIn(f"{surface[64, 0.5]['mean_deg']:.3f}", table)
 
 
 if __name__ == "__main__":

@@ -56,10 +56,10 @@ class Pictures(CliTest):
 
     def test_tonemaps_differ(self):
         pictures = set()
-        for name in ("none", "reinhard", "aces", "neutral"):
+        for name in ("none", "reinhard", "aces", "neutral", "krawczyk"):
             self.assert_rendered(self.render("shape:goblet", "--tonemap", name))
             pictures.add(self.read("out.png"))
-        self.assertEqual(len(pictures), 4)
+        self.assertEqual(len(pictures), 5)
 
     def test_same_twice(self):
         self.assert_rendered(self.render("shape:goblet"))

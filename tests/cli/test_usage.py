@@ -80,7 +80,7 @@ class Names(CliTest):
         self.refuses(["glas", "known: ", "one-interface", "wang-2014"], "--technique", "glas")
         self.refuses(["front", "known: ", "orbit:AZ,EL,DIST"], "--camera", "front")
         self.refuses(["xray", "known: ", "radiance", "analysis"], "--view", "xray")
-        self.refuses(["filmic", "known: ", "none", "reinhard", "aces", "neutral"], "--tonemap", "filmic")
+        self.refuses(["filmic", "known: ", "none", "reinhard", "aces", "neutral", "krawczyk"], "--tonemap", "filmic")
         self.refuses(["guess", "known: ", "single-pass", "depth-peeling", "dual-depth-peeling"], "--layer-builder", "guess")
         self.refuses(["cave", "studio", "checker", "sky", ".hdr", ".exr"], "--environment", "cave")
         self.refuses(["Voodoo", "found: "], "--device", "Voodoo")

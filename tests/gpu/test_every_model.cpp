@@ -36,13 +36,14 @@ protected:
     }
 };
 
-void expect_sound(const RenderResult& result) {
+/// `smoothed`: surfaces are blurred, so that rays that miss them may bend and thin walls may vanish.
+void expect_sound(const RenderResult& result, bool smoothed) {
     EXPECT_TRUE(all_finite(result.radiance));
     const std::vector<float>& layers = result.aovs.at("layers").pixels;
     for (std::size_t i = 0; i < result.paths.size(); ++i) {
         const RefractedPath& path = result.paths[i];
         // A pixel that has layers and no events is one that the technique left untouched.
-        ASSERT_EQ(path.events > 0, layers[i] > 0.0f) << "pixel " << i;
+        if (!smoothed) ASSERT_EQ(path.events > 0, layers[i] > 0.0f) << "pixel " << i;
         ASSERT_LT(std::uint32_t(path.status), kStatusCount) << "pixel " << i;
         ASSERT_NEAR(glm::length(path.direction), 1.0f, 1e-3f) << "pixel " << i;
         for (int c = 0; c < 3; ++c) {
@@ -66,7 +67,7 @@ TEST_P(EveryModel, IsDrawnSoundlyAndTheSameTwice) {
         if (technique->reference || !renderer().lacking(*technique).empty()) continue;
         SCOPED_TRACE(technique->name);
         const RenderResult result = render(std::string(technique->name));
-        expect_sound(result);
+        expect_sound(result, technique->volumes);
         const RenderResult again = render(std::string(technique->name));
         EXPECT_TRUE(same_paths(result.paths, again.paths));
         EXPECT_EQ(result.radiance.pixels, again.radiance.pixels);

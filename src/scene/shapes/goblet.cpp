@@ -1,3 +1,4 @@
+#include "scene/shapes/profiles.h"
 #include "scene/shapes/shape_builders.h"
 
 namespace pellucid {
@@ -23,6 +24,12 @@ std::vector<glm::dvec2> control_points(double wall) {
 }
 
 }  // namespace
+
+std::vector<glm::dvec2> goblet_outline(double wall, int rings) {
+    std::vector<glm::dvec2> outline;
+    for (const ProfilePoint& point : spline_profile(control_points(wall), rings)) outline.push_back(point.position);
+    return outline;
+}
 
 Mesh make_goblet(const ShapeArguments& arguments) {
     return revolve(spline_profile(control_points(arguments.number("wall")), arguments.whole("rings")),

@@ -16,7 +16,8 @@ std::string in_quotes(std::string_view text) {
     return fmt::format("'{}{}'", one_line(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
 }
 
-ShapeArguments::ShapeArguments(const ShapeInfo& info, std::string_view text) : info_(info) {
+ShapeArguments::ShapeArguments(const ShapeInfo& info, std::string_view text, std::string_view kind)
+    : info_(info), kind_(kind) {
     for (const ShapeParameter& parameter : info.parameters) values_.push_back(parameter.default_value);
     std::vector<bool> given(values_.size(), false);
 
@@ -52,7 +53,7 @@ int ShapeArguments::whole(std::string_view parameter) const {
 }
 
 void ShapeArguments::fail(const std::string& message) const {
-    throw Error(fmt::format("shape '{}': {}", info_.name, message));
+    throw Error(fmt::format("{} '{}': {}", kind_, info_.name, message));
 }
 
 std::size_t ShapeArguments::index(std::string_view parameter) const {

@@ -38,7 +38,7 @@ Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
                    normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material);
 }
 
-MaterialRecord filling_material(uint rank) { return materials[kOneObject ? objects[0].material : solids[rank]]; }
+MaterialRecord filling_material(uint rank) { return materials[kOneObject ? objects[0].material : solids[rank] & ~kReplacedSolid]; }
 
 // Per channel; without dispersion all are alike.
 vec3 filling_iors(uint rank) {

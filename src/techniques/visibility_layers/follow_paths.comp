@@ -3,17 +3,8 @@
 // opaque one, the path ends.
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/visibility_layers/visibility_bindings.glsl"
-#include "layers/surface_map.glsl"
+#include "techniques/visibility_layers/path_walk.glsl"
 
-layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
-layout(std430, set = 0, binding = 4) readonly buffer Solids { uint solids[]; };  // per rank: its material
-layout(std430, set = 0, binding = 14) readonly buffer Maps { MapRecord maps[]; };
-layout(set = 0, binding = 15) uniform utextureBuffer map_triangles;
-layout(set = 0, binding = 29) uniform utextureBuffer map_normals;
-layout(set = 0, binding = 16) uniform utextureBuffer texels;
-layout(set = 0, binding = 17) uniform utextureBuffer ranges;
-layout(set = 0, binding = 28) uniform utextureBuffer records;
-layout(set = 0, binding = 22) uniform utextureBuffer pyramid;
 // Twin of ObjectBox in scene_topology.cpp.
 struct ObjectBox {
     vec3 low;
@@ -25,19 +16,12 @@ layout(std430, set = 0, binding = 27) readonly buffer Boxes { ObjectBox boxes[];
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
 
+#include "volume/volume_record.glsl"
+layout(std430, set = 0, binding = 30) readonly buffer Volumes { VolumeRecord volumes[]; };
+PELLUCID_APPENDED_LIST(EnteringList, 31, entering_groups, entering_length, entering_pixels, append_entering)
+#include "volume/volume_boxes.glsl"
+
 layout(constant_id = 10) const uint kSurfacesPerPass = 1u;
-
-#include "techniques/visibility_layers/path_state.glsl"
-#include "techniques/visibility_layers/cross_surface.glsl"
-
-// Rays enter and leave a solid in turn, so a surface that the path stands on is never met again.
-bool can_meet(uint traits, bool leaving, uint triangle) {
-    if ((traits & (kKindMask | kClosed)) != (kRefractiveKind | kClosed)) return triangle != standing;
-    return (entered(rank_of(traits)) > 0u) == leaving;
-}
-
-#define PELLUCID_FINDS_SECOND kTouching
-#include "layers/object_walk.glsl"
 
 // A pane that bends no light: its two faces and the reflections between them are one factor.
 void pass_pane(inout Path path, Surface surface) {
@@ -64,8 +48,6 @@ bool meets_boxes(vec3 position, vec3 direction) {
     return any_met;
 }
 
-const float kApart = 16.0;  // coincidences along a ray, which may graze
-
 int boundary_rank(SurfaceHit hit, uint before, uint beyond) {
     uint rank = rank_of(hit.traits);
     return rank == before || rank == beyond ? int(rank) : -1;
@@ -74,6 +56,11 @@ int boundary_rank(SurfaceHit hit, uint before, uint beyond) {
 // Takes the path to the next surface, and past it. False: it ends there, or nowhere.
 bool go_on(uint i, inout Path path) {
     uint rank = filling_rank();
+    if (in_replaced(rank)) {
+        mark |= kEntersVolume;
+        return false;
+    }
+    meets_replaced = kVolumes && proxy != 0u ? kMeetEntering : kMeetNone;
     SurfaceHit hit;
     bool gave_up;
     float t_end;
@@ -85,6 +72,15 @@ bool go_on(uint i, inout Path path) {
         // Reflected where its solid touches something opaque, which the path then has behind it.
         if (rank == kAir || hit.t > coincidence || (hit.traits & kKindMask) != kOpaqueKind) break;
         t_min = coincidence;
+    }
+    // A path in the open enters the volume that it meets first. One that stands at a surface crosses that before.
+    if (kVolumes && rank == kAir && hit.t > kApart * coincidence) {
+        float straight;
+        if (next_volume(path.position, path.direction, straight) != kNoVolume && straight < hit.t) {
+            path.position += straight * path.direction;
+            mark |= kEntersVolume;
+            return false;
+        }
     }
     bool found = hit.t < kFarthest;
     if (!found) {
@@ -144,5 +140,6 @@ void main() {
     for (uint k = 0u; k < kSurfacesPerPass && goes_on; ++k) goes_on = go_on(i, path);
     save_path(i, path);
     if (goes_on) append_next(texel);
+    else if (kVolumes && (mark & kEntersVolume) != 0u) append_entering(texel);
     else append_ended(texel);
 }

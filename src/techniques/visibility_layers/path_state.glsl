@@ -42,6 +42,8 @@ const uint kMainPath = 4u;      // the one that Refraction is about
 const uint kOuterBranch = 8u;   // reflected by the first surface, before the glass
 const uint kMetOpaque = 16u;    // it has ended on the opaque triangle on which it stands
 const uint kBounced = 32u;      // scattered by an opaque surface: it looks for what hides or lights that surface
+const uint kEntersVolume = 64u; // it stands at the box of a volume
+const uint kCrossedVolume = 128u;
 
 float spread() { return float(mark >> 16) / 65535.0; }  // alpha of the lobe that it stands for, 0..1
 void widen(float alpha) {

@@ -14,6 +14,7 @@ layout(constant_id = 5) const bool kRough = false;        // some glass is rough
 
 layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is one map of all the scene
 layout(constant_id = 9) const bool kTouching = false;     // surfaces of two objects may lie at one place
+layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend
 
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };
@@ -33,6 +34,10 @@ layout(push_constant) uniform Push {
     uint branch_capacity;
     float coincidence;     // m: by so much the places of surfaces are uncertain
     uint closing;          // 1: the last pass; all that waits ends where it is
+    uint volume_count;
+    uint proxy;            // 1: rays enter what a volume stands for at its surface; 0: it is as if that were not there
+    uint light_count;      // of the scene, 0 where they are not drawn
+    uint receiver_count;   // of light that went through volumes
 };
 
 uint object_of(uint triangle) { return kOneObject ? 0u : find_object(triangle); }

@@ -20,15 +20,8 @@ constexpr std::uint32_t kEndPaths[] = {
 
 /// That there is time for beyond those of the longest path, for each branch: most branches leave soon.
 constexpr std::uint32_t kSurfacesPerBranch = 4;
-
-/// Twin of Push in visibility_bindings.glsl.
-struct Push {
-    std::uint32_t max_events, most_branches;
-    float threshold;
-    std::uint32_t branch_capacity;
-    float coincidence;
-    std::uint32_t closing;
-};
+/// That there is time for on the longest path, besides its surfaces: a path leaves a volume at each surface in it.
+constexpr std::uint32_t kVolumesPerPath = 16;
 
 /// Surfaces that a path meets in one dispatch. Each dispatch waits for its longest path: the fewer, the less a GPU idles;
 /// on a CPU device eight paths in step wait for the longest among them, so those that have ended had better be left out.
@@ -40,22 +33,23 @@ enum class Ways { kTransmitted, kTree, kStochastic };
 class Paths {
 public:
     Paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
-          const ParameterValues& parameters)
-        : recorder_(recorder), frame_(frame), layers_(layers), map_(map), topology_(*frame.scene.topology),
-          refraction_(clear_refraction(recorder, frame, true)) {
+          const ParameterValues& parameters, const PathVolumes* volumes)
+        : recorder_(recorder), frame_(frame), layers_(layers), map_(map), volumes_(volumes),
+          topology_(*frame.scene.topology), refraction_(clear_refraction(recorder, frame, true)) {
         const double given = parameters["branches"];
         const bool many = frame.samples > 1;
         push_.max_events = parameters.whole("events");
         push_.most_branches = given >= 0.0 ? std::uint32_t(given) : many ? 16 : 0;
+        if (volumes != nullptr) volumes->set(push_);
         push_.threshold = float(parameters["threshold"]);
         push_.coincidence = 1e-6f * (glm::length(frame.scene.bounds.center) + frame.scene.bounds.radius);
         const std::uint32_t given_surfaces = parameters.whole("surfaces-per-pass");
         surfaces_per_pass_ = given_surfaces > 0                  ? given_surfaces
                              : frame.workspace.device().is_cpu() ? kSurfacesPerPassOnCpu
                                                                  : kSurfacesPerPass;
-        ways_ = parameters.whole("one-branch") != 0 ? Ways::kStochastic
-                : push_.most_branches > 0           ? Ways::kTree
-                                                    : Ways::kTransmitted;
+        ways_ = parameters.whole("one-branch") != 0             ? Ways::kStochastic
+                : push_.most_branches > 0 || volumes != nullptr ? Ways::kTree
+                                                                : Ways::kTransmitted;
         if (ways_ == Ways::kStochastic) push_.most_branches = 0;
         push_.branch_capacity =
             ways_ == Ways::kTree ? layers.source.room("branches", std::uint32_t(pixels() / 4 + 1024)) : 1;
@@ -65,17 +59,27 @@ public:
     }
 
     Refraction follow() {
-        begin();
+        if (ways_ == Ways::kTree) recorder_.fill(*branches_, 0);
+        next_ = &start_pixel_list(recorder_, frame_, "paths 0");
+        if (volumes_ != nullptr)
+            volumes_->begin(pass(), *next_);
+        else
+            begin();
         const auto in_passes = [&](std::uint32_t surfaces) {
             return (surfaces + surfaces_per_pass_ - 1) / surfaces_per_pass_;
         };
-        const std::uint32_t passes = in_passes(push_.max_events + 1) +
-                                     push_.most_branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1);
+        std::uint32_t passes = in_passes(push_.max_events + 1) +
+                               push_.most_branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1);
+        // A pass takes a path through one volume at most.
+        if (volumes_ != nullptr)
+            passes = (push_.max_events + kVolumesPerPath) + push_.most_branches * kSurfacesPerBranch;
         // Ends that lead to nothing else are done all at once.
-        const bool at_once = ways_ != Ways::kTree && frame_.scene.opaque.empty();
+        const bool at_once = ways_ != Ways::kTree && frame_.scene.opaque.empty() && volumes_ == nullptr;
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
             if (pass == 0 || !at_once) ended_ = &start_pixel_list(recorder_, frame_, "ended paths");
-            follow(pass);
+            const Buffer& entering = start_entering();
+            follow(pass, entering);
+            if (volumes_ != nullptr) volumes_->march(this->pass(), entering, *next_, *ended_);
             if (!at_once) end(*ended_, false);
         }
         if (at_once) end(*ended_, false);
@@ -83,13 +87,14 @@ public:
         if (ways_ == Ways::kTree) layers_.source.measure_room(recorder_, frame_, "branches", *branches_);
         Refraction refraction = refraction_;
         if (ways_ != Ways::kTransmitted) refraction.reflected = &reflected_;
+        if (volumes_ != nullptr) refraction.picture = refraction.radiance;
         return refraction;
     }
 
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::array<std::uint32_t, 11> constants() const {
+    std::array<std::uint32_t, 12> constants() const {
         const GpuScene& scene = frame_.scene;
         return {words_,
                 scene.object_count == 1 ? 1u : 0u,
@@ -101,17 +106,41 @@ private:
                 scene.opaque.empty() ? 0u : 1u,
                 map_.objects != nullptr ? 1u : 0u,
                 topology_.all_alone ? 0u : 1u,
-                surfaces_per_pass_};
+                surfaces_per_pass_,
+                volumes_ != nullptr ? 1u : 0u};
     }
     const Program& program(ShaderCode shader) {
         const auto c = constants();
-        return frame_.workspace.compute(shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10]});
+        return frame_.workspace.compute(shader,
+                                        {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10], c[11]});
+    }
+
+    PathPass pass() const {
+        const GpuScene& scene = frame_.scene;
+        const auto c = constants();
+        return {
+            recorder_,
+            frame_,
+            layers_,
+            {c.begin(), c.end()},
+            {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials)},
+            {updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
+             updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_)},
+            {reads("Solids", topology_.materials), reads("Maps", *map_.maps), reads("map_triangles", *map_.triangles),
+             reads("map_normals", *map_.normals), reads("texels", *map_.texels), reads("ranges", *map_.ranges),
+             reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
+             reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps)},
+            {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
+            push_};
+    }
+
+    const Buffer& start_entering() const {
+        // Something has to be bound where no path enters anything.
+        return volumes_ != nullptr ? start_pixel_list(recorder_, frame_, "paths that enter volumes") : *ended_;
     }
 
     void begin() {
         const GpuScene& scene = frame_.scene;
-        if (ways_ == Ways::kTree) recorder_.fill(*branches_, 0);
-        next_ = &start_pixel_list(recorder_, frame_, "paths 0");
         recorder_.compute_indirect(
             program({"begin_paths.comp", kBeginPaths}),
             {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
@@ -125,7 +154,7 @@ private:
             push_, layers_.covered);
     }
 
-    void follow(std::uint32_t pass) {
+    void follow(std::uint32_t pass, const Buffer& entering) {
         const GpuScene& scene = frame_.scene;
         const Buffer& list = *next_;
         next_ = &start_pixel_list(recorder_, frame_, pass % 2 == 0 ? "paths 1" : "paths 0");
@@ -152,50 +181,57 @@ private:
                                     reads("pyramid", *map_.pyramid),
                                     reads("Traits", topology_.traits),
                                     reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
-                                    reads("Boxes", topology_.boxes)},
+                                    reads("Boxes", topology_.boxes),
+                                    reads("Volumes", volumes_ != nullptr ? volumes_->records() : *map_.maps),
+                                    updates("EnteringList", entering)},
                                    push_, list);
     }
 
     void end(const Buffer& list, bool closing) {
         const GpuScene& scene = frame_.scene;
-        Push push = push_;
+        PathPush push = push_;
         push.closing = closing ? 1 : 0;
-        recorder_.compute_indirect(program({"end_paths.comp", kEndPaths}),
-                                   {reads("Frame", frame_.constants),
-                                    reads("Objects", scene.objects),
-                                    reads("Materials", scene.materials),
-                                    reads("Indices", scene.indices),
-                                    reads("Vertices", scene.vertices),
-                                    reads("PixelList", list),
-                                    updates("NextList", closing ? *ended_ : *next_),
-                                    updates("PathPlaces", places_),
-                                    updates("PathWays", ways_buffer_),
-                                    updates("PathWeights", weights_),
-                                    updates("PathMedia", media_),
-                                    updates("Waiting", waiting_),
-                                    updates("Branches", *branches_),
-                                    reads("Textures", scene.textures),
-                                    reads("texture_pages", scene.texture_pages),
-                                    reads("Appearance", scene.appearance),
-                                    reads_layer("environment_map", frame_.environment, 0),
-                                    reads_layer("filtered_environment", frame_.filtered_environment, 0),
-                                    writes("exit_direction", refraction_.exit_direction),
-                                    writes("exit_position", refraction_.exit_position),
-                                    writes("transmittance", refraction_.transmittance),
-                                    writes("path_events", refraction_.events),
-                                    updates("path_radiance", *refraction_.radiance),
-                                    updates("reflected_radiance", reflected_)},
-                                   push, list);
+        std::vector<Binding> bindings = {reads("Frame", frame_.constants),
+                                         reads("Objects", scene.objects),
+                                         reads("Materials", scene.materials),
+                                         reads("Indices", scene.indices),
+                                         reads("Vertices", scene.vertices),
+                                         reads("PixelList", list),
+                                         updates("NextList", closing ? *ended_ : *next_),
+                                         updates("PathPlaces", places_),
+                                         updates("PathWays", ways_buffer_),
+                                         updates("PathWeights", weights_),
+                                         updates("PathMedia", media_),
+                                         updates("Waiting", waiting_),
+                                         updates("Branches", *branches_),
+                                         reads("Textures", scene.textures),
+                                         reads("texture_pages", scene.texture_pages),
+                                         reads("Appearance", scene.appearance),
+                                         reads_layer("environment_map", frame_.environment, 0),
+                                         reads_layer("filtered_environment", frame_.filtered_environment, 0),
+                                         writes("exit_direction", refraction_.exit_direction),
+                                         writes("exit_position", refraction_.exit_position),
+                                         writes("transmittance", refraction_.transmittance),
+                                         writes("path_events", refraction_.events),
+                                         updates("path_radiance", *refraction_.radiance),
+                                         updates("reflected_radiance", reflected_)};
+        ShaderCode shader{"end_paths.comp", kEndPaths};
+        if (const auto lit = volumes_ != nullptr ? volumes_->lit_end() : std::nullopt) {
+            shader = lit->shader;
+            bindings.insert(bindings.end(), lit->bindings.begin(), lit->bindings.end());
+        }
+        recorder_.compute_indirect(program(shader), std::span<const Binding>(bindings), push, list);
     }
 
     Recorder& recorder_;
     const Frame& frame_;
     const Layers& layers_;
     const SurfaceMap& map_;
+    const PathVolumes* volumes_;
     const SceneTopology& topology_;
     Refraction refraction_;
     Ways ways_ = Ways::kTransmitted;
-    Push push_{};
+    PathPush push_{};
     std::uint32_t words_ = 1;
     std::uint32_t surfaces_per_pass_ = 1;
     const Buffer& places_ = frame_.workspace.buffer("path places", pixels() * 16);
@@ -222,9 +258,9 @@ void prepare_paths(const Preparation& preparation, const ParameterValues&) {
 }
 
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
-                        const ParameterValues& parameters) {
+                        const ParameterValues& parameters, const PathVolumes* volumes) {
     const Recorder::Scope scope(recorder, "trace");
-    return Paths(recorder, frame, layers, map, parameters).follow();
+    return Paths(recorder, frame, layers, map, parameters, volumes).follow();
 }
 
 constexpr Technique kVisibilityLayers{

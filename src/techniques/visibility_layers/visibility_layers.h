@@ -1,8 +1,11 @@
 #pragma once
 
+#include "gpu/recorder.h"
 #include "techniques/technique.h"
 
 #include <array>
+#include <optional>
+#include <vector>
 
 namespace pellucid {
 
@@ -22,10 +25,54 @@ inline constexpr std::array kPathParameters = {
                   "surfaces along a view ray that the AOV `layers` counts at most; paths look at all that there are"},
 };
 
+/// Twin of Push in visibility_bindings.glsl.
+struct PathPush {
+    std::uint32_t max_events, most_branches;
+    float threshold;
+    std::uint32_t branch_capacity;
+    float coincidence;
+    std::uint32_t closing;
+    std::uint32_t volume_count;
+    std::uint32_t proxy;
+    std::uint32_t light_count;
+    std::uint32_t receiver_count;
+};
+
+/// What a pass that takes paths on is made of and binds, besides what is its own.
+struct PathPass {
+    Recorder& recorder;
+    const Frame& frame;
+    const Layers& layers;
+    std::vector<std::uint32_t> constants;  ///< of visibility_bindings.glsl
+    std::vector<Binding> scene;            ///< of visibility_bindings.glsl
+    std::vector<Binding> state;            ///< of path_state.glsl
+    std::vector<Binding> walk;             ///< of path_walk.glsl
+    std::vector<Binding> light;            ///< of path_light.glsl
+    PathPush push;
+};
+
+/// Volumes between surfaces, in which paths bend: what ihrke-2007 adds to paths.
+class PathVolumes {
+public:
+    virtual ~PathVolumes() = default;
+    virtual const Buffer& records() const = 0;  ///< VolumeRecord[]
+    virtual void set(PathPush& push) const = 0;
+    /// Starts the paths of pixels with glass or volumes, at the eye, and lists them in `next`.
+    virtual void begin(const PathPass& pass, const Buffer& next) const = 0;
+    /// Takes the paths of `entering` through volumes; into `next` or, where they end, `ended`.
+    virtual void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const = 0;
+    /// Of the program that ends paths where lights shine on what they end on; none where there are no lights.
+    struct LitEnd {
+        ShaderCode shader;
+        std::vector<Binding> bindings;  ///< besides those that it has otherwise
+    };
+    virtual std::optional<LitEnd> lit_end() const = 0;
+};
+
 /// Technique::prepare of techniques that call it.
 void prepare_paths(const Preparation& preparation, const ParameterValues& parameters);
-/// Follows the view rays through `map`, from the first surface of `layers` on.
+/// Follows the view rays through `map`: from the first surface of `layers` on, or with `volumes` from the eye on.
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
-                        const ParameterValues& parameters);
+                        const ParameterValues& parameters, const PathVolumes* volumes = nullptr);
 
 }  // namespace pellucid

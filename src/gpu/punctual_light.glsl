@@ -1,5 +1,5 @@
-#ifndef PELLUCID_SHADE_PUNCTUAL_LIGHT_GLSL
-#define PELLUCID_SHADE_PUNCTUAL_LIGHT_GLSL
+#ifndef PELLUCID_GPU_PUNCTUAL_LIGHT_GLSL
+#define PELLUCID_GPU_PUNCTUAL_LIGHT_GLSL
 
 // KHR_lights_punctual; twin of src/reference/punctual_lights.h.
 const uint kDirectionalLight = 0u, kPointLight = 1u, kSpotLight = 2u;  // pellucid::Light::Kind

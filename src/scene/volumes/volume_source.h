@@ -1,0 +1,22 @@
+#pragma once
+
+#include <pellucid/volume.h>
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace pellucid {
+
+inline constexpr std::string_view kVolumePrefix = "volume:";
+
+/// True for what open_volume() takes.
+bool names_volume(const std::string& source);
+
+/// A volume by what scenes call it: `volume:NAME[,PARAMETER=VALUE...]`, see make_volume(); or an OpenVDB file
+/// in `folder`, see load_volume(). Throws Error as these do.
+Volume open_volume(const std::string& source, const std::filesystem::path& folder = {},
+                   std::span<const GridMapping> mapping = {});
+
+}  // namespace pellucid

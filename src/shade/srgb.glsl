@@ -1,0 +1,9 @@
+#ifndef PELLUCID_SHADE_SRGB_GLSL
+#define PELLUCID_SHADE_SRGB_GLSL
+
+// IEC 61966-2-1, 0..1 each.
+vec3 srgb_from_linear(vec3 c) {
+    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+}
+
+#endif

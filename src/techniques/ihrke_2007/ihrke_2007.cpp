@@ -1,0 +1,185 @@
+#include "techniques/ihrke_2007/ihrke_2007.h"
+
+#include "techniques/visibility_layers/visibility_layers.h"
+#include "volume/scene_volumes.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <memory>
+#include <optional>
+
+namespace pellucid {
+namespace {
+
+constexpr std::uint32_t kBeginViewRays[] = {
+#include "begin_view_rays.comp.inc"
+};
+constexpr std::uint32_t kMarchRays[] = {
+#include "march_rays.comp.inc"
+};
+
+constexpr std::uint32_t kEndLitPaths[] = {
+#include "end_lit_paths.comp.inc"
+};
+
+constexpr std::array kOwnParameters = {
+    ParameterInfo{"integrator", "", 1, 0, 1, true, "0 Euler, 1 Runge-Kutta of fourth order"},
+    ParameterInfo{"step", "voxels", 0.5, 0.01, 8, false, "length of a step along view rays"},
+    ParameterInfo{"max-steps", "", 8192, 1, 60000, true, "steps of a view ray from one box or surface to the next"},
+    ParameterInfo{"proxy", "", 1, 0, 1, true,
+                  "1: view rays enter a volume that stands for a mesh at the mesh; 0: the voxels alone say where it is"},
+    ParameterInfo{"voxelize", "", -1, -1, 1, true,
+                  "1: solids of glass become a volume; 0: they stay surfaces; -1: a volume where the scene has none"},
+    ParameterInfo{"voxels", "", 128, 8, 2048, true, "along the longest side of the volume that glass becomes"},
+    ParameterInfo{"smoothing", "voxels", 0.75, 0, 16, false,
+                  "standard deviation of the Gaussian that smooths the index of that volume"},
+    ParameterInfo{"folds", "", 1, 0, 1, true,
+                  "1: light goes on past a focus; 0: a piece of a wavefront that has turned over ends, as in the paper"},
+    ParameterInfo{"light-step", "voxels", 0.5, 0.01, 8, false, "optical length of a step of light"},
+    ParameterInfo{"patches", "", 262144, 64, 16777216, true, "pieces of wavefronts at once, at most"},
+    ParameterInfo{"map-resolution", "", 512, 2, 8192, true,
+                  "texels along the longest side of a mesh's box of the maps in which surfaces are found"},
+};
+
+constexpr auto kParameters = [] {
+    std::array<ParameterInfo, kOwnParameters.size() + kPathParameters.size()> all{};
+    std::copy(kOwnParameters.begin(), kOwnParameters.end(), all.begin());
+    std::copy(kPathParameters.begin(), kPathParameters.end(), all.begin() + kOwnParameters.size());
+    // What boundaries reflect belongs to the picture: there is no cheap stand-in for it as for a single sheet of glass.
+    for (ParameterInfo& parameter : all)
+        if (parameter.name == "branches")
+            parameter.default_value = 4, parameter.doc = "reflected ways followed per pixel and sample";
+    return all;
+}();
+
+class Volumes final : public PathVolumes {
+public:
+    Volumes(const SceneVolumes& volumes, const ParameterValues& parameters)
+        : volumes_(volumes), images_(volumes.images()), parameters_(parameters) {}
+
+    const Buffer& records() const override { return images_.records; }
+    void set(PathPush& push) const override {
+        push.volume_count = images_.count;
+        push.proxy = parameters_.whole("proxy");
+        if (!volumes_.lit()) return;
+        push.light_count = volumes_.light_count();
+        push.receiver_count = std::uint32_t(volumes_.light_volumes().receiver_list.size());
+    }
+
+    void begin(const PathPass& pass, const Buffer& next) const override {
+        std::vector<Binding> bindings = pass.scene;
+        bindings.insert(bindings.end(), pass.state.begin(), pass.state.end());
+        bindings.insert(bindings.end(), pass.light.begin(), pass.light.end());
+        for (Binding& b : bindings)
+            if (b.name == "path_radiance" || b.name == "reflected_radiance") b.access = Access::kWrite;
+        const Binding own[] = {reads("Traits", pass.frame.scene.topology->traits),
+                               reads("layer_triangle", pass.layers.triangle),
+                               reads("opaque_depth", pass.layers.opaque.depth), reads("Volumes", images_.records),
+                               updates("NextList", next)};
+        bindings.insert(bindings.end(), std::begin(own), std::end(own));
+        pass.recorder.compute(pass.frame.workspace.compute({"begin_view_rays.comp", kBeginViewRays}, pass.constants),
+                              std::span<const Binding>(bindings), pass.push, pass.frame.extent);
+    }
+
+    void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const override {
+        std::vector<Binding> bindings = pass.scene;
+        for (const auto* more : {&pass.state, &pass.walk, &pass.light})
+            bindings.insert(bindings.end(), more->begin(), more->end());
+        const Binding own[] = {reads("volume_index", images_.index),
+                               reads("volume_absorption", images_.absorption),
+                               reads("volume_scattering", images_.scattering),
+                               reads("volume_emission", images_.emission),
+                               reads("PixelList", entering),
+                               updates("NextList", next),
+                               updates("EndedList", ended)};
+        bindings.insert(bindings.end(), std::begin(own), std::end(own));
+        const std::vector<Binding> light = light_bindings();
+        bindings.insert(bindings.end(), light.begin(), light.end());
+        const auto flag = [](bool value) { return value ? 1u : 0u; };
+        std::vector<std::uint32_t> constants = pass.constants;
+        for (const std::uint32_t constant :
+             {parameters_.whole("integrator"), flag(images_.absorbs), flag(images_.reflects), flag(images_.scatters),
+              flag(images_.emits), flag(images_.disperses), flag(pass.frame.scene.object_count > 0),
+              flag(images_.overlapping), std::bit_cast<std::uint32_t>(float(parameters_["step"])),
+              parameters_.whole("max-steps"), flag(volumes_.lit())})
+            constants.push_back(constant);
+        pass.recorder.compute_indirect(pass.frame.workspace.compute({"march_rays.comp", kMarchRays}, constants),
+                                       std::span<const Binding>(bindings), pass.push, entering);
+    }
+
+    std::optional<LitEnd> lit_end() const override {
+        if (!volumes_.lit()) return std::nullopt;
+        LitEnd end{{"end_lit_paths.comp", kEndLitPaths}, light_bindings()};
+        end.bindings.push_back(reads("Lights", volumes_.lights()));
+        return end;
+    }
+
+private:
+    /// Of light_bindings.glsl. Where no light was traced something of the right kind stands in.
+    std::vector<Binding> light_bindings() const {
+        const LightVolumes& light = volumes_.light_volumes();
+        const bool lit = volumes_.lit();
+        return {reads("Volumes", images_.records),
+                reads("Placements", lit ? light.placements : images_.records),
+                reads("Receivers", lit ? light.receivers : images_.records),
+                reads("ReceiverLight", lit ? light.receiver_light : images_.records),
+                reads("light_irradiance", lit ? light.irradiance : images_.emission),
+                reads("light_direction", lit ? light.direction : images_.emission)};
+    }
+
+    const SceneVolumes& volumes_;
+    const VolumeImages& images_;
+    const ParameterValues& parameters_;
+};
+
+SceneVolumes& volumes_of(const GpuScene& scene) { return static_cast<SceneVolumes&>(*scene.volumes); }
+
+void prepare(const Preparation& preparation, const ParameterValues& parameters) {
+    prepare_paths(preparation, parameters);
+    GpuScene& gpu_scene = preparation.gpu_scene;
+    if (!gpu_scene.volumes) gpu_scene.volumes = std::make_unique<SceneVolumes>(preparation.device);
+    const double given = parameters["voxelize"];
+    const bool wanted = given >= 0.0 ? given > 0.0 : preparation.scene.volume_objects.empty();
+    std::optional<VoxelSettings> voxels;
+    if (wanted && !gpu_scene.refractive.empty())
+        voxels = VoxelSettings{.resolution = parameters.whole("voxels"), .smoothing = float(parameters["smoothing"])};
+    volumes_of(gpu_scene).bring_up_to_date(preparation.scene, gpu_scene, voxels);
+}
+
+Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
+    SceneVolumes& scene_volumes = volumes_of(frame.scene);
+    if (scene_volumes.lit())
+        scene_volumes.light(recorder, frame.workspace,
+                            {.step = float(parameters["light-step"]),
+                             .keep_folds = parameters["folds"] != 0.0,
+                             .capacity = parameters.whole("patches")});
+    const SurfaceMap map = layers.source.map_meshes(recorder, frame, parameters.whole("map-resolution"));
+    const Volumes volumes(scene_volumes, parameters);
+    return follow_paths(recorder, frame, layers, map, parameters, &volumes);
+}
+
+void report(const GpuScene& scene, std::vector<std::string>& warnings) {
+    const std::vector<std::string> lines = volumes_of(scene).warnings();
+    warnings.insert(warnings.end(), lines.begin(), lines.end());
+}
+
+}  // namespace
+
+constexpr Technique kIhrke2007{
+    .info = {.name = "ihrke-2007",
+             .summary = "curved rays through volumes in which the index of refraction varies",
+             .source = {"Ivo Ihrke, Gernot Ziegler, Art Tevs, Christian Theobalt, Marcus Magnor, Hans-Peter Seidel",
+                        "Eikonal Rendering: Efficient Light Transport in Refractive Objects",
+                        "ACM Transactions on Graphics 26(3)", 2007, "3, 4.1, 5.3"},
+             .parameters = kParameters,
+             .many_media = true,
+             .whole_scene = true,
+             .volumes = true},
+    .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
+    .prepare = prepare,
+    .record = record,
+    .report = report,
+};
+
+}  // namespace pellucid

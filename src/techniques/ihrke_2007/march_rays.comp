@@ -1,0 +1,222 @@
+#version 460
+// Takes every path that stands at a volume through it: to where it leaves the box, or to a surface inside.
+// Ihrke et al. 2007, sections 3 and 4.1.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "techniques/visibility_layers/visibility_bindings.glsl"
+#include "techniques/visibility_layers/path_walk.glsl"
+#include "techniques/visibility_layers/path_light.glsl"
+
+// Those of visibility_bindings.glsl go up to 11.
+layout(constant_id = 12) const bool kRk4 = true;
+layout(constant_id = 13) const bool kAbsorbs = false;
+layout(constant_id = 14) const bool kBoundaries = false;      // some volume has surfaces, which reflect
+layout(constant_id = 15) const bool kScatters = false;
+layout(constant_id = 16) const bool kEmits = false;
+layout(constant_id = 17) const bool kDisperses = false;
+layout(constant_id = 18) const bool kSurfacesInside = false;  // objects may lie in volumes
+layout(constant_id = 19) const bool kOverlapping = false;     // and volumes in volumes
+layout(constant_id = 22) const bool kLit = false;             // light was traced
+layout(constant_id = 20) const float kStep = 0.5;             // voxels
+layout(constant_id = 21) const uint kMostSteps = 8192u;       // from one surface or box to the next
+
+layout(set = 0, binding = 5) uniform texture3D volume_index;
+layout(set = 0, binding = 6) uniform texture3D volume_absorption;
+layout(set = 0, binding = 9) uniform texture3D volume_scattering;
+layout(set = 0, binding = 27) uniform texture3D volume_emission;
+#include "volume/volume_field.glsl"
+#include "optics/eikonal.glsl"
+#include "techniques/ihrke_2007/light_bindings.glsl"
+PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
+PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
+
+const float kBoundaryEnds = 0.02;    // of the boundary field: below it a ray is in no surface
+const float kLeastTurn = 1e-3;       // change of v in a surface that is none, or lies along the ray
+const float kAirIndex = 1.01;        // up to it a ray has left the glass
+const float kStraight = 1.0 - 1e-6;  // cosine up to which a ray still goes the way in which it has looked for surfaces
+
+// A surface in a volume is as thick as its index is smoothed. What it does is known once it lies behind: its normal is
+// the direction in which v has changed, and the indices on both sides say what it reflects (Fresnel).
+struct Boundary {
+    bool open;      // the ray is in one
+    vec3 x, v;      // where it began
+    float highest;  // of the boundary field since then
+    float lowest;   // since that
+};
+
+// Takes notice of the field at the end of a step. True: a surface lies behind. Of two that are so near to each other that
+// the field does not fall to nothing between them, each ends in the valley.
+bool passes_boundary(inout Boundary boundary, float field, bool inside) {
+    if (!boundary.open) return false;
+    if (field > boundary.highest) boundary.highest = boundary.lowest = field;
+    boundary.lowest = min(boundary.lowest, field);
+    return field <= kBoundaryEnds || !inside ||
+           (boundary.lowest < 0.5 * boundary.highest && field > boundary.lowest + 0.1 * boundary.highest);
+}
+
+void leave_boundary(uint i, inout Path path, Boundary boundary, vec3 v, VolumeRecord volume, mat3 world_from_voxel) {
+    float n_i = length(boundary.v), n_t = length(v);
+    vec3 turned = v - boundary.v;
+    if (!(length(turned) > kLeastTurn)) return;
+    vec3 incident = boundary.v / n_i, normal = normalize(turned);
+    if (dot(incident, normal) > 0.0) normal = -normal;
+    ++path.events;
+    if (dot(v, normal) > 0.0) {  // total internal reflection
+        ++path.reflections;
+        return;
+    }
+    float reflectance = fresnel_dielectric(-dot(incident, normal), n_i / n_t);
+    vec3 reflected = path.transmittance * reflectance;
+    if (!kTree || !may_branch(i, reflected)) return;  // its light goes on with what is transmitted, so that none is lost
+    Path branch = path;
+    branch.position = (volume.world_from_voxel * vec4(boundary.x, 1.0)).xyz;
+    branch.direction = normalize(world_from_voxel * reflect_direction(incident, normal));
+    branch.transmittance = reflected;
+    uint own = mark;
+    mark &= ~(kMainPath | kEntersVolume);
+    push_branch(i, branch, branch_capacity);
+    mark = own;
+    path.transmittance *= 1.0 - reflectance;
+}
+
+// In dispersive volumes every colour goes a way of its own: green's is the path's.
+void part_colors(uint i, inout Path path) {
+    uint own = mark;
+    for (uint other = 1u; other <= 3u; other += 2u) {
+        Path branch = path;
+        branch.transmittance *= vec3(other == 1u, 0.0, other == 3u);
+        mark = (own & ~(kChannelMask | kMainPath | kEntersVolume)) | other;
+        push_branch(i, branch, branch_capacity);
+    }
+    mark = (own & ~kChannelMask) | 2u;
+    path.transmittance *= vec3(0.0, 1.0, 0.0);
+}
+
+// Along an inner normal's side: past the smoothed surface that a ray has entered at the mesh, whose voxels say again
+// what the mesh has said already. A wall may be so thin that its other side begins before.
+void pass_entry(inout CurvedRay ray, vec3 direction) {
+    float lowest = 1.0;
+    for (uint k = 0u; k < 64u; ++k) {
+        float boundary = volume_value(volume_absorption, ray.x).a;
+        if (boundary <= kBoundaryEnds || boundary > lowest + 0.1) break;
+        lowest = min(lowest, boundary);
+        ray.x += 0.25 * direction;
+    }
+}
+
+// False: the path ends here, because it has run out of steps.
+bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
+    VolumeRecord volume = volumes[own];
+    if (kDisperses && (volume.flags & kDispersiveVolume) != 0u && (mark & kChannelMask) == 0u) part_colors(i, path);
+    enter_volume(volume, mark & kChannelMask);
+    mat3 world_from_voxel = mat3(volume.world_from_voxel) / volume.voxel;
+    CurvedRay ray;
+    ray.x = clamp(voxel_position(volume, path.position), vec3(0.0), volume.size);
+    ray.v = voxel_direction(volume, path.direction);
+    bool has_mesh = proxy != 0u && (volume.flags & kMeshVolume) != 0u;
+    if (kSurfacesInside && has_mesh && from_mesh) pass_entry(ray, ray.v);
+    float n_entry = index_field(ray.x).w;
+    ray.v *= n_entry;
+    Boundary boundary = Boundary(false, vec3(0.0), vec3(0.0), 0.0, 0.0);
+
+    // Surfaces of objects are looked for along the ray as it goes, straight on, and again once it has turned.
+    float until_surface = kFarthest;  // voxels
+    vec3 looked_along = vec3(0.0);
+    float t_min = -coincidence, short_of = 0.5 * kApart * coincidence / volume.voxel;
+    uint visits = 0u, steps = 0u;
+    bool inside = true;
+    bool in_air = has_mesh && !from_mesh;  // where a mesh says what the ray meets next
+    for (; inside && steps < kMostSteps; ++steps) {
+        CurvedRay next;
+        float near, share;
+        if (kSurfacesInside) {
+            vec3 direction = normalize(ray.v);
+            bool turned = dot(direction, looked_along) < kStraight || (until_surface < kStep && direction != looked_along);
+            if (in_air || turned) {
+                meets_replaced = in_air ? kMeetAll : has_mesh || proxy == 0u ? kMeetNone : kMeetEntering;
+                bool gave_up;
+                SurfaceHit hit = find_surface_among_objects((volume.world_from_voxel * vec4(ray.x, 1.0)).xyz,
+                                                            world_from_voxel * direction, t_min, 0.0, gave_up, visits);
+                if (gave_up) steps = kMostSteps;
+                t_min = 0.0;
+                until_surface = max(hit.t, 0.0) / volume.voxel;
+                looked_along = direction;
+                // A surface that would be left is that of a hollow: its other side bends the ray by its voxels.
+                if (in_air && hit.t < kFarthest && hit.leaving && (hit.traits & kReplaced) != 0u) {
+                    in_air = false;
+                    looked_along = vec3(0.0);
+                    until_surface = kFarthest;
+                }
+            }
+            next = CurvedRay(ray.x + max(until_surface - short_of, 0.0) * direction, ray.v);
+            if (in_air) {
+                clip_to_box(volume, ray.x, direction, near, share);
+                next.x = ray.x + clamp(until_surface - short_of, 0.0, max(share, 0.0)) * direction;
+                path.length_inside += distance(next.x, ray.x) * volume.voxel;
+                ray = next;
+                break;
+            }
+            if (until_surface <= kStep) inside = false;
+            until_surface -= kStep;
+        }
+        if (inside) next = kRk4 ? rk4_space_step(ray, kStep) : euler_space_step(ray, kStep);
+        vec3 way = next.x - ray.x;
+        clip_to_box(volume, ray.x, way, near, share);
+        if (share < 1.0) {
+            inside = false;
+            way *= share;
+            next = CurvedRay(ray.x + way, mix(ray.v, next.v, share));
+        }
+        float travelled = length(way);
+        path.length_inside += travelled * volume.voxel;
+        vec3 middle = ray.x + 0.5 * way;
+        vec4 absorption = vec4(0.0);
+        vec4 scattering = vec4(0.0);
+        if (kAbsorbs || kBoundaries) absorption = volume_value(volume_absorption, middle);
+        if (kScatters) scattering = volume_value(volume_scattering, middle);
+        vec3 left = exp(-(absorption.rgb + scattering.rgb) * travelled);
+        if (kEmits || (kScatters && kLit)) {
+            vec3 added = vec3(0.0);  // radiance, per voxel's length
+            if (kEmits) added += volume_value(volume_emission, middle).rgb;
+            if (kScatters && kLit) added += scattered_radiance(own, middle, -normalize(ray.v), scattering);
+            // What is carried along a bent ray is L / n^2 (the paper leaves that out).
+            add_light(texel, path.transmittance * sqrt(left) * (n_entry * n_entry / dot(ray.v, ray.v)) * added * travelled);
+        }
+        path.transmittance *= left;
+        if (kBoundaries) {
+            if (passes_boundary(boundary, absorption.a, inside)) {
+                boundary.open = false;
+                leave_boundary(i, path, boundary, next.v, volume, world_from_voxel);
+            }
+            if (absorption.a > kBoundaryEnds && !boundary.open) boundary = Boundary(true, ray.x, ray.v, absorption.a, absorption.a);
+            in_air = kSurfacesInside && has_mesh && absorption.a <= kBoundaryEnds && dot(next.v, next.v) < kAirIndex * kAirIndex;
+        }
+        ray = next;
+        if (kOverlapping && inside && inside_smaller(own, (volume.world_from_voxel * vec4(ray.x, 1.0)).xyz)) inside = false;
+    }
+    path.position = (volume.world_from_voxel * vec4(ray.x, 1.0)).xyz;
+    path.direction = normalize(world_from_voxel * ray.v);
+    mark |= kCrossedVolume;
+    return steps < kMostSteps || !inside;
+}
+
+void main() {
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
+    uint i = uint(texel.y) * frame.width + uint(texel.x);
+    Path path = load_path(i);
+    mark &= ~kEntersVolume;
+    uint rank = filling_rank();
+    bool from_mesh = in_replaced(rank);
+    if (from_mesh) {
+        for (uint w = 0u; w < kMediumWords; ++w) media[w] = 0u;  // from here on the volume knows what is there
+        standing = PELLUCID_NO_TRIANGLE;
+    }
+    float straight;
+    uint own = next_volume(path.position, path.direction, straight);
+    bool goes_on = own == kNoVolume || march(texel, i, own, from_mesh, path);
+    if (!goes_on) path.status = kStatusStepLimit;
+    save_path(i, path);
+    if (goes_on) append_next(texel);
+    else append_ended(texel);
+}

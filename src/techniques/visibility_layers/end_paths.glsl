@@ -1,0 +1,150 @@
+#ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_END_PATHS_GLSL
+#define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_END_PATHS_GLSL
+
+// Paths that have come to their end: what light comes from there; then the pixel's next branch, if one waits.
+// Programs that define PELLUCID_LIT shine lights (lights_on_surfaces.glsl) on opaque surfaces, too.
+#include "techniques/visibility_layers/visibility_bindings.glsl"
+
+layout(constant_id = 6) const uint kEnvironmentKind = 0u;
+layout(constant_id = 7) const bool kOpaqueObjects = false;  // there are some
+#define PELLUCID_ENVIRONMENT_KIND kEnvironmentKind
+
+layout(std430, set = 0, binding = 3) readonly buffer Textures { TextureRecord textures[]; };
+layout(set = 0, binding = 4) uniform texture2DArray texture_pages;
+layout(set = 0, binding = 5, rgba32f) writeonly uniform image2DArray exit_direction;
+layout(set = 0, binding = 6, rgba32f) writeonly uniform image2DArray exit_position;
+layout(set = 0, binding = 9, rgba32f) writeonly uniform image2DArray transmittance;
+layout(set = 0, binding = 14, r32ui) writeonly uniform uimage2DArray path_events;
+layout(set = 0, binding = 15) uniform texture2D environment_map;
+layout(set = 0, binding = 16) uniform texture2D filtered_environment;
+layout(std430, set = 0, binding = 17) readonly buffer Appearance { float appearance[]; };
+PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
+
+#include "gpu/vertices.glsl"
+#include "techniques/visibility_layers/path_state.glsl"
+#include "techniques/visibility_layers/path_light.glsl"
+#include "techniques/visibility_layers/microfacets.glsl"
+#include "gpu/opaque_surface.glsl"
+#ifdef PELLUCID_LIT
+#include "techniques/ihrke_2007/lights_on_surfaces.glsl"
+#endif
+
+// Light by which a bounced path accounts for a direction: blurred, so that a small sun does not show as noise.
+const float kBounceRoughness = 0.5;
+vec3 bounce_light(vec3 direction) { return filtered_environment_radiance(direction, kBounceRoughness); }
+
+struct OpaqueLight {
+    vec3 radiance;  // as if the surface stood alone under the environment
+    float alpha;    // less the cutoff: below 0 where there is a hole
+    vec3 normal;    // unit, on the path's side
+    vec3 diffuse;   // albedo
+};
+
+// Of the opaque surface that the path stands on.
+OpaqueLight opaque_light(Path path) {
+    uint object = object_of(standing);
+    ObjectRecord o = objects[object];
+    uint corner = o.first_corner + 3u * (standing - o.first_triangle);
+    uvec3 v = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);
+    vec3 a = (o.world_from_object * vec4(vertex_position(v.x), 1.0)).xyz;
+    vec3 edge_b = (o.world_from_object * vec4(vertex_position(v.y), 1.0)).xyz - a;
+    vec3 edge_c = (o.world_from_object * vec4(vertex_position(v.z), 1.0)).xyz - a;
+    vec3 w = corner_weights(path.direction, a - path.position, edge_b, edge_c);
+    vec3 normal = mat3(o.world_from_object_normal) *
+                  (w.x * vertex_normal(v.x) + w.y * vertex_normal(v.y) + w.z * vertex_normal(v.z));
+    if (!(dot(normal, normal) > 1e-30)) normal = cross(edge_b, edge_c);
+    normal = normalize(normal);
+    vec4 texcoords = vec4(0.0), color = vec4(0.0);
+    for (int k = 0; k < 3; ++k) {
+        uint at = 5u * v[k];
+        texcoords += w[k] * vec4(appearance[at], appearance[at + 1u], appearance[at + 2u], appearance[at + 3u]);
+        color += w[k] * unpackUnorm4x8(floatBitsToUint(appearance[at + 4u]));
+    }
+    MaterialRecord material = materials[o.material];
+    vec4 base = material.base_color * color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
+    vec3 light = opaque_material_radiance(material, base.rgb, texcoords.xy, texcoords.zw,
+                                          faceforward(normal, path.direction, normal), -path.direction);
+    bool unlit = (material.flags & PELLUCID_MATERIAL_UNLIT) != 0u;
+    float metallic = material.metallic *
+                     sample_texture(material.metallic_roughness_texture, texcoords.xy, texcoords.zw).b;
+    float root = (material.ior - 1.0) / (material.ior + 1.0);
+    vec3 facing = faceforward(normal, path.direction, normal);
+    vec3 diffuse = unlit ? vec3(0.0) : (1.0 - metallic) * (1.0 - root * root) * base.rgb;
+#ifdef PELLUCID_LIT
+    if (!unlit) light += diffuse / 3.14159265 * irradiance_of_lights(path.position, facing);
+#endif
+    return OpaqueLight(light, base.a - material.alpha_cutoff, facing, diffuse);
+}
+
+// One direction of those from which the surface has been lit, to see what is there instead of the environment. What it
+// then finds counts, less what was assumed: surfaces that stand alone stay as they are, without noise.
+void bounce(ivec2 texel, uint i, Path path, OpaqueLight light) {
+    vec3 weight = path.transmittance * light.diffuse;
+    if ((mark & kBounced) != 0u || waiting[i].y >= most_branches || !(max(weight.r, max(weight.g, weight.b)) > threshold)) return;
+    seed = hash(uvec3(texel, 77u + waiting[i].y)).x;
+    vec2 u = random_numbers(path.events);
+    float radius = sqrt(u.x), angle = 6.283185307 * u.y;
+    vec3 across = normalize(abs(light.normal.z) < 0.9 ? cross(light.normal, vec3(0.0, 0.0, 1.0))
+                                                      : cross(light.normal, vec3(1.0, 0.0, 0.0)));
+    Path ray = path;
+    ray.direction = radius * cos(angle) * across + radius * sin(angle) * cross(light.normal, across) +
+                    sqrt(max(1.0 - u.x, 0.0)) * light.normal;
+    ray.transmittance = weight;
+    uint own = mark;
+    mark = (mark & ~(kMainPath | kMetOpaque)) | kBounced;
+    if (push_branch(i, ray, branch_capacity)) {
+        mark = own;
+        add_light(texel, -weight * bounce_light(ray.direction));
+    }
+    mark = own;
+}
+
+vec3 environment_light(Path path) {
+    if ((mark & kBounced) != 0u) return bounce_light(path.direction);
+    if (kRough && spread() > 0.0) return filtered_environment_radiance(path.direction, sqrt(spread()));
+    return environment_radiance(path.direction);
+}
+
+void store_result(ivec2 texel, Path path) {
+    ivec3 at = ivec3(texel, 0);
+    float object = (mark & kMetOpaque) != 0u ? float(object_of(standing)) : kEndsInEnvironment;
+    imageStore(exit_direction, at, vec4(path.direction, path.length_inside));
+    imageStore(exit_position, at, vec4(path.position, object));
+    imageStore(transmittance, at, vec4(path.transmittance, 1.0));
+    // A path that has crossed a volume without a surface has met something, too.
+    if (kVolumes && (mark & kCrossedVolume) != 0u) path.events = max(path.events, 1u);
+    imageStore(path_events, at, uvec4(pack_events(path)));
+}
+
+void main() {
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
+    uint i = uint(texel.y) * frame.width + uint(texel.x);
+    Path path = load_path(i);
+    if (kOpaqueObjects && closing == 0u && (mark & kMetOpaque) != 0u) {
+        OpaqueLight light = opaque_light(path);
+        if (light.alpha < 0.0) {  // a hole: the path goes on
+            mark &= ~kMetOpaque;
+            save_path(i, path);
+            append_next(texel);
+            return;
+        }
+        if ((mark & kMainPath) != 0u) store_result(texel, path);
+        add_light(texel, path.transmittance * light.radiance);
+        if (kTree) bounce(texel, i, path, light);
+    } else {
+        if ((mark & kMainPath) != 0u) {
+            if (closing != 0u) path.status = kStatusEventLimit;
+            store_result(texel, path);
+        }
+        if (kTree || kStochastic) add_light(texel, path.transmittance * environment_light(path));
+    }
+    if (closing != 0u) {
+        while (pop_branch(i, path)) add_light(texel, path.transmittance * environment_light(path));
+    } else if (pop_branch(i, path)) {
+        save_path(i, path);
+        append_next(texel);
+    }
+}
+
+#endif

@@ -1,0 +1,33 @@
+#ifndef PELLUCID_VOLUME_BOX_GLSL
+#define PELLUCID_VOLUME_BOX_GLSL
+
+#include "volume/volume_record.glsl"
+
+// The part of a ray inside the box of a volume, in the unit of d; near > far where there is none. Behind x counts not.
+void clip_to_box(VolumeRecord volume, vec3 x, vec3 d, out float near, out float far) {
+    near = 0.0;
+    far = 1e30;
+    for (int k = 0; k < 3; ++k) {
+        if (abs(d[k]) < 1e-12) {
+            if (x[k] < 0.0 || x[k] > volume.size[k]) far = -1.0;
+            continue;
+        }
+        float a = -x[k] / d[k], b = (volume.size[k] - x[k]) / d[k];
+        near = max(near, min(a, b));
+        far = min(far, max(a, b));
+    }
+}
+
+const float kLeastCrossing = 1e-3;  // voxels; less of a box is not met
+
+// How far away a straight ray meets the box of a volume, m; 1e30 if it does not.
+float box_distance(VolumeRecord volume, vec3 position, vec3 direction) {
+    float near, far;
+    clip_to_box(volume, (volume.voxel_from_world * vec4(position, 1.0)).xyz,
+                mat3(volume.voxel_from_world) * direction * volume.voxel, near, far);
+    return far - near > kLeastCrossing ? near * volume.voxel : 1e30;
+}
+
+bool in_box(vec3 x, vec3 size) { return all(greaterThanEqual(x, vec3(0.0))) && all(lessThanEqual(x, size)); }
+
+#endif

@@ -1,0 +1,75 @@
+#ifndef PELLUCID_VOLUME_LIGHT_LOOKUP_GLSL
+#define PELLUCID_VOLUME_LIGHT_LOOKUP_GLSL
+
+// The light that was traced through volumes (wavefront.h): at a place in a volume, and on a planar object.
+//
+// Needs: #extension GL_EXT_samplerless_texture_functions : require; texture3D light_irradiance, light_direction; buffers
+// Volumes { VolumeRecord volumes[]; }, Placements { LightPlacement placements[]; }, Receivers { LightReceiver
+// receivers[]; }, ReceiverLight { vec4 receiver_light[]; }.
+
+#include "optics/phase.glsl"
+#include "volume/box.glsl"
+#include "volume/light_plane.glsl"
+#include "volume/light_records.h"
+
+// Interpolated linearly between the middles of the voxels of light; x in voxels of the volume.
+vec4 light_value(texture3D image, LightPlacement placement, vec3 x) {
+    vec3 size = vec3(placement.size_x, placement.size_y, placement.size_z);
+    vec3 position = clamp(x / float(1u << placement.halvings) - 0.5, vec3(0.0), size - 1.0);
+    vec3 corner = min(floor(position), max(size - 2.0, vec3(0.0)));
+    vec3 w = position - corner;
+    ivec3 first = ivec3(placement.first_x, placement.first_y, placement.first_z), last = first + ivec3(size) - 1;
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < 8; ++k) {
+        ivec3 offset = ivec3(k & 1, k >> 1 & 1, k >> 2);
+        vec3 share = mix(1.0 - w, w, vec3(offset));
+        sum += share.x * share.y * share.z * texelFetch(image, min(first + ivec3(corner) + offset, last), 0);
+    }
+    return sum;
+}
+
+// Radiance that a voxel's length of medium scatters in a unit direction `way`, the way that the scattered light goes
+// (frame of the voxels). x: voxels of the volume `own`; scattering: sigma_s per voxel, and g, as the volume's image has
+// them. Light is scattered once.
+vec3 scattered_radiance(uint own, vec3 x, vec3 way, vec4 scattering) {
+    vec3 irradiance = light_value(light_irradiance, placements[own], x).rgb;
+    vec3 from = light_value(light_direction, placements[own], x).xyz;
+    if (!(dot(from, from) > 0.0)) return vec3(0.0);
+    return scattering.rgb * irradiance * henyey_greenstein(dot(normalize(from), way), scattering.a);
+}
+
+// Irradiance of a planar object by light that went towards volumes, and what that light would have been there without
+// them; both sides alike. False: there is no receiver.
+bool receiver_irradiance(uint receiver_count, vec3 position, out vec3 irradiance, out vec3 without_volumes) {
+    irradiance = without_volumes = vec3(0.0);
+    for (uint i = 0u; i < receiver_count; ++i) {
+        LightReceiver receiver = receivers[i];
+        float off = dot(position - receiver.corner.xyz, receiver.normal.xyz);
+        vec2 texel;
+        receiver_distance(receiver, position, receiver.normal.xyz, texel);
+        ivec2 size = ivec2(receiver.side.w, receiver.up.w);
+        bool inside = all(greaterThanEqual(texel, vec2(0.0))) && all(lessThanEqual(texel, vec2(size)));
+        if (abs(off) > 0.5 * receiver.corner.w || !inside) continue;
+        vec2 corner = floor(texel - 0.5), w = texel - 0.5 - corner;
+        for (int k = 0; k < 4; ++k) {
+            ivec2 offset = ivec2(k & 1, k >> 1);
+            vec2 share = mix(1.0 - w, w, vec2(offset));
+            ivec2 at = clamp(ivec2(corner) + offset, ivec2(0), size - 1);
+            uint place = floatBitsToUint(receiver.normal.w) + uint(at.x + size.x * at.y);
+            irradiance += share.x * share.y * receiver_light[place].rgb;
+            without_volumes += share.x * share.y * receiver_light[place + uint(receiver_light.length()) / 2u].rgb;
+        }
+        return true;
+    }
+    return false;
+}
+
+// Whether the straight way of a unit direction misses all volumes for `length_m`: then a light there is seen as if
+// there were none; else its light comes by receiver_irradiance().
+bool straight_way_is_clear(uint volume_count, vec3 position, vec3 direction, float length_m) {
+    for (uint i = 0u; i < volume_count; ++i)
+        if (box_distance(volumes[i], position, direction) < length_m) return false;
+    return true;
+}
+
+#endif

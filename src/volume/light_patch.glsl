@@ -1,0 +1,71 @@
+#ifndef PELLUCID_VOLUME_LIGHT_PATCH_GLSL
+#define PELLUCID_VOLUME_LIGHT_PATCH_GLSL
+
+// Pieces of wavefronts, and what the passes of the tracer share (Ihrke et al. 2007, section 4.2).
+
+#include "volume/box.glsl"
+#include "volume/light_records.h"
+#include "volume/light_state.h"
+
+// Twin of LightPush in wavefront.cpp.
+layout(push_constant) uniform Push {
+    uint capacity;          // patches that a list holds
+    uint volume_count;
+    uint receiver_count;
+    uint front;             // emit_light: index of the front
+    float step_length;      // optical length of a step, voxels
+    float span;             // patches are split when a side is longer, voxels
+    float least_area;       // of a patch when its light is written to a voxel, voxels^2
+    uint steps_per_round;
+    float power_scale;      // fixed-point units per W
+    float finest;           // share of its first power below which a patch is not split
+    float weakest;          // below which it ends
+};
+
+struct Quad {
+    vec3 x[4];
+    vec3 v[4];
+    vec3 power;       // W
+    vec3 unabsorbed;  // W, if nothing had been absorbed
+    uint volume;      // that v belongs to
+    uint front;
+    bool coarse;      // a split has found no room
+    uint surface;     // what light was like before the surface that it is in: pack_incident(); 0: it is in none
+};
+
+Quad unpack_patch(LightPatch patch_) {
+    Quad quad;
+    for (int k = 0; k < 4; ++k) {
+        quad.x[k] = patch_.position[k].xyz;
+        quad.v[k] = patch_.direction[k].xyz;
+    }
+    quad.power = vec3(patch_.position[0].w, patch_.position[1].w, patch_.position[2].w);
+    quad.unabsorbed = vec3(patch_.direction[0].w, patch_.direction[1].w, patch_.direction[2].w);
+    uint tag = floatBitsToUint(patch_.position[3].w);
+    quad.volume = tag & 0xffffu;
+    quad.front = tag >> 16 & PELLUCID_MOST_FRONTS;
+    quad.coarse = tag >> 31 != 0u;
+    quad.surface = floatBitsToUint(patch_.direction[3].w);
+    return quad;
+}
+
+LightPatch pack_patch(Quad quad) {
+    LightPatch patch_;
+    for (int k = 0; k < 4; ++k) {
+        patch_.position[k].xyz = quad.x[k];
+        patch_.direction[k].xyz = quad.v[k];
+    }
+    patch_.position[0].w = quad.power.r;
+    patch_.position[1].w = quad.power.g;
+    patch_.position[2].w = quad.power.b;
+    patch_.position[3].w = uintBitsToFloat(quad.volume | quad.front << 16 | (quad.coarse ? 1u << 31 : 0u));
+    patch_.direction[0].w = quad.unabsorbed.r;
+    patch_.direction[1].w = quad.unabsorbed.g;
+    patch_.direction[2].w = quad.unabsorbed.b;
+    patch_.direction[3].w = uintBitsToFloat(quad.surface);
+    return patch_;
+}
+
+uint64_t fixed_point(float power) { return uint64_t(max(power, 0.0) * power_scale + 0.5); }
+
+#endif

@@ -1,0 +1,63 @@
+// Structs of the wavefront tracer that C++ and GLSL share; laid out as gpu/structs.h says.
+#ifndef PELLUCID_VOLUME_LIGHT_RECORDS_H
+#define PELLUCID_VOLUME_LIGHT_RECORDS_H
+
+#ifdef __cplusplus
+#include "core/math.h"
+
+#include <cstdint>
+namespace pellucid::gpu {
+// NOLINTBEGIN(readability-identifier-naming): GLSL's names
+using vec4 = glm::vec4;
+using uint = std::uint32_t;
+// NOLINTEND(readability-identifier-naming)
+#endif
+
+// A patch's tag: which volume its v belongs to, its front, and whether a split has found no room.
+#define PELLUCID_NO_VOLUME 0xffffu
+#define PELLUCID_MOST_FRONTS 0x7fffu
+
+// Four corners of a piece of a wavefront, in order around it.
+struct LightPatch {
+    vec4 position[4];  // xyz: world, m. w: power, W (three colours); last: bits of the tag
+    vec4 direction
+        [4];  // xyz: v, n times the unit direction, world. w: power if nothing had been absorbed; last: surface
+};
+
+// A grid of patches that a light emits towards the box of one volume.
+struct LightFront {
+    vec4
+        corner;  // directional: world; else a direction from `position`, on a plane at distance 1. w: patches along side
+    vec4 side;   // from one patch to the next, w: patches along up
+    vec4 up;     // with side and the way of the light right-handed
+    vec4 position;   // point and spot: world, m; w: how far from it patches begin, m
+    vec4 direction;  // directional and spot: unit, world; w: pellucid::Light::Kind
+    vec4 intensity;  // rgb: per steradian, or irradiance; w: first power of a patch, W
+    vec4 cone;       // x, y: cosine of the inner and outer angle of a spot; z: bits of the volume
+};
+
+// A planar opaque object that catches light; its map has width x height square texels.
+struct LightReceiver {
+    vec4 corner;  // world, m; w: edge of a texel, m
+    vec4 side;    // unit, world; w: texels along it
+    vec4 up;      // unit, world, square to side; w: texels along it
+    vec4 normal;  // unit, world; w: bits of its first texel in the maps
+};
+
+// Where the light of a volume's placement is kept.
+struct LightPlacement {
+    uint first_key;                  // of its voxels among the keys
+    uint size_x, size_y, size_z;     // voxels of light
+    uint first_x, first_y, first_z;  // of its box in the images of light
+    uint halvings;                   // a voxel of light is 2^halvings voxels wide
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(LightPatch) == 128);
+static_assert(sizeof(LightFront) == 112);
+static_assert(sizeof(LightReceiver) == 64);
+static_assert(sizeof(LightPlacement) == 32);
+}  // namespace pellucid::gpu
+#endif
+
+#endif

@@ -1,0 +1,43 @@
+// What the wavefront tracer counts on the device; shared by C++ and GLSL, laid out as gpu/structs.h says.
+#ifndef PELLUCID_VOLUME_LIGHT_STATE_H
+#define PELLUCID_VOLUME_LIGHT_STATE_H
+
+#ifdef __cplusplus
+#include <cstdint>
+namespace pellucid::gpu {
+// NOLINTBEGIN(readability-identifier-naming): GLSL's names
+using uint = std::uint32_t;
+using uint64_t = std::uint64_t;
+// NOLINTEND(readability-identifier-naming)
+#endif
+
+// What becomes of the light: indices into LightState::power.
+#define PELLUCID_LIGHT_EMITTED 0u
+#define PELLUCID_LIGHT_ARRIVED 1u    // on receivers
+#define PELLUCID_LIGHT_MISSED 2u     // left all volumes, met no receiver
+#define PELLUCID_LIGHT_ABSORBED 3u   // and scattered, on the way
+#define PELLUCID_LIGHT_TURNED 4u     // dropped at a fold
+#define PELLUCID_LIGHT_WEAK 5u       // dropped as too weak
+#define PELLUCID_LIGHT_LEFT 6u       // still on its way when the rounds ended
+#define PELLUCID_LIGHT_REFLECTED 7u  // lost to reflection (Fresnel) at surfaces
+#define PELLUCID_LIGHT_FATES 8u
+
+struct LightState {
+    uint64_t power[PELLUCID_LIGHT_FATES * 3u];  // fixed point, three colours each
+    uint kept, extra;                           // patches written for the next round: from the front, from the back
+    uint in_kept, in_extra;                     // patches of this round
+    uint landed, landing;                       // patches to be put on receivers: appended; in this round
+    uint peak;                                  // most patches at once
+    uint rounds;                                // that had patches
+    uint refused;                               // splits that found no room
+    uint left;                                  // patches on their way when the rounds ended
+    uint splits;
+    uint reserved;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(LightState) == 24 * 8 + 48);
+}  // namespace pellucid::gpu
+#endif
+
+#endif

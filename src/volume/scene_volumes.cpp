@@ -1,0 +1,64 @@
+#include "volume/scene_volumes.h"
+
+#include "gpu/punctual_light.h"
+#include "volume/upload_volumes.h"
+#include "volume/voxelize.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace pellucid {
+
+void SceneVolumes::bring_up_to_date(const Scene& scene, GpuScene& gpu_scene,
+                                    const std::optional<VoxelSettings>& voxels) {
+    scene_ = &scene;
+    const std::string made_of =
+        voxels ? fmt::format("{} {} {}", voxels->resolution, voxels->smoothing, voxels->samples) : "volumes alone";
+    if (made_of == made_of_ && moves_ == gpu_scene.moves) return;
+    Scene drawn;
+    drawn.volumes = scene.volumes;
+    drawn.volume_objects = scene.volume_objects;
+    warnings_.clear();
+    if (voxels) {
+        VoxelizedScene made = voxelize(device_, scene, *voxels);
+        warnings_ = std::move(made.warnings);
+        VolumeObject object;
+        object.name = "glass";
+        object.volume = int(drawn.volumes.size());
+        for (std::size_t i = 0; i < scene.objects.size(); ++i)
+            if (scene.materials[std::size_t(scene.objects[i].material)].refractive()) object.objects.push_back(int(i));
+        drawn.volumes.push_back(std::make_shared<const Volume>(std::move(made.volume)));
+        drawn.volume_objects.push_back(std::move(object));
+    }
+    images_ = upload_volumes(device_, drawn);
+    std::vector<int> replaced;
+    for (const VolumeObject& object : drawn.volume_objects)
+        replaced.insert(replaced.end(), object.objects.begin(), object.objects.end());
+    gpu_scene.topology->mark_replaced(device_, replaced);
+
+    std::vector<PunctualLight> lights;
+    for (const Light& light : scene.lights) lights.push_back(punctual_light(light));
+    light_count_ = std::uint32_t(lights.size());
+    if (!lights.empty()) {
+        lights_ = Buffer(device_, "lights", lights.size() * sizeof(PunctualLight),
+                         vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
+        upload(device_, lights_, std::as_bytes(std::span(lights)));
+    }
+    made_of_ = made_of;
+    moves_ = gpu_scene.moves;
+}
+
+void SceneVolumes::light(Recorder& recorder, Workspace& workspace, const LightSettings& settings) {
+    tracer_.update(recorder, workspace, *scene_, images_, settings, moves_);
+}
+
+std::vector<std::string> SceneVolumes::warnings() const {
+    std::vector<std::string> lines = warnings_;
+    if (!lit()) return lines;
+    const std::vector<std::string> of_light = tracer_.statistics().warnings();
+    lines.insert(lines.end(), of_light.begin(), of_light.end());
+    return lines;
+}
+
+}  // namespace pellucid

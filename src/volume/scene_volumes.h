@@ -1,0 +1,46 @@
+#pragma once
+
+#include "gpu/gpu_scene.h"
+#include "gpu/volume_images.h"
+#include "volume/wavefront.h"
+
+#include <pellucid/voxelize.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pellucid {
+
+/// The volumes of a scene on the device, those made from its glass included, and the light in them.
+class SceneVolumes final : public PreparedState {
+public:
+    explicit SceneVolumes(const Device& device) : device_(device), tracer_(device) {}
+
+    /// Brings the volumes up to date. `voxels`: with them all solids of glass become one more volume. Marks the objects
+    /// for which volumes stand in the scene's topology.
+    void bring_up_to_date(const Scene& scene, GpuScene& gpu_scene, const std::optional<VoxelSettings>& voxels);
+    /// Records the tracing of lights if something has changed; there are some, and volumes.
+    void light(Recorder& recorder, Workspace& workspace, const LightSettings& settings);
+
+    const VolumeImages& images() const { return images_; }
+    bool lit() const { return lights_.size() > 0 && images_.count > 0; }
+    std::uint32_t light_count() const { return light_count_; }
+    const Buffer& lights() const { return lights_; }  ///< PunctualLight[] (gpu/punctual_light.glsl)
+    const LightVolumes& light_volumes() const { return tracer_.light(); }
+    /// What did not go as it should, of the volumes and of the last tracing that has run.
+    std::vector<std::string> warnings() const;
+
+private:
+    const Device& device_;
+    const Scene* scene_ = nullptr;
+    std::string made_of_;
+    std::uint64_t moves_ = 0;
+    VolumeImages images_;
+    WavefrontTracer tracer_;
+    Buffer lights_;
+    std::uint32_t light_count_ = 0;
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace pellucid

@@ -1,0 +1,265 @@
+#version 460
+// A round: every patch of the wavefronts goes on by some steps, until it has to be split, or ends. Patches need not keep
+// step with each other (Ihrke et al. 2007, section 4.2).
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+
+layout(local_size_x = 64) in;
+
+layout(constant_id = 0) const bool kMedium = false;       // something absorbs or scatters
+layout(constant_id = 1) const bool kScatters = false;
+layout(constant_id = 2) const bool kOverlapping = false;  // boxes
+layout(constant_id = 3) const bool kReceivers = false;    // there are some
+layout(constant_id = 4) const bool kKeepFolds = true;
+layout(constant_id = 5) const bool kBoundary = false;     // surfaces reflect
+layout(constant_id = 6) const uint kTally = 0u;           // 1: adds up what voxels get; 2: of it, what goes the main way
+
+layout(set = 0, binding = 0) uniform texture3D volume_index;
+layout(set = 0, binding = 1) uniform texture3D volume_absorption;
+layout(set = 0, binding = 2) uniform texture3D volume_scattering;
+
+#include "gpu/octahedral.glsl"
+#include "volume/volume_field.glsl"
+#include "optics/eikonal.glsl"
+#include "volume/light_patch.glsl"
+#include "volume/light_plane.glsl"
+#include "volume/light_key.glsl"
+#include "volume/light_surface.glsl"
+
+layout(std430, set = 0, binding = 3) readonly buffer Volumes { VolumeRecord volumes[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Placements { LightPlacement placements[]; };
+layout(std430, set = 0, binding = 5) readonly buffer Receivers { LightReceiver receivers[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Fronts { LightFront fronts[]; };
+layout(std430, set = 0, binding = 7) buffer State { LightState state; };
+#include "volume/light_power.glsl"
+layout(std430, set = 0, binding = 8) readonly buffer PatchesIn { LightPatch patches_in[]; };
+layout(std430, set = 0, binding = 9) writeonly buffer PatchesOut { LightPatch patches_out[]; };
+layout(std430, set = 0, binding = 10) writeonly buffer Landed { LightPatch landed[]; };
+layout(std430, set = 0, binding = 11) buffer Keys { uint64_t keys[]; };
+layout(std430, set = 0, binding = 12) buffer Tally { uint64_t tally[]; };  // two per voxel: all, what goes the main way
+
+const float kMainWay = 0.9659258;  // cosine of the 15 degrees within which light goes the same way
+
+vec3 middle(vec3 corners[4]) { return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]); }
+
+void keep_patch(Quad quad) { patches_out[atomicAdd(state.kept, 1u)] = pack_patch(quad); }
+void land_patch(Quad quad) { landed[atomicAdd(state.landed, 1u)] = pack_patch(quad); }
+
+// v of the middle: its length is n.
+vec3 mean_v(vec3 v[4]) {
+    return normalize(middle(v)) * 0.25 * (length(v[0]) + length(v[1]) + length(v[2]) + length(v[3]));
+}
+
+// The smallest volume that the middle of the patch is in, or else any of its corners.
+uint volume_of(Quad quad) {
+    vec3 centre = middle(quad.x);
+    uint of_corner = PELLUCID_NO_VOLUME;
+    for (uint i = 0u; i < volume_count; ++i) {
+        VolumeRecord volume = volumes[i];
+        if (in_box((volume.voxel_from_world * vec4(centre, 1.0)).xyz, volume.size)) return i;
+        bool any_corner = false;
+        for (int k = 0; k < 4; ++k)
+            any_corner = any_corner || in_box((volume.voxel_from_world * vec4(quad.x[k], 1.0)).xyz, volume.size);
+        if (any_corner && of_corner == PELLUCID_NO_VOLUME) of_corner = i;
+    }
+    return of_corner;
+}
+
+// Outside all volumes: straight on to the first box that a corner meets, all corners as far.
+void jump(Quad quad) {
+    const float kInto = 0.02;  // voxels beyond its face
+    float far = 1e30, voxel = 0.0;
+    vec3 centre = middle(quad.x), way = normalize(middle(quad.v));
+    for (int k = 0; k < 4; ++k) quad.v[k] = normalize(quad.v[k]);
+    for (uint i = 0u; i < volume_count; ++i) {
+        VolumeRecord volume = volumes[i];
+        float nearest = box_distance(volume, centre, way);
+        for (int k = 0; k < 4; ++k) nearest = min(nearest, box_distance(volume, quad.x[k], quad.v[k]));
+        if (nearest < far) {
+            far = nearest;
+            voxel = volume.voxel;
+        }
+    }
+    quad.volume = PELLUCID_NO_VOLUME;
+    bool lands = far >= 1e30;
+    if (kReceivers) {
+        for (uint i = 0u; i < receiver_count; ++i) {
+            vec2 texel;
+            float t = receiver_distance(receivers[i], centre, way, texel);
+            lands = lands || (t > 0.0 && t <= far);
+        }
+    }
+    if (lands) {
+        land_patch(quad);
+        return;
+    }
+    for (int k = 0; k < 4; ++k) quad.x[k] += (far + kInto * voxel) * quad.v[k];
+    keep_patch(quad);
+}
+
+// A step of equal optical time h of one corner: half a step straight on, the turn, half a step (leapfrog; second order,
+// one look at the index). Outside the box n is 1.
+void step_corner(inout vec3 x, inout vec3 v, float h) {
+    bool was_inside = in_box(x, volume_size);
+    vec3 half_way = x + 0.5 * h * v / dot(v, v);
+    vec4 field = index_field(half_way);
+    if (in_box(half_way, volume_size)) v += h * field.xyz / field.w;
+    x = half_way + 0.5 * h * v / dot(v, v);
+    bool is_inside = in_box(x, volume_size);
+    if (was_inside != is_inside) v = normalize(v) * (is_inside ? field.w : 1.0);
+}
+
+bool meets_receiver(vec3 from, vec3 to, VolumeRecord volume) {
+    bool met = false;
+    vec3 a = (volume.world_from_voxel * vec4(from, 1.0)).xyz, b = (volume.world_from_voxel * vec4(to, 1.0)).xyz;
+    for (uint i = 0u; i < receiver_count; ++i) {
+        vec2 texel;
+        float t = receiver_distance(receivers[i], a, b - a, texel);
+        met = met || (t >= 0.0 && t <= 1.0);
+    }
+    return met;
+}
+
+// Writes the light of a patch to the voxel under its middle, if it is the brightest there.
+void light_voxel(LightPlacement placement, vec3 centre, vec3 way, vec3 irradiance, vec3 power, float length_m) {
+    uvec3 at = min(uvec3(centre) >> placement.halvings,
+                   uvec3(placement.size_x, placement.size_y, placement.size_z) - 1u);
+    uint voxel = placement.first_key + at.x + placement.size_x * (at.y + placement.size_y * at.z);
+    uint64_t key = light_key(irradiance, way);
+    if (kTally == 0u) {
+        if (key > keys[voxel]) atomicMax(keys[voxel], key);
+    } else if (kTally == 1u) {
+        atomicMax(keys[voxel], key);
+        atomicAdd(tally[2u * voxel], fixed_point((power.r + power.g + power.b) * length_m));
+    } else if (dot(way, key_direction(keys[voxel])) > kMainWay) {
+        atomicAdd(tally[2u * voxel + 1u], fixed_point((power.r + power.g + power.b) * length_m));
+    }
+}
+
+void split(Quad quad, bool along_side) {
+    // Room for one more than there are is what the patches of this round leave.
+    uint room = capacity - (state.in_kept + state.in_extra);
+    uint slot = atomicAdd(state.extra, 1u);
+    if (slot >= room) {
+        atomicAdd(state.refused, 1u);
+        quad.coarse = true;
+        keep_patch(quad);
+        return;
+    }
+    atomicAdd(state.splits, 1u);
+    quad.power *= 0.5;
+    quad.unabsorbed *= 0.5;
+    // Corners 0 1 / 3 2: the edges that are cut.
+    int a0 = 0, a1 = along_side ? 1 : 3, b0 = along_side ? 3 : 1, b1 = 2;
+    vec3 xa = 0.5 * (quad.x[a0] + quad.x[a1]), xb = 0.5 * (quad.x[b0] + quad.x[b1]);
+    vec3 va = 0.5 * (quad.v[a0] + quad.v[a1]), vb = 0.5 * (quad.v[b0] + quad.v[b1]);
+    va *= 0.5 * (length(quad.v[a0]) + length(quad.v[a1])) / max(length(va), 1e-6);
+    vb *= 0.5 * (length(quad.v[b0]) + length(quad.v[b1])) / max(length(vb), 1e-6);
+    Quad first = quad, second = quad;
+    first.x[a1] = xa, first.v[a1] = va, first.x[b1] = xb, first.v[b1] = vb;
+    second.x[a0] = xa, second.v[a0] = va, second.x[b0] = xb, second.v[b0] = vb;
+    keep_patch(first);
+    patches_out[capacity - 1u - slot] = pack_patch(second);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= state.in_kept + state.in_extra) return;
+    Quad quad = unpack_patch(patches_in[i < state.in_kept ? i : capacity - 1u - (i - state.in_kept)]);
+    uint own = volume_of(quad);
+    if (own == PELLUCID_NO_VOLUME) {
+        jump(quad);
+        return;
+    }
+    VolumeRecord volume = volumes[own];
+    LightPlacement placement = placements[own];
+    enter_volume(volume, 0u);
+    for (int k = 0; k < 4; ++k) {
+        quad.x[k] = (volume.voxel_from_world * vec4(quad.x[k], 1.0)).xyz;
+        quad.v[k] = mat3(volume.voxel_from_world) * quad.v[k] * volume.voxel;
+        if (quad.volume != own) quad.v[k] = normalize(quad.v[k]) * (in_box(quad.x[k], volume_size) ? index_field(quad.x[k]).w : 1.0);
+    }
+    if (quad.volume != own) quad.surface = 0u;
+    quad.volume = own;
+    float handed = determinant(mat3(volume.voxel_from_world)) < 0.0 ? -1.0 : 1.0;
+    float first_power = fronts[quad.front].intensity.w;
+    float most_power = max(quad.unabsorbed.r, max(quad.unabsorbed.g, quad.unabsorbed.b));
+    bool may_split = !quad.coarse && most_power > finest * first_power;
+    quad.coarse = false;
+
+    bool going = true, wants_split = false, along_side = false, lands = false, turned = false, weak = false;
+    for (uint s = 0u; s < steps_per_round && going; ++s) {
+        float side = max(distance(quad.x[0], quad.x[1]), distance(quad.x[3], quad.x[2]));
+        float up = max(distance(quad.x[0], quad.x[3]), distance(quad.x[1], quad.x[2]));
+        if (may_split && max(side, up) > span) {
+            wants_split = true;
+            along_side = side > up;
+            break;
+        }
+        vec3 x[4] = quad.x, v[4] = quad.v;
+        vec3 from = middle(x);
+        for (int k = 0; k < 4; ++k) step_corner(x[k], v[k], step_length);
+        vec3 to = middle(x);
+        if (kReceivers) {
+            if (meets_receiver(from, to, volume)) {
+                lands = true;
+                break;
+            }
+        }
+        vec3 v_before = mean_v(quad.v);
+        // At a point where all light meets, both sides turn over at once.
+        bool reversed = dot(x[1] - x[0], quad.x[1] - quad.x[0]) < 0.0 || dot(x[3] - x[0], quad.x[3] - quad.x[0]) < 0.0;
+        quad.x = x;
+        quad.v = v;
+        vec3 half_way = 0.5 * (from + to);
+        float travelled = distance(from, to);
+        vec3 area = 0.5 * cross(x[2] - x[0], x[3] - x[1]) * handed;
+        vec3 way = normalize(middle(v));
+        float facing = dot(area, way);
+        if (in_box(half_way, volume_size)) {
+            if (kMedium || kBoundary) {
+                vec4 absorption = volume_value(volume_absorption, half_way);
+                vec3 extinction = absorption.rgb;
+                if (kScatters) extinction += volume_value(volume_scattering, half_way).rgb;
+                float near, far;  // the part of the step that is in the box
+                clip_to_box(volume, from, to - from, near, far);
+                quad.power *= exp(-extinction * travelled * max(min(far, 1.0) - near, 0.0));
+                if (kBoundary) {
+                    vec3 reflected = quad.power * crossed_surface(quad.surface, absorption.a, v_before, mean_v(v));
+                    quad.power -= reflected;
+                    quad.unabsorbed -= reflected;
+                    add_power(PELLUCID_LIGHT_REFLECTED, reflected);
+                }
+            }
+            float area_m = max(abs(facing), least_area) * volume.voxel * volume.voxel;
+            light_voxel(placement, half_way, way, quad.power / area_m, quad.power, travelled * volume.voxel);
+        }
+        turned = !kKeepFolds && (facing < 0.0 || reversed);
+        weak = max(quad.power.r, max(quad.power.g, quad.power.b)) < weakest * first_power;
+        bool outside = !in_box(to, volume_size);
+        for (int k = 0; k < 4; ++k) outside = outside && !in_box(x[k], volume_size);
+        going = !turned && !weak && !outside;
+        if (kOverlapping) {
+            for (uint j = 0u; j < own; ++j) {
+                vec3 world = (volume.world_from_voxel * vec4(to, 1.0)).xyz;
+                going = going && !in_box((volumes[j].voxel_from_world * vec4(world, 1.0)).xyz, volumes[j].size);
+            }
+        }
+    }
+    for (int k = 0; k < 4; ++k) {
+        quad.x[k] = (volume.world_from_voxel * vec4(quad.x[k], 1.0)).xyz;
+        quad.v[k] = mat3(volume.world_from_voxel) * quad.v[k] / volume.voxel;
+    }
+    if (turned)
+        end_patch(quad, PELLUCID_LIGHT_TURNED);
+    else if (weak)
+        end_patch(quad, PELLUCID_LIGHT_WEAK);
+    else if (lands)
+        land_patch(quad);
+    else if (wants_split)
+        split(quad, along_side);
+    else
+        keep_patch(quad);
+}

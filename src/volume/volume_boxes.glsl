@@ -1,0 +1,38 @@
+#ifndef PELLUCID_VOLUME_VOLUME_BOXES_GLSL
+#define PELLUCID_VOLUME_VOLUME_BOXES_GLSL
+
+// Where the boxes of placed volumes lie. Needs: volumes (VolumeRecord[], boxes of less content first), volume_count.
+
+#include "volume/box.glsl"
+
+const uint kNoVolume = 0xffffffffu;
+
+vec3 voxel_position(VolumeRecord volume, vec3 world) { return (volume.voxel_from_world * vec4(world, 1.0)).xyz; }
+// Of a unit direction, a unit direction.
+vec3 voxel_direction(VolumeRecord volume, vec3 world) { return mat3(volume.voxel_from_world) * world * volume.voxel; }
+
+// The volume that a straight ray meets next, the smallest of those that it is in, and how far away it is, m.
+uint next_volume(vec3 position, vec3 direction, out float distance_m) {
+    uint found = kNoVolume;
+    distance_m = 1e30;
+    for (uint i = 0u; i < volume_count; ++i) {
+        float near, far;
+        clip_to_box(volumes[i], voxel_position(volumes[i], position), voxel_direction(volumes[i], direction), near, far);
+        if (far - near > kLeastCrossing && near * volumes[i].voxel < distance_m) {
+            distance_m = near * volumes[i].voxel;
+            found = i;
+        }
+    }
+    return found;
+}
+
+// Whether a place lies in a volume that counts for more than number `own`.
+bool inside_smaller(uint own, vec3 world) {
+    for (uint i = 0u; i < own; ++i) {
+        vec3 x = voxel_position(volumes[i], world);
+        if (all(greaterThan(x, vec3(kLeastCrossing))) && all(lessThan(x, volumes[i].size - kLeastCrossing))) return true;
+    }
+    return false;
+}
+
+#endif

@@ -1,0 +1,19 @@
+#ifndef PELLUCID_VOLUME_VOLUME_RECORD_GLSL
+#define PELLUCID_VOLUME_VOLUME_RECORD_GLSL
+
+// One placement of a volume. Twin of VolumeRecord in volume_records.h.
+struct VolumeRecord {
+    mat4 voxel_from_world;
+    mat4 world_from_voxel;
+    vec3 size;           // voxels
+    float voxel;         // edge of a voxel in the world, m
+    ivec3 first_texel;   // of its box in the images of media
+    uint flags;
+    ivec4 first_index;   // of its box in the image of the index; green's
+    ivec4 first_red;     // where it disperses
+    ivec4 first_blue;
+};
+const uint kDispersiveVolume = 1u;
+const uint kMeshVolume = 2u;  // stands for objects of the scene
+
+#endif

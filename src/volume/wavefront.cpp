@@ -1,0 +1,378 @@
+// Adaptive wavefront tracing: Ihrke, Ziegler, Tevs, Theobalt, Magnor, Seidel: Eikonal Rendering, ACM Transactions on
+// Graphics 26(3), 2007, section 4.2. Differences are told in docs/eikonal.md.
+#include "volume/wavefront.h"
+
+#include "volume/light_receivers.h"
+#include "volume/light_state.h"
+#include "volume/upload_volumes.h"
+
+#include <pellucid/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace pellucid {
+namespace {
+
+constexpr std::uint32_t kEmitLight[] = {
+#include "emit_light.comp.inc"
+};
+constexpr std::uint32_t kBeginRound[] = {
+#include "begin_round.comp.inc"
+};
+constexpr std::uint32_t kStepLight[] = {
+#include "step_light.comp.inc"
+};
+constexpr std::uint32_t kLandLight[] = {
+#include "land_light.comp.inc"
+};
+constexpr std::uint32_t kEndLight[] = {
+#include "end_light.comp.inc"
+};
+constexpr std::uint32_t kResolveLight[] = {
+#include "resolve_light.comp.inc"
+};
+constexpr std::uint32_t kResolveReceivers[] = {
+#include "resolve_receivers.comp.inc"
+};
+
+/// Twin of Push in light_patch.glsl.
+struct LightPush {
+    std::uint32_t capacity, volume_count, receiver_count, front;
+    float step, span, least_area;
+    std::uint32_t steps_per_round;
+    float power_scale;
+    float finest, weakest;
+};
+struct ReceiverPush {
+    std::uint32_t own;
+    float power_scale;
+};
+
+constexpr vk::BufferUsageFlags kStorage =
+    vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
+    vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eIndirectBuffer;
+constexpr double kGuessedIndex = 2.0;  // optical length of a voxel, at most, when rounds are counted
+constexpr double kLeftUnsaid = 0.01;   // share of the power that may be on its way when the rounds end
+constexpr int kPowerBits = 44;         // of all light, in fixed point
+
+template <class T>
+Buffer filled(const Device& device, const char* name, const std::vector<T>& values) {
+    Buffer buffer(device, name, std::max<std::size_t>(1, values.size()) * sizeof(T), kStorage);
+    upload(device, buffer, std::as_bytes(std::span(values)));
+    return buffer;
+}
+
+template <class T>
+void append(std::string& key, const T& value) {
+    key.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+
+std::string volume_key(const VolumeImages& volumes, bool tally) {
+    std::string key;
+    append(key, volumes.records.id());
+    append(key, volumes.index.id());
+    append(key, tally);
+    return key;
+}
+
+std::string key_of(const Scene& scene, const LightSettings& s, std::uint64_t moves) {
+    std::string key;
+    append(key, moves);
+    for (const float value : {s.step, s.span, s.finest, s.weakest, s.least_area, s.texel, s.reach}) append(key, value);
+    for (const std::uint32_t value : {s.capacity, s.steps_per_round, s.rounds, s.most_texels,
+                                      std::uint32_t(s.keep_folds), std::uint32_t(s.fresnel), std::uint32_t(s.tally)})
+        append(key, value);
+    for (const Light& light : scene.lights) {
+        append(key, light.kind);
+        append(key, light.intensity);
+        append(key, light.position);
+        append(key, light.direction);
+        append(key, light.inner_cone_angle);
+        append(key, light.outer_cone_angle);
+    }
+    for (const Object& object : scene.objects) {
+        append(key, object.mesh);
+        append(key, scene.materials[std::size_t(object.material)].transmissive());
+        append(key, object.world_from_object);
+    }
+    return key;
+}
+
+std::vector<VolumeRecord> download_records(const Device& device, const VolumeImages& volumes) {
+    const std::size_t bytes = volumes.count * sizeof(VolumeRecord);
+    const Buffer copy(device, "copy of volumes", bytes, kStorage, true);
+    Recorder recorder(device);
+    recorder.copy(volumes.records, copy, bytes);
+    recorder.submit_and_wait();
+    std::vector<VolumeRecord> records(volumes.count);
+    std::memcpy(records.data(), copy.mapped(), bytes);
+    return records;
+}
+
+}  // namespace
+
+std::vector<std::string> LightStatistics::warnings() const {
+    std::vector<std::string> lines;
+    if (refused > 0)
+        lines.push_back(
+            fmt::format("light: {} splits of patches found no room (at most {} at once): light is coarser "
+                        "than asked for; raise the capacity",
+                        refused, patches));
+    if (coarsened) lines.push_back("light: patches began larger than asked for, for want of room; raise the capacity");
+    if (coarse_voxels) lines.push_back("light: kept in larger voxels than those of the volumes, for want of room");
+    // A little always goes round in solids by total reflection.
+    const double share = (left.x + left.y + left.z) / std::max(emitted.x + emitted.y + emitted.z, 1e-300);
+    if (share > kLeftUnsaid)
+        lines.push_back(
+            fmt::format("light: {} patches with {:.3g}% of the power were still on their way after {} rounds",
+                        patches_left, 100.0 * share, rounds));
+    return lines;
+}
+
+/// What one tracing needs beside the members.
+struct WavefrontTracer::Tracing {
+    const LightSettings& settings;
+    LightPush push;
+    std::uint32_t rounds;
+    bool overlapping;
+};
+
+void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, bool tally) {
+    records_ = download_records(device_, volumes);
+    glm::vec3 low(1e30f), high(-1e30f);
+    smallest_voxel_ = 1e30f;
+    std::vector<gpu::LightPlacement> placements;
+    std::vector<glm::uvec3> sizes;
+    for (const VolumeRecord& record : records_) {
+        smallest_voxel_ = std::min(smallest_voxel_, record.voxel);
+        for (unsigned k = 0; k < 8; ++k) {
+            const glm::vec3 at = record.size * glm::vec3(k & 1, k >> 1 & 1, k >> 2);
+            const glm::vec3 world(record.world_from_voxel * glm::vec4(at, 1.0f));
+            low = glm::min(low, world);
+            high = glm::max(high, world);
+        }
+        sizes.emplace_back(record.size);
+    }
+    center_ = 0.5f * (low + high);
+    radius_ = 0.5f * glm::distance(low, high);
+    // Where one buffer cannot hold all voxels, those of the largest volumes are joined, eight in one.
+    std::vector<std::uint32_t> halvings(sizes.size(), 0);
+    const auto count = [](glm::uvec3 s) { return std::uint64_t(s.x) * s.y * s.z; };
+    const auto total = [&] {
+        std::uint64_t sum = 0;
+        for (const glm::uvec3 size : sizes) sum += count(size);
+        return sum;
+    };
+    const std::uint64_t most = device_.max_storage_binding() / (tally ? 16 : 8);
+    coarse_voxels_ = false;
+    while (total() > most) {
+        const auto largest = std::size_t(
+            std::max_element(sizes.begin(), sizes.end(), [&](auto a, auto b) { return count(a) < count(b); }) -
+            sizes.begin());
+        sizes[largest] = (sizes[largest] + 1u) / 2u;
+        ++halvings[largest];
+        coarse_voxels_ = true;
+    }
+    const PackedBoxes boxes = pack_boxes(sizes, device_.limits().maxImageDimension3D);
+    std::uint32_t first = 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const glm::uvec3 s = sizes[i], at = boxes.first[i];
+        placements.push_back({first, s.x, s.y, s.z, at.x, at.y, at.z, halvings[i]});
+        first += std::uint32_t(count(s));
+    }
+    voxels_ = first;
+    const vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eStorage | vk::ImageUsageFlagBits::eSampled |
+                                      vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst;
+    const vk::Extent3D extent{boxes.extent.x, boxes.extent.y, boxes.extent.z};
+    light_.irradiance = GpuImage(device_, "irradiance in volumes", vk::Format::eR32G32B32A32Sfloat, extent, usage);
+    light_.direction =
+        GpuImage(device_, "direction of light in volumes", vk::Format::eR16G16B16A16Sfloat, extent, usage);
+    light_.placements = filled(device_, "places of light", placements);
+    light_.placement_list = placements;
+    keys_ = Buffer(device_, "light of voxels", voxels_ * 8, kStorage);
+    tally_ = Buffer(device_, "tally of light", tally ? voxels_ * 16 : 16, kStorage);
+    if (tally) tally_copy_ = Buffer(device_, "copy of the tally", voxels_ * 16, kStorage, true);
+}
+
+void WavefrontTracer::prepare_receivers(const Scene& scene, const LightSettings& settings) {
+    light_.receiver_list = find_receivers(scene, center_, settings.reach * radius_, settings.texel * smallest_voxel_,
+                                          settings.most_texels);
+    light_.receivers = filled(device_, "receivers of light", light_.receiver_list);
+    const std::uint32_t texels = std::max(1u, texel_count(light_.receiver_list));
+    texels_ = Buffer(device_, "power on receivers", vk::DeviceSize(texels) * 48, kStorage);
+    light_.receiver_light = Buffer(device_, "light on receivers", vk::DeviceSize(texels) * 32, kStorage);
+}
+
+bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Scene& scene, const VolumeImages& volumes,
+                             const LightSettings& settings, std::uint64_t moves) {
+    const std::string of_volumes = volume_key(volumes, settings.tally);
+    const std::string key = of_volumes + key_of(scene, settings, moves);
+    if (key == key_) return false;
+    if (!device_.long_atomics())
+        throw Error(
+            fmt::format("light in volumes: {} lacks 64-bit atomics (shaderBufferInt64Atomics)", device_.info().name));
+    if (of_volumes != volume_key_) prepare_volumes(volumes, settings.tally);
+    volume_key_ = of_volumes;
+    prepare_receivers(scene, settings);
+    const auto capacity = std::uint32_t(
+        std::min<vk::DeviceSize>(settings.capacity, device_.max_storage_binding() / sizeof(gpu::LightPatch)));
+    front_list_ = make_fronts(scene.lights, records_, {.side = 0.95f * settings.span, .most_patches = capacity});
+    if (front_list_.fronts.size() > PELLUCID_MOST_FRONTS || volumes.count >= PELLUCID_NO_VOLUME)
+        throw Error(
+            fmt::format("light in volumes: {} lights and {} volumes are too many (at most {} pairs of one and one)",
+                        scene.lights.size(), volumes.count, PELLUCID_MOST_FRONTS));
+    fronts_ = filled(device_, "fronts of light", front_list_.fronts);
+    state_ = Buffer(device_, "state of light", sizeof(gpu::LightState), kStorage);
+    state_copy_ = Buffer(device_, "copy of the state of light", sizeof(gpu::LightState), kStorage, true);
+
+    double voxels_across = 0.0;
+    for (const VolumeRecord& record : records_) voxels_across += double(glm::length(record.size));
+    const double steps = 1.5 * kGuessedIndex * voxels_across / double(settings.step);
+    const int exponent = kPowerBits - int(std::ceil(std::log2(std::max(front_list_.most_power, 1e-30))));
+    const Tracing tracing{.settings = settings,
+                          .push = {capacity, volumes.count, std::uint32_t(light_.receiver_list.size()), 0,
+                                   settings.step, settings.span, settings.least_area, settings.steps_per_round,
+                                   std::ldexp(1.0f, std::min(exponent, 120)), settings.finest, settings.weakest},
+                          .rounds = settings.rounds > 0
+                                        ? settings.rounds
+                                        : std::uint32_t(steps / std::max(1u, settings.steps_per_round)) + 48,
+                          .overlapping = volumes.overlapping};
+
+    const Recorder::Scope scope(recorder, "light");
+    recorder.fill(keys_, 0);
+    recorder.fill(tally_, 0);
+    if (!settings.tally) {
+        trace(recorder, workspace, volumes, tracing, 0);
+    } else {
+        trace(recorder, workspace, volumes, tracing, 1);
+        trace(recorder, workspace, volumes, tracing, 2);
+        recorder.copy(tally_, tally_copy_, tally_.size());
+    }
+    const Program& resolve = workspace.compute({"resolve_light.comp", kResolveLight});
+    for (std::uint32_t i = 0; i < light_.placement_list.size(); ++i) {
+        const gpu::LightPlacement& own = light_.placement_list[i];
+        recorder.compute(resolve,
+                         {writes("light_irradiance", light_.irradiance), writes("light_direction", light_.direction),
+                          reads("Placements", light_.placements), reads("Keys", keys_)},
+                         i, {own.size_x, own.size_y * own.size_z});
+    }
+    const Program& resolve_receivers = workspace.compute({"resolve_receivers.comp", kResolveReceivers});
+    for (std::uint32_t i = 0; i < light_.receiver_list.size(); ++i) {
+        const gpu::LightReceiver& own = light_.receiver_list[i];
+        recorder.compute(resolve_receivers,
+                         {reads("Receivers", light_.receivers), reads("Texels", texels_),
+                          writes("ReceiverLight", light_.receiver_light)},
+                         ReceiverPush{i, tracing.push.power_scale},
+                         {std::uint32_t(own.side.w), std::uint32_t(own.up.w)});
+    }
+    recorder.copy(state_, state_copy_, sizeof(gpu::LightState));
+    recorder.when_done([this, key, scale = double(tracing.push.power_scale), tally = settings.tally] {
+        read_statistics(scale, tally);
+        key_ = key;
+    });
+    return true;
+}
+
+void WavefrontTracer::trace(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
+                            const Tracing& tracing, std::uint32_t tally) {
+    const auto flag = [](bool value) { return value ? 1u : 0u; };
+    const LightPush& push = tracing.push;
+    const vk::DeviceSize list = vk::DeviceSize(push.capacity) * sizeof(gpu::LightPatch);
+    const Buffer* from = &workspace.buffer("light patches", list);
+    const Buffer* to = &workspace.buffer("other light patches", list);
+    const Buffer& landed = workspace.buffer("landed light", list);
+    const Buffer& step_groups = workspace.buffer("groups of light", 12);
+    const Buffer& land_groups = workspace.buffer("groups of landed light", 12);
+    const Program& emit = workspace.compute({"emit_light.comp", kEmitLight});
+    const Program& begin = workspace.compute({"begin_round.comp", kBeginRound});
+    const Program& land = workspace.compute({"land_light.comp", kLandLight}, {0});
+    const Program& end = workspace.compute({"end_light.comp", kEndLight});
+    const Program& step =
+        workspace.compute({"step_light.comp", kStepLight},
+                          {flag(volumes.absorbs || volumes.scatters), flag(volumes.scatters), flag(tracing.overlapping),
+                           flag(push.receiver_count > 0), flag(tracing.settings.keep_folds),
+                           flag(volumes.reflects && tracing.settings.fresnel), tally});
+    recorder.fill(state_, 0);
+    recorder.fill(texels_, 0);
+    for (std::uint32_t i = 0; i < front_list_.fronts.size(); ++i) {
+        const gpu::LightFront& front = front_list_.fronts[i];
+        LightPush own = push;
+        own.front = i;
+        recorder.compute(emit,
+                         {reads("Volumes", volumes.records), reads("Fronts", fronts_), updates("State", state_),
+                          writes("PatchesOut", *from)},
+                         own, {std::uint32_t(front.corner.w), std::uint32_t(front.side.w)});
+    }
+    const auto begin_round = [&] {
+        recorder.compute(
+            begin, {updates("State", state_), writes("StepGroups", step_groups), writes("LandGroups", land_groups)},
+            push, {1, 1});
+    };
+    begin_round();
+    recorder.compute_indirect(workspace.compute({"land_light.comp", kLandLight}, {1}),
+                              {reads("Receivers", light_.receivers), updates("State", state_),
+                               reads("Landed", *from), updates("Texels", texels_)},
+                              push, step_groups);
+    for (std::uint32_t round = 0; round < tracing.rounds; ++round) {
+        recorder.compute_indirect(
+            step,
+            {reads("volume_index", volumes.index), reads("volume_absorption", volumes.absorption),
+             reads("volume_scattering", volumes.scattering), reads("Volumes", volumes.records),
+             reads("Placements", light_.placements), reads("Receivers", light_.receivers), reads("Fronts", fronts_),
+             updates("State", state_), reads("PatchesIn", *from), writes("PatchesOut", *to), writes("Landed", landed),
+             updates("Keys", keys_), updates("Tally", tally_)},
+            push, step_groups);
+        begin_round();
+        recorder.compute_indirect(land,
+                                  {reads("Receivers", light_.receivers), updates("State", state_),
+                                   reads("Landed", landed), updates("Texels", texels_)},
+                                  push, land_groups);
+        std::swap(from, to);
+    }
+    recorder.compute_indirect(end, {updates("State", state_), reads("PatchesIn", *from)}, push, step_groups);
+}
+
+void WavefrontTracer::read_statistics(double power_scale, bool tally) {
+    gpu::LightState state;
+    std::memcpy(&state, state_copy_.mapped(), sizeof(state));
+    const auto power = [&](std::uint32_t fate) {
+        return glm::dvec3(double(state.power[3 * fate]), double(state.power[3 * fate + 1]),
+                          double(state.power[3 * fate + 2])) /
+               power_scale;
+    };
+    statistics_ = {.emitted = power(PELLUCID_LIGHT_EMITTED),
+                   .arrived = power(PELLUCID_LIGHT_ARRIVED),
+                   .missed = power(PELLUCID_LIGHT_MISSED),
+                   .absorbed = power(PELLUCID_LIGHT_ABSORBED),
+                   .reflected = power(PELLUCID_LIGHT_REFLECTED),
+                   .turned = power(PELLUCID_LIGHT_TURNED),
+                   .weak = power(PELLUCID_LIGHT_WEAK),
+                   .left = power(PELLUCID_LIGHT_LEFT),
+                   .patches = state.peak,
+                   .splits = state.splits,
+                   .rounds = state.rounds - (state.left > 0 ? 1u : 0u),  // what is left, was counted for a round more
+                   .refused = state.refused,
+                   .patches_left = state.left,
+                   .coarsened = front_list_.coarsened,
+                   .coarse_voxels = coarse_voxels_};
+    if (!tally) return;
+    double all = 0.0, main = 0.0;
+    const auto* sums = reinterpret_cast<const std::uint64_t*>(tally_copy_.mapped());
+    for (std::uint64_t voxel = 0; voxel < voxels_; ++voxel) {
+        const auto [sum, own] = std::pair(double(sums[2 * voxel]), double(sums[2 * voxel + 1]));
+        if (!(sum > 0.0)) continue;
+        ++statistics_.lit_voxels;
+        if (own > 0.99 * sum) continue;
+        ++statistics_.multi_voxels;
+        all += 1.0;  // every such voxel counts alike
+        main += own / sum;
+    }
+    if (all > 0.0) statistics_.main_share = main / all;
+}
+
+}  // namespace pellucid

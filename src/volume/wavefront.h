@@ -1,0 +1,69 @@
+#pragma once
+
+#include "gpu/recorder.h"
+#include "gpu/volume_images.h"
+#include "gpu/workspace.h"
+#include "volume/light_fronts.h"
+#include "volume/light_records.h"
+#include "volume/light_settings.h"
+#include "volume/volume_records.h"
+
+#include <pellucid/scene.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pellucid {
+
+/// What the light of a scene leaves in its volumes and on its receivers; light_lookup.glsl reads it.
+struct LightVolumes {
+    GpuImage irradiance;    ///< RGBA32F: on a surface square to the light, W/m2; a: 1 where there is light
+    GpuImage direction;     ///< RGBA16F: the way of the brightest light, unit, in the frame of the volume's voxels
+    Buffer placements;      ///< gpu::LightPlacement per volume record
+    Buffer receivers;       ///< gpu::LightReceiver
+    Buffer receiver_light;  ///< vec4 per texel: irradiance by light that went towards volumes, W/m2; then, for all
+                            ///< texels again, what that would be without the volumes
+    std::vector<gpu::LightReceiver> receiver_list;
+    std::vector<gpu::LightPlacement> placement_list;
+};
+
+/// Traces lights through the volumes of a scene, again when one of them has changed.
+class WavefrontTracer {
+public:
+    explicit WavefrontTracer(const Device& device) : device_(device) {}
+
+    /// Records the passes if light, volumes, receivers or settings have changed since the last time; false if not.
+    /// `moves`: GpuScene::moves. Throws Error if the device lacks 64-bit atomics or memory.
+    bool update(Recorder& recorder, Workspace& workspace, const Scene& scene, const VolumeImages& volumes,
+                const LightSettings& settings, std::uint64_t moves = 0);
+
+    /// Traces again at the next update().
+    void forget() { key_.clear(); }
+
+    const LightVolumes& light() const { return light_; }
+    /// Of the last tracing that has run.
+    const LightStatistics& statistics() const { return statistics_; }
+
+private:
+    struct Tracing;
+    void prepare_volumes(const VolumeImages& volumes, bool tally);
+    void prepare_receivers(const Scene& scene, const LightSettings& settings);
+    void trace(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes, const Tracing& tracing,
+               std::uint32_t tally);
+    void read_statistics(double power_scale, bool tally);
+
+    const Device& device_;
+    std::string key_, volume_key_;
+    std::vector<VolumeRecord> records_;
+    glm::vec3 center_{0.0f};
+    float radius_ = 0.0f, smallest_voxel_ = 1.0f;
+    bool coarse_voxels_ = false;
+    std::uint64_t voxels_ = 0;
+    Buffer keys_, tally_, texels_, state_, state_copy_, tally_copy_, fronts_;
+    LightFronts front_list_;
+    LightVolumes light_;
+    LightStatistics statistics_;
+};
+
+}  // namespace pellucid

@@ -1,0 +1,407 @@
+// ihrke-2007 in whole frames: volumes beside, around and before surfaces of glass and opaque things.
+#include "gpu/exact_sphere.h"
+#include "gpu/gpu_test.h"
+#include "unit/built_scenes.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace pellucid::test {
+namespace {
+
+constexpr std::uint32_t kSize = 96;
+
+Mesh shape(const std::string& spec) { return load_scene("shape:" + spec).meshes.front(); }
+
+glm::mat4 at(glm::vec3 position, float scale = 1.0f) {
+    return glm::scale(glm::translate(glm::mat4(1.0f), position), glm::vec3(scale));
+}
+
+void place(Scene& scene, Volume volume, const glm::mat4& world_from_volume = glm::mat4(1.0f)) {
+    scene.volume_objects.push_back({volume.name, int(scene.volumes.size()), world_from_volume});
+    scene.volumes.push_back(std::make_shared<const Volume>(std::move(volume)));
+}
+
+/// A cube of 2 half-edges around the origin in which nothing bends light.
+Volume even_cube(float half, unsigned resolution = 8) {
+    Volume volume;
+    volume.name = "even";
+    volume.size = glm::uvec3(resolution);
+    volume.low = glm::vec3(-half);
+    volume.voxel = 2.0f * half / float(resolution);
+    return volume;
+}
+
+Material painted(glm::vec3 color) {
+    Material material;
+    material.base_color = glm::vec4(color, 1.0f);
+    material.unlit = true;
+    material.double_sided = true;
+    return material;
+}
+
+/// Glass, and opaque things of several colours around it.
+Scene glass_among_things() {
+    Scene scene;
+    add(scene, shape("sphere,segments=64"), glass());
+    add(scene, shape("torus"), glass(1.4f), at({0.9f, 0.5f, -1.2f}, 0.6f));
+    add(scene, shape("cube"), painted({0.1f, 0.8f, 0.2f}), at({-0.2f, 0.1f, 0.0f}, 0.2f));
+    add(scene, square(), painted({0.9f, 0.3f, 0.1f}), at({-0.5f, 0, -2.5f}, 1.5f));
+    return scene;
+}
+
+class Ihrke : public RendererTest {
+protected:
+    void set(const Scene& scene, const Environment& environment = uniform_environment()) {
+        camera_ =
+            framing_camera(Bounds{.center = {}, .radius = 1.0f, .half_size = {}}, kSize, kSize, Camera{}.vertical_fov);
+        renderer().set_scene(scene);
+        renderer().set_environment(environment);
+        renderer().set_camera(camera_);
+    }
+    RenderResult draw(const char* technique = "ihrke-2007", ParameterMap parameters = {}) {
+        RenderSettings settings;
+        settings.width = settings.height = kSize;
+        settings.technique = technique;
+        settings.parameters = std::move(parameters);
+        settings.paths = true;
+        return renderer().render(settings);
+    }
+    Camera camera_;
+};
+
+/// Largest difference of two pictures, in all channels.
+float largest_difference(const Image& a, const Image& b) {
+    float most = 0.0f;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) most = std::max(most, std::abs(a.pixels[i] - b.pixels[i]));
+    return most;
+}
+/// Share of the pixels that differ by more than `least` in some channel.
+double share_that_differs(const Image& a, const Image& b, float least) {
+    int differing = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            const glm::vec3 d = glm::abs(rgb(a, x, y) - rgb(b, x, y));
+            differing += std::max({d.r, d.g, d.b}) > least ? 1 : 0;
+        }
+    return double(differing) / (double(a.width) * a.height);
+}
+
+// Without volumes the technique is visibility-cube, from the eye on instead of from the first layer.
+TEST_F(Ihrke, WithoutVolumesSurfacesAreThoseOfVisibilityCube) {
+    set(glass_among_things(), Environment{});
+    const RenderResult without = draw("visibility-cube", {{"branches", 4}}), with = draw("ihrke-2007", {{"voxelize", 0}});
+    int differ = 0, glass_pixels = 0;
+    for (std::size_t i = 0; i < with.paths.size(); ++i) {
+        if (without.paths[i].events == 0) continue;
+        ++glass_pixels;
+        differ += angle_deg(without.paths[i].direction, with.paths[i].direction) > 0.1 ? 1 : 0;
+    }
+    EXPECT_GT(glass_pixels, 1500);
+    EXPECT_LE(differ, glass_pixels / 200);  // chaos: other last digits at the first surface
+    EXPECT_LE(share_that_differs(without.radiance, with.radiance, 0.01f), 0.02);
+}
+
+// A volume of vacuum changes nothing, wherever it lies: around all, in part of it, before it or in its own smaller box.
+TEST_F(Ihrke, VacuumIsInvisible) {
+    const Scene bare = glass_among_things();
+    set(bare, Environment{});
+    const RenderResult expected = draw("ihrke-2007", {{"voxelize", 0}});
+    struct Place {
+        const char* name;
+        glm::vec3 position;
+        float half;
+    };
+    for (const Place& where : {Place{"around all", {0, 0, 0}, 4.0f}, Place{"in part", {0.4f, 0.4f, 0}, 0.9f},
+                               Place{"before", {0, 0.3f, 1.6f}, 0.5f}, Place{"behind", {0, 0, -1.8f}, 0.5f}}) {
+        Scene scene = bare;
+        place(scene, even_cube(where.half), at(where.position));
+        place(scene, even_cube(0.4f), at(where.position + glm::vec3(0.2f, 0, 0)));  // boxes overlap
+        set(scene, Environment{});
+        const RenderResult found = draw();
+        // A path that starts again at a box has other last digits: what is beside edges and in chaos differs.
+        EXPECT_LE(share_that_differs(expected.radiance, found.radiance, 0.01f), 0.01) << where.name;
+        int lost = 0;
+        for (const RefractedPath& path : found.paths) lost += path.status != Status::kOk ? 1 : 0;
+        EXPECT_EQ(lost, 0) << where.name;
+    }
+}
+
+// Beer and Lambert: a cube of even absorption before a white wall, seen through it and beside it. 1e-3: absorption is
+// stored in 16 bits, of which 11 count.
+TEST_F(Ihrke, AbsorptionFollowsBeerAndLambert) {
+    Scene scene;
+    const glm::vec3 sigma(0.3f, 0.9f, 2.0f);
+    Volume volume = even_cube(0.5f);
+    volume.sigma_a.assign(volume.voxel_count(), sigma);
+    volume.sigma_s.assign(volume.voxel_count(), glm::vec3(0.25f));  // what is scattered away is lost to the ray, too
+    place(scene, std::move(volume), at({0, 0, 0}, 1.4f));
+    add(scene, square(), painted({1, 1, 1}), at({0, 0, -2.0f}, 40.0f));
+    set(scene);
+    const RenderResult found = draw();
+    int through = 0;
+    for (int y = 0; y < int(kSize); ++y)
+        for (int x = 0; x < int(kSize); ++x) {
+            const RefractedPath& path = found.paths[std::size_t(y) * kSize + std::size_t(x)];
+            const WorldRay ray = pixel_ray(camera_, kSize, kSize, x, y);
+            double near = 0.0, far = 1e30;
+            for (int k = 0; k < 3; ++k) {
+                const double a = (-0.7 - ray.origin[k]) / ray.direction[k],
+                             b = (0.7 - ray.origin[k]) / ray.direction[k];
+                near = std::max(near, std::min(a, b)), far = std::min(far, std::max(a, b));
+            }
+            const double length = std::max(far - near, 0.0);
+            through += length > 0.1 ? 1 : 0;
+            const glm::vec3 expected =
+                glm::exp(-(sigma + 0.25f) * float(length) / 1.4f);  // a placement scales what is met, too
+            EXPECT_LT(glm::distance(rgb(found.radiance, x, y), expected), 3e-3f) << x << ", " << y;
+            if (length > 0.1) EXPECT_NEAR(path.length_inside, length, 1e-3);
+        }
+    EXPECT_GT(through, 1000);
+}
+
+// Emission without absorption: radiance is emission times the way through.
+TEST_F(Ihrke, EmissionAddsUpAlongTheRay) {
+    Scene scene;
+    Volume volume = even_cube(0.5f);
+    volume.emission.assign(volume.voxel_count(), glm::vec3(0.5f, 1.0f, 2.0f));
+    place(scene, std::move(volume));
+    set(scene, uniform_environment(glm::vec3(0.25f)));
+    const RenderResult found = draw();
+    int through = 0;
+    for (std::size_t i = 0; i < found.paths.size(); ++i) {
+        if (found.paths[i].events == 0) continue;
+        ++through;
+        const glm::vec3 expected = 0.25f + found.paths[i].length_inside * glm::vec3(0.5f, 1.0f, 2.0f);
+        EXPECT_LT(glm::distance(rgb(found.radiance, int(i % kSize), int(i / kSize)), expected), 5e-3f);
+    }
+    EXPECT_GT(through, 500);
+}
+
+// A smoothed ball refracts as one of glass does: most rays to a degree, and all that nothing absorbs comes out.
+TEST_F(Ihrke, SmoothedBallRefractsAsGlass) {
+    Scene scene;
+    place(scene, make_volume("smoothed-sphere,resolution=96,smoothing=0.75"));
+    set(scene);
+    const RenderResult found = draw();
+    int inside = 0, right = 0;
+    for (int y = 0; y < int(kSize); ++y)
+        for (int x = 0; x < int(kSize); ++x) {
+            const WorldRay ray = pixel_ray(camera_, kSize, kSize, x, y);
+            const double miss = glm::length(glm::cross(ray.origin, ray.direction));
+            if (miss > 0.9) continue;  // where the surface grazes its smoothing shows
+            const auto exact = through_unit_sphere(ray, 1.5);
+            const RefractedPath& path = found.paths[std::size_t(y) * kSize + std::size_t(x)];
+            ++inside;
+            right += angle_deg(path.direction, exact->direction) < 1.0 ? 1 : 0;
+            EXPECT_EQ(path.events, 2) << x << ", " << y;
+            // Fresnel, twice; by up to 1% wrong because the normal is the voxels'. Towards the rim errors grow.
+            const double cos_theta = std::sqrt(1.0 - miss * miss);
+            const double passes = 1.0 - fresnel_dielectric(cos_theta, 1.0 / 1.5);
+            if (miss < 0.8) {
+                EXPECT_NEAR(double(path.transmittance.g), passes * passes, 0.01) << x << ", " << y;
+            }
+            EXPECT_GT(path.length_inside, exact->length) << x << ", " << y;  // the box is wider than the ball
+        }
+    EXPECT_GT(inside, 1500);
+    EXPECT_GT(double(right) / inside, 0.8);
+    RecordProperty("within 1 degree", fmt::format("{:.4f}", double(right) / inside));
+}
+
+// The mesh that a volume stands for says where rays enter it: sharper than its voxels.
+TEST_F(Ihrke, RaysEnterSharperAtTheMesh) {
+    Scene scene;
+    add(scene, shape("sphere,segments=256"), glass());
+    place(scene, make_volume("smoothed-sphere,resolution=64,smoothing=0.75"));
+    scene.volume_objects.back().objects = {0};
+    set(scene);
+    double mean[2] = {}, covered[2] = {};
+    for (const int proxy : {0, 1}) {
+        const RenderResult found = draw("ihrke-2007", {{"proxy", double(proxy)}});
+        for (int y = 0; y < int(kSize); ++y)
+            for (int x = 0; x < int(kSize); ++x) {
+                const auto exact = through_unit_sphere(pixel_ray(camera_, kSize, kSize, x, y), 1.5);
+                if (!exact) continue;
+                const RefractedPath& path = found.paths[std::size_t(y) * kSize + std::size_t(x)];
+                ++covered[proxy];
+                mean[proxy] += angle_deg(path.direction, exact->direction);
+                EXPECT_EQ(path.status, Status::kOk);
+            }
+        mean[proxy] /= covered[proxy];
+    }
+    EXPECT_GT(covered[0], 1500);
+    EXPECT_LT(mean[1], 0.75 * mean[0]);  // the way out is as smooth as before
+    RecordProperty("mean error, degrees", fmt::format("{:.3f} without, {:.3f} with the mesh", mean[0], mean[1]));
+}
+
+// Nothing absorbs: where light is the same from everywhere, a volume with surfaces is invisible.
+TEST_F(Ihrke, WhiteFurnace) {
+    Scene scene;
+    place(scene, make_volume("smoothed-sphere,resolution=48"));
+    place(scene, make_volume("rounded-cube,resolution=48"), at({0.9f, -0.4f, -1.5f}));
+    add(scene, shape("torus"), glass(), at({-0.6f, 0.3f, 0.9f}, 0.5f));
+    set(scene);
+    for (const double branches : {0.0, 4.0, 16.0}) {
+        const Image image = draw("ihrke-2007", {{"branches", branches}}).radiance;
+        const auto [least, most] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+        EXPECT_NEAR(*least, 1.0f, 1e-3f) << branches;
+        EXPECT_NEAR(*most, 1.0f, 1e-3f) << branches;
+    }
+}
+
+// A dispersive volume shows in each channel what one of that colour's index shows.
+TEST_F(Ihrke, ColorsPartInDispersiveVolumes) {
+    const Volume dispersive = make_volume("smoothed-sphere,resolution=48,dispersion=4");
+    ASSERT_FALSE(dispersive.n_red.empty());
+    Environment environment;
+    environment.kind = Environment::Kind::kChecker;
+    Scene scene;
+    place(scene, dispersive);
+    set(scene, environment);
+    const Image together = draw("ihrke-2007", {{"branches", 0}}).radiance;
+    const std::vector<float>* indices[] = {&dispersive.n_red, &dispersive.n, &dispersive.n_blue};
+    for (int c = 0; c < 3; ++c) {
+        Volume plain = dispersive;
+        plain.n = *indices[c];
+        plain.n_red.clear();
+        plain.n_blue.clear();
+        Scene alone;
+        place(alone, std::move(plain));
+        set(alone, environment);
+        const Image expected = draw("ihrke-2007", {{"branches", 0}}).radiance;
+        int differ = 0;
+        for (std::size_t i = std::size_t(c); i < expected.pixels.size(); i += 3)
+            differ += std::abs(expected.pixels[i] - together.pixels[i]) > 1e-4f ? 1 : 0;
+        EXPECT_LE(differ, 5) << "channel " << c;  // red and blue start again at the box, with other last digits
+    }
+    EXPECT_GT(largest_difference(together,
+                                 [&] {
+                                     Scene green = scene;
+                                     Volume plain = dispersive;
+                                     plain.n_red.clear();
+                                     plain.n_blue.clear();
+                                     green.volumes[0] = std::make_shared<const Volume>(std::move(plain));
+                                     set(green, environment);
+                                     return draw("ihrke-2007", {{"branches", 0}}).radiance;
+                                 }()),
+              0.1f);
+}
+
+// An opaque thing is seen through a lens as it bends light: the wall behind Luneburg's lens is met where its exact ray
+// goes on to.
+TEST_F(Ihrke, OpaqueThingsAreSeenThroughBentRays) {
+    Scene scene;
+    place(scene, make_volume("luneburg,resolution=96"));
+    set(scene);
+    const RenderResult alone = draw();
+    add(scene, square(), painted({1, 0, 0}), at({0, 0, -1.5f}, 30.0f));
+    set(scene);
+    const RenderResult before_wall = draw();
+    int bent = 0;
+    for (std::size_t i = 0; i < alone.paths.size(); ++i) {
+        const RefractedPath &free = alone.paths[i], &stopped = before_wall.paths[i];
+        if (free.events == 0 || free.direction.z > -0.3f) continue;
+        const float t = (-1.5f - free.position.z) / free.direction.z;
+        if (t < 0.0f) continue;
+        ++bent;
+        EXPECT_EQ(stopped.object, 0);
+        EXPECT_LT(glm::distance(stopped.position, free.position + t * free.direction), 5e-3f * (1.0f + t));
+        EXPECT_LT(glm::distance(rgb(before_wall.radiance, int(i % kSize), int(i / kSize)), glm::vec3(1, 0, 0)), 1e-3f);
+    }
+    EXPECT_GT(bent, 1500);
+}
+
+// A path that runs out of steps says so.
+TEST_F(Ihrke, StepLimitIsAStatus) {
+    Scene scene;
+    place(scene, make_volume("luneburg,resolution=32"));
+    set(scene);
+    int limited = 0, done = 0;
+    for (const RefractedPath& path : draw("ihrke-2007", {{"max-steps", 10}}).paths) {
+        limited += path.status == Status::kStepLimit ? 1 : 0;
+        done += path.events > 0 && path.status == Status::kOk ? 1 : 0;
+    }
+    EXPECT_GT(limited, 500);
+    EXPECT_LT(done, limited);
+}
+
+/// Sunlight of 2 W/m2 that goes down, aslant.
+Light sun() {
+    Light light;
+    light.kind = Light::Kind::kDirectional;
+    light.direction = glm::normalize(glm::vec3(0.3f, -1.0f, -0.2f));
+    light.intensity = glm::vec3(2.0f);
+    return light;
+}
+
+Material white_ground() {
+    Material material;
+    material.base_color = glm::vec4(0.8f, 0.8f, 0.8f, 1.0f);
+    material.roughness = 1.0f;
+    material.metallic = 0.0f;
+    material.double_sided = true;
+    return material;
+}
+
+glm::mat4 flat_at(float y) {
+    return glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), {0, y, 0}), -1.5707963f, {1, 0, 0}), glm::vec3(4.0f));
+}
+
+// In the dark all light is the sun's: on the ground past a volume of vacuum and, through it, behind it, and none shows
+// where one goes over into the other. The coat of a dielectric of index 1.5 keeps 4%. 2e-3: power is counted in fixed
+// point, and patches are flat.
+TEST_F(Ihrke, SunShinesOnTheGroundThroughVolumesAndPastThem) {
+    Scene scene;
+    add(scene, square(), white_ground(), flat_at(-0.8f));
+    place(scene, even_cube(0.5f, 24), at({0, 0, 0}));
+    scene.lights.push_back(sun());
+    set(scene, uniform_environment(glm::vec3(0.0f)));
+    const RenderResult found = draw();
+    const float cosine = 1.0f / std::sqrt(1.13f);
+    const float expected = 0.96f * 0.8f / 3.14159265f * 2.0f * cosine;
+    int lit = 0;
+    for (int y = 0; y < int(kSize); ++y)
+        for (int x = 0; x < int(kSize); ++x) {
+            const WorldRay ray = pixel_ray(camera_, kSize, kSize, x, y);
+            if (ray.direction.y > -1e-3) continue;
+            const glm::dvec3 p = ray.origin + ((-0.8 - ray.origin.y) / ray.direction.y) * ray.direction;
+            if (std::max(std::abs(p.x), std::abs(p.z)) > 3.9) continue;
+            ++lit;
+            EXPECT_NEAR(rgb(found.radiance, x, y).g, expected, 2e-3f * expected) << x << ", " << y;
+        }
+    EXPECT_GT(lit, 1500);
+}
+
+// Light that is scattered once, in a thin even medium: sigma_s times the phase function times the irradiance times the
+// way through, less what is lost on the way in and out (4% here at most: the bounds of the check).
+TEST_F(Ihrke, SmokeScattersLightOnce) {
+    for (const float g : {0.0f, 0.6f}) {
+        Scene scene;
+        Volume smoke = even_cube(0.5f, 16);
+        const float sigma = 0.02f;
+        smoke.sigma_s.assign(smoke.voxel_count(), glm::vec3(sigma));
+        smoke.g.assign(smoke.voxel_count(), g);
+        place(scene, std::move(smoke));
+        scene.lights.push_back(sun());
+        set(scene, uniform_environment(glm::vec3(0.0f)));
+        const RenderResult found = draw();
+        int seen = 0;
+        for (int y = 0; y < int(kSize); ++y)
+            for (int x = 0; x < int(kSize); ++x) {
+                const RefractedPath& path = found.paths[std::size_t(y) * kSize + std::size_t(x)];
+                if (path.events == 0 || path.length_inside < 0.9f) continue;
+                ++seen;
+                const WorldRay ray = pixel_ray(camera_, kSize, kSize, x, y);
+                const double cosine = glm::dot(-ray.direction, glm::dvec3(sun().direction));
+                const double base = 1.0 + double(g * g) - 2.0 * double(g) * cosine;
+                const double phase = (1.0 - double(g * g)) / (12.566370614 * base * std::sqrt(base));
+                const double expected = double(sigma) * phase * 2.0 * double(path.length_inside);
+                EXPECT_NEAR(double(rgb(found.radiance, x, y).r), 0.98 * expected, 0.03 * expected) << x << ", " << y;
+            }
+        EXPECT_GT(seen, 300);
+    }
+}
+
+}  // namespace
+}  // namespace pellucid::test

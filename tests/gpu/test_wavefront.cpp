@@ -1,0 +1,520 @@
+// Light through volumes on the device: power, the inverse square, caustics, folds, and what is reported.
+#include "optics/index_fields.h"
+#include "optics/phase.h"
+#include "reference/ball_photons.h"
+#include "volume/upload_volumes.h"
+#include "volume/wavefront.h"
+
+#include <pellucid/scene.h>
+
+#include "gpu/device_test.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include <numbers>
+
+namespace pellucid::test {
+namespace {
+
+void place(Scene& scene, Volume volume, glm::mat4 world_from_volume = glm::mat4(1.0f)) {
+    VolumeObject object;
+    object.volume = int(scene.volumes.size());
+    object.world_from_volume = world_from_volume;
+    scene.volumes.push_back(std::make_shared<const Volume>(std::move(volume)));
+    scene.volume_objects.push_back(object);
+}
+
+/// A cube of one medium around the origin.
+Volume block(unsigned resolution, float edge, float n, glm::vec3 sigma_a) {
+    Volume volume;
+    volume.name = "block";
+    volume.size = glm::uvec3(resolution);
+    volume.voxel = edge / float(resolution);
+    volume.low = glm::vec3(-0.5f * edge);
+    volume.n.assign(volume.voxel_count(), n);
+    if (sigma_a != glm::vec3(0.0f)) volume.sigma_a.assign(volume.voxel_count(), sigma_a);
+    return volume;
+}
+
+/// An opaque rectangle around `center`; side and up span it.
+void add_plane(Scene& scene, glm::vec3 center, glm::vec3 half_side, glm::vec3 half_up) {
+    if (scene.materials.empty()) scene.materials.emplace_back();
+    Mesh mesh;
+    mesh.positions = {center - half_side - half_up, center + half_side - half_up, center + half_side + half_up,
+                      center - half_side + half_up};
+    mesh.normals.assign(4, glm::normalize(glm::cross(half_side, half_up)));
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    Object object;
+    object.mesh = int(scene.meshes.size());
+    scene.meshes.push_back(mesh);
+    scene.objects.push_back(object);
+}
+
+/// Six of them, around the cube of that half edge.
+void enclose(Scene& scene, float half) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float sign : {-1.0f, 1.0f}) {
+            glm::vec3 center(0.0f), side(0.0f), up(0.0f);
+            center[axis] = sign * half;
+            side[(axis + 1) % 3] = half;
+            up[(axis + 2) % 3] = half;
+            add_plane(scene, center, side, up);
+        }
+}
+
+Light directional(glm::vec3 direction, glm::vec3 irradiance = glm::vec3(1.0f)) {
+    Light light;
+    light.kind = Light::Kind::kDirectional;
+    light.direction = glm::normalize(direction);
+    light.intensity = irradiance;
+    return light;
+}
+
+Light point(glm::vec3 position, glm::vec3 intensity = glm::vec3(1.0f)) {
+    Light light;
+    light.position = position;
+    light.intensity = intensity;
+    return light;
+}
+
+constexpr std::uint32_t kLookupShader[] = {
+#include "light_lookup_twin.comp.inc"
+};
+
+LightSettings without_reflection() {
+    LightSettings settings;
+    settings.fresnel = false;
+    return settings;
+}
+
+class Wavefront : public DeviceTest {
+protected:
+    void SetUp() override {
+        DeviceTest::SetUp();
+        if (IsSkipped()) return;
+        if (!device().long_atomics()) GTEST_SKIP() << "no 64-bit atomics";
+        tracer_.emplace(device());
+    }
+    const LightStatistics& trace(const Scene& scene, const LightSettings& settings = {}) {
+        volumes_.emplace(upload_volumes(device(), scene));
+        EXPECT_TRUE(tracer_->update(recorder(), workspace(), scene, *volumes_, settings));
+        time_ms_ = recorder().submit_and_wait().at(0).time_ms;
+        return tracer_->statistics();
+    }
+    double time_ms() const { return time_ms_; }
+    WavefrontTracer& tracer() { return *tracer_; }
+    const VolumeImages& volumes() { return *volumes_; }
+
+    /// Irradiance of all receivers' texels.
+    std::vector<glm::vec4> receiver_light() {
+        const Buffer& source = tracer().light().receiver_light;
+        const Buffer& copy = workspace().buffer("copy of receivers", source.size(), true);
+        recorder().copy(source, copy, source.size());
+        recorder().submit_and_wait();
+        std::vector<glm::vec4> texels = read_back<glm::vec4>(copy);
+        texels.resize(texels.size() / 2);  // the second half is the light without volumes
+        return texels;
+    }
+    /// Power in the maps of all receivers.
+    glm::dvec3 power_on_receivers() {
+        const std::vector<glm::vec4> texels = receiver_light();
+        glm::dvec3 sum(0.0);
+        std::size_t i = 0;
+        for (const gpu::LightReceiver& receiver : tracer().light().receiver_list) {
+            const double area = double(receiver.corner.w) * double(receiver.corner.w);
+            for (int k = 0; k < int(receiver.side.w) * int(receiver.up.w); ++k) sum += area * glm::dvec3(texels[i++]);
+        }
+        return sum;
+    }
+    /// Irradiance in the voxels of the one placement there is.
+    std::vector<glm::vec4> voxel_light() {
+        const std::vector<std::byte> bytes = download_box(device(), tracer().light().irradiance);
+        std::vector<glm::vec4> values(bytes.size() / sizeof(glm::vec4));
+        std::memcpy(values.data(), bytes.data(), bytes.size());
+        return values;
+    }
+
+private:
+    std::optional<WavefrontTracer> tracer_;
+    std::optional<VolumeImages> volumes_;
+    double time_ms_ = 0.0;
+};
+
+void print(const char* what, const LightStatistics& s) {
+    std::printf(
+        "%s: emitted %.5f arrived %.5f missed %.5f absorbed %.5f reflected %.5f turned %.5f weak %.5f left %.5f; "
+        "%u patches, %u splits, %u rounds, %u refused, %u left\n",
+        what, s.emitted.x, s.arrived.x, s.missed.x, s.absorbed.x, s.reflected.x, s.turned.x, s.weak.x, s.left.x,
+        s.patches, s.splits, s.rounds, s.refused, s.patches_left);
+}
+
+// 1%: the bar for power. What is emitted is known beforehand, so that neither side is the tracer's own word.
+TEST_F(Wavefront, PowerOnEnclosingPlanesIsThePowerEmitted) {
+    Scene scene;
+    place(scene, make_volume("smoothed-sphere,resolution=48,radius=1"));
+    const float edge = 2.0f * scene.volumes[0]->high().x;
+    enclose(scene, 2.5f);
+    scene.lights = {directional({0.0f, -1.0f, 0.0f}, {2.0f, 1.0f, 0.5f})};
+    trace(scene, without_reflection());
+    print("directional", tracer().statistics());
+    const double flux = 2.0 * double(edge) * double(edge);
+    glm::dvec3 arrived = power_on_receivers();
+    EXPECT_NEAR(arrived.x, flux, 0.01 * flux);
+    EXPECT_NEAR(arrived.y, 0.5 * flux, 0.005 * flux);
+    EXPECT_NEAR(arrived.z, 0.25 * flux, 0.0025 * flux);
+    EXPECT_TRUE(tracer().statistics().warnings().empty());
+
+    scene.lights = {point({0.2f, 0.3f, -0.1f})};  // inside: all of it meets the volume
+    trace(scene, without_reflection());
+    print("point inside", tracer().statistics());
+    arrived = power_on_receivers();
+    EXPECT_NEAR(arrived.x, 4.0 * std::numbers::pi, 0.01 * 4.0 * std::numbers::pi);
+
+    scene.lights = {point({0.0f, 2.0f, 0.0f})};  // outside: what a face of the box takes of it
+    trace(scene, without_reflection());
+    print("point outside", tracer().statistics());
+    const double a = 0.5 * double(edge), d = 2.0 - a;
+    const double solid_angle = 4.0 * std::asin(a * a / (a * a + d * d));
+    arrived = power_on_receivers();
+    EXPECT_NEAR(arrived.x, solid_angle, 0.01 * solid_angle);
+}
+
+TEST_F(Wavefront, AbsorptionFollowsBeerAndLambert) {
+    Scene scene;
+    const glm::vec3 sigma(0.5f, 1.0f, 2.0f);
+    place(scene, block(48, 1.5f, 1.4f, sigma));
+    enclose(scene, 2.0f);
+    scene.lights = {directional({0.0f, 0.0f, 1.0f})};
+    trace(scene);
+    print("block", tracer().statistics());
+    const glm::dvec3 arrived = power_on_receivers();
+    for (int c = 0; c < 3; ++c) {
+        const double expected = 1.5 * 1.5 * std::exp(-double(sigma[c]) * 1.5);
+        EXPECT_NEAR(arrived[c], expected, 0.01 * expected) << c;
+    }
+}
+
+TEST_F(Wavefront, PointLightFollowsTheInverseSquareLaw) {
+    Scene scene;
+    const Volume medium = block(64, 2.0f, 1.3f, glm::vec3(0.0f));
+    place(scene, medium);
+    scene.lights = {point(glm::vec3(0.01f), glm::vec3(3.0f))};
+    trace(scene);
+    print("inverse square", tracer().statistics());
+    const std::vector<glm::vec4> light = voxel_light();
+    double worst = 0.0, sum = 0.0;
+    int lit = 0, dark = 0;
+    for (int z = 0, i = 0; z < 64; ++z)
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x, ++i) {
+                const glm::dvec3 at = (glm::dvec3(x, y, z) + 0.5) / 32.0 - 1.0;
+                const double r = glm::distance(at, glm::dvec3(0.01));
+                if (r < 0.3 || r > 0.95) continue;
+                if (light[std::size_t(i)].x == 0.0f) {
+                    ++dark;
+                    continue;
+                }
+                ++lit;
+                const double ratio = double(light[std::size_t(i)].x) * r * r / 3.0;
+                worst = std::max(worst, std::abs(ratio - 1.0));
+                // A voxel has the irradiance of the brightest patch in it: somewhere in it, not in its middle.
+                EXPECT_LT(std::abs(ratio - 1.0), 0.03 + 2.0 * (0.87 / 32.0) / r);
+                sum += ratio;
+            }
+    EXPECT_NEAR(sum / lit, 1.0, 0.03);
+    EXPECT_EQ(dark, 0);
+    std::printf("inverse square: mean %.4f, worst %.4f, dark %d of %d\n", sum / lit, worst, dark, lit + dark);
+}
+
+TEST_F(Wavefront, CausticOfABallIsThatOfCountedPhotons) {
+    Scene scene;
+    place(scene, make_volume("smoothed-sphere,resolution=128,radius=1"));
+    add_plane(scene, {0.0f, -1.4f, 0.0f}, {2.5f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.5f});
+    scene.lights = {directional({0.2f, -1.0f, 0.1f})};
+    trace(scene, without_reflection());
+    print("caustic", tracer().statistics());
+    std::printf("caustic: traced in %.0f ms\n", time_ms());
+    const gpu::LightReceiver& receiver = tracer().light().receiver_list.at(0);
+    std::vector<double> own;
+    for (const glm::vec4 texel : receiver_light()) own.push_back(double(texel.x));
+    const BallAndPlane truth{.box = double(scene.volumes[0]->high().x),
+                             .direction = glm::normalize(glm::dvec3(0.2, -1.0, 0.1)),
+                             .corner = glm::dvec3(receiver.corner),
+                             .side = glm::dvec3(receiver.side),
+                             .up = glm::dvec3(receiver.up),
+                             .texel = double(receiver.corner.w),
+                             .width = int(receiver.side.w),
+                             .height = int(receiver.up.w)};
+    const std::vector<double> exact = count_photons(truth, 2500);
+    // What the ball has bent: around the middle of its shadow.
+    const glm::dvec3 foot = -1.4 / truth.direction.y * truth.direction - truth.corner;
+    const glm::dvec2 around = glm::dvec2(glm::dot(foot, truth.side), glm::dot(foot, truth.up)) / truth.texel;
+    const CausticSpot spot = caustic_spot(own, truth.width, around, 0.9 / truth.texel),
+                      wanted = caustic_spot(exact, truth.width, around, 0.9 / truth.texel);
+    const double voxels = truth.texel / double(scene.volumes[0]->voxel), alike = correlation(own, exact);
+    std::printf("caustic: centre %.3f voxels off, half-power radius %.3f, exact %.3f voxels, correlation %.4f\n",
+                voxels * glm::distance(spot.center, wanted.center), voxels * spot.radius, voxels * wanted.radius,
+                alike);
+    // The bars: a voxel, and 0.95. The ball of voxels has a surface 0.7 voxels wide, which the truth has not.
+    EXPECT_LT(voxels * glm::distance(spot.center, wanted.center), 1.0);
+    EXPECT_NEAR(voxels * spot.radius, voxels * wanted.radius, 1.0);
+    EXPECT_GT(alike, 0.95);
+    EXPECT_GT(voxels * wanted.radius, 2.0);  // else the bar would say little
+}
+
+// A ball of index 3 has its focus inside, at three quarters of its radius.
+TEST_F(Wavefront, LightGoesOnPastAFocusIfFoldsAreKept) {
+    Scene scene;
+    place(scene, make_volume("smoothed-sphere,resolution=48,radius=1,ior=3"));
+    enclose(scene, 2.5f);
+    scene.lights = {directional({0.0f, 0.0f, 1.0f})};
+    // Around the axis, behind the ball.
+    const auto beyond = [&] {
+        double sum = 0.0;
+        const std::vector<glm::vec4> light = voxel_light();
+        for (std::size_t y = 14; y < 34; ++y)
+            for (std::size_t x = 14; x < 34; ++x) sum += double(light[x + 48 * (y + 48 * 46)].x);
+        return sum;
+    };
+    LightSettings settings = without_reflection();
+    trace(scene, settings);
+    print("kept", tracer().statistics());
+    const LightStatistics kept = tracer().statistics();
+    EXPECT_EQ(kept.turned.x, 0.0);
+    const double kept_beyond = beyond();
+    EXPECT_GT(kept_beyond, 100.0);
+    const double on_planes = power_on_receivers().x;
+    EXPECT_NEAR(on_planes, kept.emitted.x - kept.left.x, 0.01 * kept.emitted.x);
+
+    settings.keep_folds = false;
+    trace(scene, settings);
+    print("dropped", tracer().statistics());
+    const LightStatistics dropped = tracer().statistics();
+    EXPECT_EQ(dropped.emitted, kept.emitted);
+    std::printf("beyond the focus: kept %.1f, dropped %.1f\n", kept_beyond, beyond());
+    EXPECT_LT(beyond(), 0.3 * kept_beyond);  // near the axis patches are past the focus before they turn over
+    EXPECT_GT(dropped.turned.x, 0.3 * dropped.emitted.x);
+    EXPECT_NEAR(power_on_receivers().x, dropped.emitted.x - dropped.turned.x - dropped.left.x,
+                0.01 * dropped.emitted.x);
+}
+
+TEST_F(Wavefront, WantOfRoomIsReportedAndLosesNoLight) {
+    Scene scene;
+    place(scene, make_volume("smoothed-sphere,resolution=48,radius=1"));
+    enclose(scene, 2.5f);
+    scene.lights = {directional({0.0f, -1.0f, 0.0f})};
+    LightSettings settings = without_reflection();
+    for (const std::uint32_t capacity : {3000u, 500u}) {  // 2,704 patches begin
+        settings.capacity = capacity;
+        const LightStatistics& s = trace(scene, settings);
+        print("want of room", s);
+        EXPECT_LE(s.patches, capacity);
+        EXPECT_GT(s.refused, 0u);
+        EXPECT_EQ(s.coarsened, capacity == 500u);
+        ASSERT_FALSE(s.warnings().empty());
+        EXPECT_NE(s.warnings()[0].find("found no room"), std::string::npos) << s.warnings()[0];
+        // Patches that are not split straddle edges: a few ends of a patch are far apart.
+        EXPECT_NEAR(power_on_receivers().x + s.missed.x + s.left.x, s.emitted.x, 0.001 * s.emitted.x);
+        EXPECT_NEAR(power_on_receivers().x, s.emitted.x, 0.03 * s.emitted.x);
+    }
+    settings = without_reflection();
+    settings.rounds = 5;
+    const LightStatistics& s = trace(scene, settings);
+    EXPECT_GT(s.left.x, 0.5 * s.emitted.x);
+    EXPECT_GT(s.patches_left, 0u);
+    ASSERT_EQ(s.warnings().size(), 1u);
+    EXPECT_NE(s.warnings()[0].find("still on their way after 5 rounds"), std::string::npos) << s.warnings()[0];
+}
+
+TEST_F(Wavefront, MovedLightIsTracedAgainAndOnlyThen) {
+    Scene scene;
+    place(scene, block(16, 1.0f, 1.0f, glm::vec3(0.0f)));
+    add_plane(scene, {0.0f, -1.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f});
+    scene.lights = {directional({0.0f, -1.0f, 0.0f})};
+    trace(scene);
+    const auto middle = [&] {  // of the light on the plane, world
+        const gpu::LightReceiver& receiver = tracer().light().receiver_list.at(0);
+        std::vector<double> map;
+        for (const glm::vec4 texel : receiver_light()) map.push_back(double(texel.x));
+        const glm::dvec2 at = caustic_spot(map, int(receiver.side.w), {}, 1e9).center * double(receiver.corner.w);
+        return glm::dvec3(receiver.corner) + at.x * glm::dvec3(receiver.side) + at.y * glm::dvec3(receiver.up);
+    };
+    EXPECT_LT(glm::distance(middle(), glm::dvec3(0.0, -1.0, 0.0)), 0.01);
+    EXPECT_FALSE(tracer().update(recorder(), workspace(), scene, volumes(), {}));
+    scene.lights[0].direction = glm::normalize(glm::vec3(0.5f, -1.0f, 0.0f));
+    EXPECT_TRUE(tracer().update(recorder(), workspace(), scene, volumes(), {}));
+    recorder().submit_and_wait();
+    EXPECT_LT(glm::distance(middle(), glm::dvec3(0.5, -1.0, 0.0)), 0.01);
+    scene.objects[0].world_from_object = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, -1.0f, 0.0f));
+    EXPECT_TRUE(tracer().update(recorder(), workspace(), scene, volumes(), {}));
+    recorder().submit_and_wait();
+    EXPECT_LT(glm::distance(middle(), glm::dvec3(1.0, -2.0, 0.0)), 0.01);
+}
+
+// One behind the other, in other frames; and a small one in a large one, where the small one counts.
+TEST_F(Wavefront, SeveralVolumesAbsorbInTurn) {
+    Scene scene;
+    glm::mat4 mirrored = glm::scale(glm::mat4(1.0f), glm::vec3(-0.5f, 0.5f, 0.5f));
+    mirrored[3] = glm::vec4(0.0f, -1.0f, 0.0f, 1.0f);
+    const glm::mat4 turned = glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 1.0f, 0.0f)),
+                                         std::numbers::pi_v<float> / 2.0f, glm::vec3(0.0f, 0.0f, 1.0f));
+    place(scene, block(24, 1.0f, 1.2f, glm::vec3(0.6f)), turned);
+    place(scene, block(32, 2.0f, 1.1f, glm::vec3(0.4f)), mirrored);  // edge 1, sigma_a 0.4 in the world as well
+    add_plane(scene, {0.0f, -3.0f, 0.0f}, {1.5f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.5f});
+    scene.lights = {directional({0.0f, -1.0f, 0.0f})};
+    trace(scene);
+    print("in a row", tracer().statistics());
+    // Lengths count in voxels of the volume: scaled to a half it has half of the optical depth that it was made with, 0.8.
+    const double in_a_row = std::exp(-0.6 - 0.8);
+    EXPECT_NEAR(power_on_receivers().x, in_a_row, 0.01 * in_a_row);
+
+    Scene nested;
+    place(nested, block(24, 2.0f, 1.0f, glm::vec3(0.3f)));
+    place(nested, block(16, 1.0f, 1.3f, glm::vec3(1.0f)));
+    add_plane(nested, {0.0f, -3.0f, 0.0f}, {1.5f, 0.0f, 0.0f}, {0.0f, 0.0f, -1.5f});
+    nested.lights = {directional({0.0f, -1.0f, 0.0f})};
+    trace(nested);
+    print("nested", tracer().statistics());
+    const double beside = 3.0 * std::exp(-0.6), through = std::exp(-0.3 - 1.0);
+    EXPECT_NEAR(power_on_receivers().x, beside + through, 0.01 * (beside + through));
+}
+
+TEST_F(Wavefront, VoxelsKnowTheWayOfTheLightInTheirFrame) {
+    Scene scene;
+    const glm::mat4 placed = glm::rotate(glm::scale(glm::mat4(1.0f), glm::vec3(2.0f, 2.0f, -2.0f)), 0.7f,
+                                         glm::normalize(glm::vec3(1.0f, 2.0f, 3.0f)));
+    place(scene, block(16, 1.0f, 1.5f, glm::vec3(0.0f)), placed);
+    const glm::vec3 way = glm::normalize(glm::vec3(1.0f, -2.0f, 0.5f));
+    scene.lights = {directional(way, {2.0f, 1.0f, 0.0f})};
+    trace(scene);
+    const std::vector<std::byte> bytes = download_box(device(), tracer().light().direction);
+    std::vector<std::uint64_t> directions(bytes.size() / 8);
+    std::memcpy(directions.data(), bytes.data(), bytes.size());
+    const std::vector<glm::vec4> light = voxel_light();
+    const glm::vec3 expected = glm::normalize(glm::inverse(glm::mat3(placed)) * way);
+    // 8 bits of colour, 24 of brightness, 12 and half floats of direction. Along the edges of what meets the box, patches
+    // have less: as much less as of them passes it.
+    std::size_t full = 0, dark = 0, astray = 0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const double share = double(light[i].x) / 2.0;
+        dark += share == 0.0 ? 1 : 0;
+        full += std::abs(share - 1.0) < 0.005 ? 1 : 0;
+        EXPECT_LT(share, 1.005);
+        EXPECT_NEAR(light[i].y, 0.5f * light[i].x, 0.01f);
+        EXPECT_NEAR(light[i].z, 0.0f, 0.01f);
+        const glm::vec3 way(glm::unpackHalf4x16(directions[i]));
+        astray += share > 0.0 && !(glm::distance(way, expected) < 2e-3f) ? 1 : 0;
+    }
+    std::printf("voxels: %zu, full light %zu, dark %zu\n", light.size(), full, dark);
+    EXPECT_EQ(astray, 0u);
+    EXPECT_LT(dark, light.size() / 100);  // at the edges, where none is on both sides
+    EXPECT_GT(full, light.size() * 9 / 10);
+}
+
+TEST_F(Wavefront, SurfacesTakeAwayWhatTheyReflect) {
+    // A slab whose surfaces are 0.7 voxels wide, out through the sides of the box.
+    Scene scene;
+    Volume slab = block(48, 1.5f, 1.0f, glm::vec3(0.0f));
+    slab.boundary.resize(slab.voxel_count());
+    const float sigma = 0.7f * slab.voxel;
+    for (std::size_t i = 0; i < slab.voxel_count(); ++i) {
+        const float y = slab.low.y + (float(i / 48 % 48) + 0.5f) * slab.voxel, off = std::abs(y) - 0.4f;
+        slab.n[i] = 1.0f + 0.5f * smoothed_inside(off, sigma);
+        slab.boundary[i] = std::exp(-0.5f * off * off / (sigma * sigma));
+    }
+    place(scene, slab);
+    add_plane(scene, {0.0f, -2.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f});
+    scene.lights = {directional({0.0f, -1.0f, 0.0f})};
+    trace(scene);
+    print("slab", tracer().statistics());
+    // Twice 4% at normal incidence. A surface counts from a quarter of its height on: with steps of half a voxel that
+    // leaves out 15% of the jump of its index, and so 30% of what it reflects.
+    EXPECT_NEAR(power_on_receivers().x, 1.5 * 1.5 * 0.96 * 0.96, 0.03 * 1.5 * 1.5);
+    EXPECT_GT(tracer().statistics().reflected.x, 0.05 * 1.5 * 1.5);
+    EXPECT_LT(tracer().statistics().reflected.x, 0.08 * 1.5 * 1.5);
+    scene.lights = {directional({0.5f, -1.0f, 0.0f})};
+    trace(scene);
+    const LightStatistics& s = tracer().statistics();
+    EXPECT_NEAR(s.reflected.x + s.arrived.x + s.missed.x + s.left.x, s.emitted.x, 1e-4);
+}
+
+TEST_F(Wavefront, SpotLightsFillTheirCone) {
+    Scene scene;
+    place(scene, block(64, 2.0f, 1.0f, glm::vec3(0.0f)));
+    add_plane(scene, {0.0f, -2.0f, 0.0f}, {3.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -3.0f});
+    Light spot = point({0.0f, 3.0f, 0.0f}, glm::vec3(5.0f));
+    spot.kind = Light::Kind::kSpot;
+    spot.direction = {0.0f, -1.0f, 0.0f};
+    spot.inner_cone_angle = 0.1f;
+    spot.outer_cone_angle = 0.2f;
+    scene.lights = {spot};
+    trace(scene);
+    // The square of a ramp in the cosine, between cosines i and o: 2 pi (1 - i) + 2 pi (i - o) / 3.
+    const double i = std::cos(0.1), o = std::cos(0.2);
+    const double power = 5.0 * 2.0 * std::numbers::pi * ((1.0 - i) + (i - o) / 3.0);
+    EXPECT_NEAR(power_on_receivers().x, power, 0.01 * power);
+}
+
+// A table that a volume's box dips into, as that of a glass on it does.
+TEST_F(Wavefront, ReceiversInVolumesStopTheLight) {
+    Scene scene;
+    place(scene, block(32, 1.0f, 1.3f, glm::vec3(0.5f)));
+    add_plane(scene, {0.0f, -0.25f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f});
+    scene.lights = {directional({0.0f, -1.0f, 0.0f})};
+    trace(scene);
+    const double expected = std::exp(-0.5 * 0.75);
+    EXPECT_NEAR(power_on_receivers().x, expected, 0.01 * expected);
+    const std::vector<glm::vec4> light = voxel_light();
+    EXPECT_GT(light[16 + 32 * (12 + 32 * 16)].x, 0.5f);
+    EXPECT_EQ(light[16 + 32 * (4 + 32 * 16)].x, 0.0f);
+}
+
+struct Lookup {
+    glm::vec4 position, way, medium;
+};
+struct Found {
+    glm::vec4 scattered, received;
+};
+
+TEST_F(Wavefront, ShadersLookLightUp) {
+    Scene scene;
+    place(scene, block(32, 1.0f, 1.0f, glm::vec3(0.0f)),
+          glm::rotate(glm::mat4(1.0f), 0.3f, glm::vec3(0.0f, 1.0f, 0.0f)));
+    add_plane(scene, {0.0f, -1.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f});
+    scene.lights = {directional({0.0f, -1.0f, 0.0f}, {3.0f, 2.0f, 1.0f})};
+    trace(scene);
+    const glm::vec3 way = glm::normalize(glm::vec3(0.3f, -0.5f, 0.2f));
+    const float g = 0.4f;
+    const std::vector<Lookup> cases = {
+        {glm::vec4(0.1f, 0.2f, -0.1f, 1.0f), glm::vec4(way, 1.0f), glm::vec4(0.1f, 0.2f, 0.3f, g)},
+        {glm::vec4(0.1f, -1.0f, -0.1f, 1.0f), glm::vec4(0.0f, 1.0f, 0.0f, 10.0f), glm::vec4(0.0f)},
+        {glm::vec4(1.5f, -1.0f, -0.1f, 1.0f), glm::vec4(0.0f, 1.0f, 0.0f, 10.0f), glm::vec4(0.0f)},
+        {glm::vec4(0.1f, -0.8f, -0.1f, 1.0f), glm::vec4(0.0f, 1.0f, 0.0f, 0.1f), glm::vec4(0.0f)}};
+    const Buffer& input = workspace().buffer("cases", cases.size() * sizeof(Lookup), true);
+    const Buffer& output = workspace().buffer("answers", cases.size() * sizeof(Found), true);
+    std::memcpy(input.mapped(), cases.data(), input.size());
+    const LightVolumes& light = tracer().light();
+    recorder().compute(workspace().compute({"light_lookup_twin.comp", kLookupShader}),
+                       {reads("light_irradiance", light.irradiance), reads("light_direction", light.direction),
+                        reads("Volumes", volumes().records), reads("Placements", light.placements),
+                        reads("Receivers", light.receivers), reads("ReceiverLight", light.receiver_light),
+                        reads("Cases", input), writes("Answers", output)},
+                       glm::uvec2(1, 1), {std::uint32_t(cases.size()), 1});
+    recorder().submit_and_wait();
+    const std::vector<Found> found = read_back<Found>(output);
+    const double phase = henyey_greenstein(-double(way.y), double(g));
+    const glm::dvec3 expected = glm::dvec3(0.1, 0.2, 0.3) * glm::dvec3(3.0, 2.0, 1.0) * phase;
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(double(found[0].scattered[c]), expected[c], 0.01 * expected[c]);
+        EXPECT_NEAR(double(found[1].received[c]), 3.0 - c, 0.03 * (3.0 - c));  // patches against texels
+        EXPECT_EQ(found[2].received[c], 0.0f);
+    }
+    EXPECT_EQ(found[1].scattered.w, 0.0f);  // the volume is above it
+    EXPECT_EQ(found[1].received.w, 1.0f);
+    EXPECT_EQ(found[2].scattered.w, 1.0f);
+    EXPECT_EQ(found[3].scattered.w, 1.0f);  // it ends before the volume
+    EXPECT_EQ(found[3].received.w, 0.0f);   // above the plane
+}
+
+}  // namespace
+}  // namespace pellucid::test
