@@ -41,15 +41,6 @@ FacetReflection reflect_by_facets(const Microfacets& facets, const glm::dvec3& w
     return {m, density * facets.masking_shadowing(wo, wi), density * facets.masking(wo)};
 }
 
-/// A direction that was chosen in proportion to the BSDF, or nothing where that is 0: light that the next
-/// facet would catch.
-template <class AnyBsdf>
-std::optional<BsdfSample> weighted(const AnyBsdf& bsdf, const glm::dvec3& wo, const glm::dvec3& wi) {
-    const BsdfValue value = bsdf.evaluate(wo, wi);
-    if (!(value.pdf > 0.0)) return std::nullopt;
-    return BsdfSample{wi, value.value / value.pdf, value.pdf, false};
-}
-
 }  // namespace
 
 OpaqueBsdf::OpaqueBsdf(const glm::dvec3& base, double metallic, double roughness, double ior)
@@ -76,7 +67,7 @@ double OpaqueBsdf::mirror_share(const glm::dvec3& wo) const {
     return a > 0.0 ? a / (a + b) : 0.0;
 }
 
-BsdfValue OpaqueBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi) const {
+BsdfValue OpaqueBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi, Random&) const {
     if (wo.z <= 0.0 || wi.z <= 0.0) return {};
     const double share = mirror_share(wo);
     // Mean of the coat's reflectance over diffuse light; what it throws back is scattered once more.
@@ -105,50 +96,42 @@ std::optional<BsdfSample> OpaqueBsdf::sample(const glm::dvec3& wo, Random& rando
     } else {
         sample.wi = cosine_weighted(random.next2());
     }
-    return weighted(*this, wo, sample.wi);
+    const BsdfValue value = evaluate(wo, sample.wi, random);
+    if (!(value.pdf > 0.0)) return std::nullopt;  // light that the next facet would catch
+    sample.weight = value.value / value.pdf;
+    sample.pdf = value.pdf;
+    return sample;
 }
 
 InterfaceBsdf::InterfaceBsdf(double n_o, double n_i, double roughness, const glm::dvec3& tint)
-    : facets_(facets_of(n_o == n_i ? 0.0 : roughness)), n_o_(n_o), n_i_(n_i), tint_(tint) {}
+    : facets_(facets_of(n_o == n_i ? 0.0 : roughness)), n_o_(n_o), n_i_(n_i), rough_(facets_, n_o, n_i), tint_(tint) {}
 
-BsdfValue InterfaceBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi) const {
+BsdfValue InterfaceBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const {
     if (facets_.smooth() || wo.z <= 0.0 || wi.z == 0.0) return {};
-    if (wi.z > 0.0) {
-        const FacetReflection facets = reflect_by_facets(facets_, wo, wi);
-        const double f = incidence(-wo, facets.m, n_o_, n_i_).reflectance;
-        return {glm::dvec3(f * facets.value), f * facets.pdf};
-    }
-    // Equation 16 for the facets that refract wi to wo, 17 for their density, 21 for the BTDF (less eta^2).
-    const double eta = n_o_ / n_i_;
-    const glm::dvec3 sum = eta * wo + wi;
-    const double length = glm::length(sum);
-    if (!(length > 0.0)) return {};
-    const glm::dvec3 m = sum.z < 0.0 ? -sum / length : sum / length;
-    const double cos_o = glm::dot(wo, m), cos_i = glm::dot(wi, m);
-    if (cos_o <= 0.0 || cos_i >= 0.0) return {};
-    const double transmitted = 1.0 - incidence(-wo, m, n_o_, n_i_).reflectance;
-    const double stretch = eta * cos_o + cos_i;
-    const double density = transmitted * facets_.density(m) * cos_o * -cos_i / (wo.z * stretch * stretch);
-    return {tint_ * (density * facets_.masking_shadowing(wo, wi)), density * facets_.masking(wo)};
+    const double single = rough_.single(wo, wi);
+    const double value = single + rough_.multiple(wo, wi, random);
+    return {wi.z > 0.0 ? glm::dvec3(value) : tint_ * value, rough_.mis_density(single)};
 }
 
 std::optional<BsdfSample> InterfaceBsdf::sample(const glm::dvec3& wo, Random& random) const {
-    const glm::dvec3 m = facets_.smooth() ? glm::dvec3(0.0, 0.0, 1.0) : facets_.sample_visible(wo, random.next2());
-    const Incidence in = incidence(-wo, m, n_o_, n_i_);
-    const bool reflects = random.next() < in.reflectance;
     BsdfSample sample;
-    sample.wi = reflects ? reflected(-wo, m, in) : refracted(-wo, m, n_o_, n_i_, in);
     if (facets_.smooth()) {
+        const glm::dvec3 n(0.0, 0.0, 1.0);
+        const Incidence in = incidence(-wo, n, n_o_, n_i_);
+        const bool reflects = random.next() < in.reflectance;
+        sample.wi = reflects ? reflected(-wo, n, in) : refracted(-wo, n, n_o_, n_i_, in);
         sample.weight = reflects ? glm::dvec3(1.0) : tint_;
         sample.mirror = true;
         return sample;
     }
-    if ((sample.wi.z > 0.0) != reflects) return std::nullopt;  // light that the next facet would catch
-    return weighted(*this, wo, sample.wi);
+    sample.wi = rough_.sample(wo, random);
+    sample.weight = sample.wi.z > 0.0 ? glm::dvec3(1.0) : tint_;
+    sample.pdf = rough_.mis_density(rough_.single(wo, sample.wi));
+    return sample;
 }
 
 PaneBsdf::PaneBsdf(double ior, double roughness, const glm::dvec3& tint)
-    : facets_(facets_of(roughness)), ior_(ior), tint_(tint) {}
+    : facets_(facets_of(roughness)), rough_(RoughInterface::mirrors(facets_)), ior_(ior), tint_(tint) {}
 
 /// 2 F / (1 + F): the series over the pane's two faces.
 double PaneBsdf::reflectance(double cos_theta_o) const {
@@ -156,28 +139,31 @@ double PaneBsdf::reflectance(double cos_theta_o) const {
     return 2.0 * f / (1.0 + f);
 }
 
-BsdfValue PaneBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi) const {
+/// Share of the light scattered from wo to wi, both on one side, that stays on that side. The same from wi to
+/// wo, so that the pane is reciprocal.
+double PaneBsdf::rough_share(const glm::dvec3& wo, const glm::dvec3& wi) const {
+    return reflectance(glm::dot(wo, glm::normalize(wo + wi)));
+}
+
+BsdfValue PaneBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const {
     if (facets_.smooth() || wo.z <= 0.0 || wi.z == 0.0) return {};
-    const FacetReflection facets = reflect_by_facets(facets_, wo, wi.z > 0.0 ? wi : to_other_side(wi));
-    const double r = reflectance(glm::dot(wo, facets.m));
-    if (wi.z > 0.0) return {glm::dvec3(r * facets.value), r * facets.pdf};
-    return {tint_ * ((1.0 - r) * facets.value), (1.0 - r) * facets.pdf};
+    const glm::dvec3 above = wi.z > 0.0 ? wi : to_other_side(wi);
+    const double r = rough_share(wo, above), share = wi.z > 0.0 ? r : 1.0 - r;
+    const double single = rough_.single(wo, above);
+    const double value = share * (single + rough_.multiple(wo, above, random));
+    return {wi.z > 0.0 ? glm::dvec3(value) : tint_ * value, rough_.mis_density(share * single)};
 }
 
 std::optional<BsdfSample> PaneBsdf::sample(const glm::dvec3& wo, Random& random) const {
-    const glm::dvec3 m = facets_.smooth() ? glm::dvec3(0.0, 0.0, 1.0) : facets_.sample_visible(wo, random.next2());
-    const bool reflects = random.next() < reflectance(glm::dot(wo, m));
     BsdfSample sample;
-    if (facets_.smooth()) {
-        sample.wi = reflects ? mirrored(wo) : -wo;
-        sample.weight = reflects ? glm::dvec3(1.0) : tint_;
-        sample.mirror = true;
-        return sample;
-    }
-    sample.wi = mirrored(wo, m);
-    if (sample.wi.z <= 0.0) return std::nullopt;  // light that the next facet would catch
+    sample.wi = facets_.smooth() ? mirrored(wo) : rough_.sample(wo, random);
+    const double r = rough_share(wo, sample.wi);
+    const bool reflects = random.next() < r;
+    sample.weight = reflects ? glm::dvec3(1.0) : tint_;
+    sample.mirror = facets_.smooth();
+    if (!sample.mirror) sample.pdf = rough_.mis_density((reflects ? r : 1.0 - r) * rough_.single(wo, sample.wi));
     if (!reflects) sample.wi = to_other_side(sample.wi);
-    return weighted(*this, wo, sample.wi);
+    return sample;
 }
 
 }  // namespace pellucid::reference

@@ -12,6 +12,7 @@
 
 #include "reference/microfacet.h"
 #include "reference/random.h"
+#include "reference/rough_interface.h"
 
 #include <glm/glm.hpp>
 
@@ -20,8 +21,12 @@
 
 namespace pellucid::reference {
 
-/// BSDF times |cos theta_i|, and the density with which sample() chooses wi, per steradian. Without the
-/// share of perfect mirrors, which have neither.
+/// BSDF times |cos theta_i|, without the share of perfect mirrors. Rough glass gives an unbiased estimate,
+/// so that two calls may differ.
+///
+/// `pdf` is for the weights of multiple importance sampling. It is the density, per steradian, with which an
+/// opaque surface chooses wi. Rough glass has no closed form of that density and gives a stand-in. Any positive
+/// function will do, as long as sample() and evaluate() give the same (Veach 1997, section 9.2.2).
 struct BsdfValue {
     glm::dvec3 value{0.0};
     double pdf = 0.0;
@@ -29,8 +34,8 @@ struct BsdfValue {
 
 struct BsdfSample {
     glm::dvec3 wi{0.0};
-    glm::dvec3 weight{0.0};  ///< BSDF times |cos theta_i| / pdf
-    double pdf = 0.0;        ///< per steradian; 0 for a perfect mirror
+    glm::dvec3 weight{0.0};  ///< BSDF times |cos theta_i| over the density that chose wi
+    double pdf = 0.0;        ///< as that of BsdfValue; 0 for a perfect mirror
     bool mirror = false;     ///< one of the directions that evaluate() knows nothing of
 };
 
@@ -44,7 +49,7 @@ public:
     OpaqueBsdf(const glm::dvec3& base, double metallic, double roughness, double ior);
     /// True if evaluate() is 0 for all directions.
     bool only_mirrors() const { return facets_.smooth() && diffuse_ == glm::dvec3(0.0); }
-    BsdfValue evaluate(const glm::dvec3& wo, const glm::dvec3& wi) const;
+    BsdfValue evaluate(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const;
     std::optional<BsdfSample> sample(const glm::dvec3& wo, Random& random) const;
 
 private:
@@ -58,23 +63,27 @@ private:
     double coat_at_normal_ = 0.0;
 };
 
-/// The boundary of two dielectrics (Walter et al. 2007).
+/// The boundary of two dielectrics. Without a tint it loses no light, however rough: light that one facet
+/// sends to another goes on from there (see rough_interface.h).
 class InterfaceBsdf {
 public:
-    /// Indices of refraction on the viewer's and on the other side; `tint` multiplies what is refracted.
+    /// Indices of refraction on the viewer's and on the other side. `tint` multiplies light that ends on the
+    /// other side, once, however often it crossed the microsurface.
     InterfaceBsdf(double n_o, double n_i, double roughness, const glm::dvec3& tint);
     bool only_mirrors() const { return facets_.smooth(); }
-    BsdfValue evaluate(const glm::dvec3& wo, const glm::dvec3& wi) const;
+    BsdfValue evaluate(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const;
     std::optional<BsdfSample> sample(const glm::dvec3& wo, Random& random) const;
 
 private:
     Microfacets facets_;
     double n_o_ = 1.0, n_i_ = 1.0;
+    RoughInterface rough_;  ///< for facets that are not smooth
     glm::dvec3 tint_{1.0};
 };
 
-/// A thin-walled pane: both faces and all reflections between them, nothing bent. A rough pane scatters
-/// what it transmits as it does what it reflects, mirrored to the other side.
+/// A thin-walled pane: both faces and all reflections between them, nothing bent. A rough pane scatters light
+/// as facets do that reflect everything, all reflections between them included. It reflects a share of the
+/// result, by the angle to the half vector of wo and wi, and transmits the rest, mirrored to the other side.
 class PaneBsdf {
 public:
     /// `tint` multiplies what is transmitted.
@@ -82,13 +91,15 @@ public:
     bool only_mirrors() const { return facets_.smooth(); }
     /// Share of light that a smooth pane lets straight through.
     glm::dvec3 straight_through(double cos_theta_o) const { return tint_ * (1.0 - reflectance(cos_theta_o)); }
-    BsdfValue evaluate(const glm::dvec3& wo, const glm::dvec3& wi) const;
+    BsdfValue evaluate(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const;
     std::optional<BsdfSample> sample(const glm::dvec3& wo, Random& random) const;
 
 private:
     double reflectance(double cos_theta_o) const;
+    double rough_share(const glm::dvec3& wo, const glm::dvec3& wi) const;
 
     Microfacets facets_;
+    RoughInterface rough_;  ///< for facets that are not smooth
     double ior_ = 1.5;
     glm::dvec3 tint_{1.0};
 };

@@ -42,14 +42,20 @@ struct Microfacets {
         return 1.0 / (1.0 + lambda(wo) + lambda(wi));
     }
 
-    /// Density, per solid angle, of the normals that are visible from wo (wo.z > 0).
-    double visible_density(const glm::dvec3& wo, const glm::dvec3& m) const {
-        return masking(wo) * std::max(glm::dot(wo, m), 0.0) * density(m) / wo.z;
+    /// Area of the facets that face w, projected along w, per macroscopic area; w may point below the surface.
+    double projected_area(const glm::dvec3& w) const {
+        const double cos2 = w.z * w.z;
+        const double slanted = std::sqrt(cos2 + alpha * alpha * std::max(1.0 - cos2, 0.0));
+        // Below the horizon the difference of the two is small: avoid the cancellation.
+        if (w.z < 0.0) return 0.5 * alpha * alpha * std::max(1.0 - cos2, 0.0) / (slanted - w.z);
+        return 0.5 * (slanted + w.z);
     }
 
-    /// A normal with that density, from two random numbers (Heitz 2018, listing 1).
-    glm::dvec3 sample_visible(const glm::dvec3& wo, const glm::dvec2& u) const {
-        const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * wo.x, alpha * wo.y, wo.z));
+    /// A normal from two random numbers, with the density of those that w sees:
+    /// max(dot(w, m), 0) density(m) / projected_area(w) per solid angle (Heitz 2018, listing 1). w may point
+    /// below the surface, since the listing samples the part of the hemisphere that w sees from there, too.
+    glm::dvec3 sample_visible(const glm::dvec3& w, const glm::dvec2& u) const {
+        const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * w.x, alpha * w.y, w.z));
         const double length2 = stretched.x * stretched.x + stretched.y * stretched.y;
         const glm::dvec3 across =
             length2 > 0.0 ? glm::dvec3(-stretched.y, stretched.x, 0.0) / std::sqrt(length2) : glm::dvec3(1.0, 0.0, 0.0);

@@ -227,7 +227,7 @@ void PathWalk::add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& f
     const auto value_towards = [&](const glm::dvec3& direction) {
         const glm::dvec3 wi = direction * facing.world_from_local;
         if (crosses(vertex.hit, direction) != (wi.z < 0.0)) return BsdfValue{};
-        return std::visit([&](const auto& b) { return b.evaluate(facing.wo, wi); }, bsdf);
+        return std::visit([&](const auto& b) { return b.evaluate(facing.wo, wi, random); }, bsdf);
     };
     if (!world_.sampler.dark()) {
         const EnvironmentSampler::Sample chosen = world_.sampler.sample(random);
