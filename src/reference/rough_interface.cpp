@@ -112,14 +112,31 @@ double RoughInterface::leaving_density(const Ray& ray, const glm::dvec3& wi) con
     return refracted_density(ray, w) * std::pow(1.0 - ray.level, lambda);
 }
 
-double RoughInterface::multiple(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const {
-    Ray ray{-wo};
-    double sum = 0.0;
+/// Estimates the share of walks from `from`, over two or more facets, whose last facet sends the light to `to`.
+///
+/// The same paths can be sampled from the other end. Both estimates are combined by the balance heuristic, path
+/// by path (Veach 1997, section 9.2.2). The two densities of a path differ in its ends alone: this walk has not
+/// sampled the last facet and the other walk has not sampled the first. `reversal` is the ratio of the density
+/// from -> to and the density to -> from.
+double RoughInterface::walk_towards(const glm::dvec3& from, const glm::dvec3& to, double reversal,
+                                    Random& random) const {
+    Ray ray = from.z > 0.0 ? Ray{-from} : Ray{to_other_side(-from), 1.0, false};
+    double sum = 0.0, back = 0.0;
     for (int facet = 0; facet < kMaxFacets && reaches_facet(ray, random); ++facet) {
-        if (facet > 0) sum += leaving_density(ray, wi);
+        if (facet > 0) {
+            const double there = leaving_density(ray, to);
+            if (there > 0.0) sum += there * back / (there + back);
+        }
         scatter(ray, random);
+        if (facet == 0) back = reversal * leaving_density({-ray.direction, ray.level, ray.outside}, from);
     }
     return sum;
+}
+
+double RoughInterface::multiple(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const {
+    const double n = wi.z > 0.0 ? 1.0 : n_i_ / n_o_;
+    const double reversal = n * n * std::abs(wi.z) / wo.z;
+    return walk_towards(wo, wi, reversal, random) + reversal * walk_towards(wi, wo, 1.0 / reversal, random);
 }
 
 double RoughInterface::mis_density(double single) const {

@@ -32,7 +32,7 @@ public:
 
     /// Part of that density that is due to one facet.
     double single(const glm::dvec3& wo, const glm::dvec3& wi) const;
-    /// Part that is due to two or more facets: an unbiased estimate, from one random walk.
+    /// Part that is due to two or more facets: an unbiased estimate, from a random walk at either end.
     double multiple(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const;
 
     /// A stand-in for the density of sample() in the weights of multiple importance sampling, which may be any
@@ -54,6 +54,7 @@ private:
     double reflected_density(const Ray& ray, const glm::dvec3& w) const;
     double refracted_density(const Ray& ray, const glm::dvec3& w) const;
     double leaving_density(const Ray& ray, const glm::dvec3& wi) const;
+    double walk_towards(const glm::dvec3& from, const glm::dvec3& to, double reversal, Random& random) const;
 
     Microfacets facets_;
     double n_o_ = 1.0, n_i_ = 1.0;

@@ -170,7 +170,7 @@ public:
         double height = 1.0;
         bool above = true;
         for (;;) {
-            const double left = above ? 1.0 + height : 1.0 - height;
+            const double left = std::max(above ? 1.0 + height : 1.0 - height, 1e-9);
             const double speed = std::abs(direction.z) + alpha_ * std::hypot(direction.x, direction.y);
             const double length = kStep * left / speed;
             // The surface's slope, from GGX by inversion: its tangent is alpha sqrt(u / (1 - u)).
