@@ -140,7 +140,7 @@ double RoughInterface::multiple(const glm::dvec3& wo, const glm::dvec3& wi, Rand
 }
 
 double RoughInterface::mis_density(double single) const {
-    return single + 1.0 / (4.0 * std::numbers::pi * facets_.alpha);
+    return single + 1.0 / (std::numbers::pi * facets_.alpha);
 }
 
 }  // namespace pellucid::reference

@@ -36,9 +36,9 @@ public:
     double multiple(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const;
 
     /// A stand-in for the density of sample() in the weights of multiple importance sampling, which may be any
-    /// positive function. It exceeds the density of multiple() on purpose. The estimate of multiple() is seldom
-    /// more than 0 and then about 1 / alpha^2, so a light should choose the direction only where the light's
-    /// own density is above 1 / alpha.
+    /// positive function. It is larger than the density of multiple() on purpose. The estimate of multiple()
+    /// varies more the narrower the lobe is, so a light should choose a direction outside the lobe of single()
+    /// only where its own density is above 1 / (pi alpha).
     double mis_density(double single) const;
 
 private:
