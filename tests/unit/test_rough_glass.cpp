@@ -172,7 +172,7 @@ TEST(RoughGlass, SamplesAreReciprocal) {
             }
         }
         reflected.expect(40);
-        refracted.expect(50);
+        refracted.expect(40);
     }
 }
 
@@ -315,12 +315,12 @@ void expect_same_shape(const DirectionBins& found, const DirectionBins& expected
     if (std::getenv("RG_PRINT")) printf("worst %.4f %.4f of the peak, peaks %.4f %.4f\n", worst[0], worst[1], expected.peak(0), expected.peak(100));
 }
 
-void expect_shape_of_simulation(double n_o, double n_i, double roughness) {
+void expect_shape_of_simulation(double n_o, double n_i, double roughness, double cos_theta_o) {
     SCOPED_TRACE(testing::Message() << "from index " << n_o << " to " << n_i << ", roughness " << roughness);
     const int kRays = std::getenv("RG_RAYS") ? atoi(std::getenv("RG_RAYS")) : 2000000; const int kEvaluations = kRays/4;
     const RoughInterface surface = rough_interface(n_o, n_i, roughness);
     const FacetSimulation simulation(roughness * roughness, n_o, n_i);
-    const glm::dvec3 wo = at_angles(0.7, 0.0);
+    const glm::dvec3 wo = at_angles(cos_theta_o, 0.0);
     Random random(24, 0, 0);
     DirectionBins simulated, sampled, evaluated;
     for (int ray = 0; ray < kRays; ++ray) {
@@ -328,7 +328,9 @@ void expect_shape_of_simulation(double n_o, double n_i, double roughness) {
         sampled.add(surface.sample(wo, random), 1.0 / kRays);
     }
     for (int i = 0; i < kEvaluations; ++i) {
-        const glm::dvec3 wi = on_sphere(random.next2());
+        // Points of a spiral are even on the sphere, so that noise is left only where evaluation is at random.
+        const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+        const glm::dvec3 wi = on_sphere({(i + 0.5) / kEvaluations, i * golden});
         const double value = surface.single(wo, wi) + surface.multiple(wo, wi, random);
         evaluated.add(wi, value * 4.0 * pi / kEvaluations);
     }
@@ -338,13 +340,13 @@ void expect_shape_of_simulation(double n_o, double n_i, double roughness) {
 
 TEST(RoughGlass, ScattersAsSimulatedFacetsSeenFromOutside) {
     // An index of 2.42, so that enough light is reflected to compare its shape.
-    expect_shape_of_simulation(1.0, 2.42, 0.5);
-    expect_shape_of_simulation(1.0, 2.42, 1.0);
+    expect_shape_of_simulation(1.0, 2.42, 0.5, 0.4);
+    expect_shape_of_simulation(1.0, 2.42, 1.0, 0.4);
 }
 
 TEST(RoughGlass, ScattersAsSimulatedFacetsSeenFromInside) {
-    expect_shape_of_simulation(1.5, 1.0, 0.5);
-    expect_shape_of_simulation(1.5, 1.0, 1.0);
+    expect_shape_of_simulation(1.5, 1.0, 0.5, 0.7);
+    expect_shape_of_simulation(1.5, 1.0, 1.0, 0.7);
 }
 
 }  // namespace
