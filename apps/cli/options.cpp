@@ -38,8 +38,9 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
     add_number(command, "--attenuation-distance", arguments.attenuation_distance, "Metres after which that is left")
         ->type_name("M");
     add_number(command, "--crease-angle", arguments.crease_angle_deg,
-               "Made normals are smooth across edges bent less than this, degrees")
-        ->capture_default_str()
+               "Made normals are smooth across edges bent less than this, degrees; default: where the bends of a shell "
+               "leave a gap; 0 for .stl")
+        ->type_name("DEG")
         ->check(CLI::Range(0.0, 180.0));
     command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");
     command
@@ -68,7 +69,7 @@ LoadOptions load_options(const SceneArguments& arguments) {
         options.attenuation_color = glm::vec3(float(color[0]), float(color[1]), float(color[2]));
     }
     if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
-    options.crease_angle = radians_from_degrees(float(arguments.crease_angle_deg));
+    if (arguments.crease_angle_deg) options.crease_angle = radians_from_degrees(float(*arguments.crease_angle_deg));
     options.remake_normals = arguments.remake_normals;
     options.translucent = parse_translucency(arguments.translucency);
     options.animation = arguments.animation;

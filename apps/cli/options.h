@@ -34,7 +34,7 @@ struct SceneArguments {
     std::optional<double> ior;
     std::optional<std::string> attenuation_color;
     std::optional<double> attenuation_distance;
-    double crease_angle_deg = 180.0;
+    std::optional<double> crease_angle_deg;
     bool remake_normals = false;
     std::optional<std::string> animation;
     std::optional<double> time_s;

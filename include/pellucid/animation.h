@@ -34,7 +34,7 @@ struct PosedMesh {
 /// Placement of one object in a pose.
 struct PosedObject {
     int object = 0;                     ///< Scene::objects
-    glm::mat4 world_from_object{1.0f};  ///< affine; not invertible where the animation scales it to nothing
+    glm::mat4 world_from_object{1.0f};  ///< affine, about Scene::origin; not invertible where scaled to nothing
 };
 
 /// A scene at one time of an animation: everything that any of the file's animations moves. So a pose does not

@@ -135,6 +135,11 @@ struct Rig;
 /// A checked scene: every index is in range, every number finite, every normal of unit length.
 struct Scene {
     std::string source;  ///< what load_scene was given
+    /// World position, m, of the origin of the frame in which all transforms, cameras and lights of the scene are
+    /// given. Not 0 where a file's content lies far from the file's own origin (more than 8 radii): 32-bit numbers
+    /// are too coarse there. A position of the file's world minus this one belongs into the scene, and the other way
+    /// round; renderer and tracers never add it.
+    glm::dvec3 origin{0.0};
     std::vector<Image> images;
     std::vector<std::string> image_names;  ///< one per image, for messages
     std::vector<Material> materials;
@@ -167,14 +172,19 @@ struct Translucency {
 /// base colour, roughness and textures stay. Throws Error for values out of range.
 void make_translucent(Scene& scene, const Translucency& translucency);
 
+/// A crease angle that each shell of a mesh gets by itself. Where some of its edges are sharp, others bend gently and
+/// hardly any lie between, the sharp ones stay sharp: a cube is a cube, a cylinder has rims. Otherwise it is smooth.
+inline constexpr float kCreasesByShell = std::numeric_limits<float>::infinity();
+
 /// How files without materials of their own become glass, how meshes are repaired, and what animated files show.
 struct LoadOptions {
     std::optional<float> ior;                    ///< >= 1; overrides every refractive material
     std::optional<glm::vec3> attenuation_color;  ///< 0..1; likewise
     std::optional<float> attenuation_distance;   ///< metres, > 0; likewise
     std::optional<Translucency> translucent;     ///< see make_translucent()
-    /// Made normals are shared across edges bent less than this (radians, 0..pi).
-    float crease_angle = 3.14159265f;
+    /// Made normals are shared across edges bent less than this (radians, 0..pi), or kCreasesByShell. That is 0 for
+    /// .stl files, which store one normal per facet, unless remake_normals is set.
+    float crease_angle = kCreasesByShell;
     /// Replace normals that a mesh file brings along by made ones.
     bool remake_normals = false;
     /// Name, or else number from 0, of the animation whose pose is loaded. None, and no time either: the file's own

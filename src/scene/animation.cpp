@@ -81,11 +81,12 @@ Pose pose_at(const Scene& scene, std::size_t animation, double time_s) {
     const std::vector<Animation>& known = animations_of(scene);
     if (animation >= known.size())
         throw Error(fmt::format("{}: there is no animation {}, there are {}", scene.source, animation, known.size()));
-    const NodePose nodes = pose_nodes(scene.rig->tree, &known[animation], time_s);
+    NodePose nodes = pose_nodes(scene.rig->tree, &known[animation], time_s);
+    rebase(nodes, scene.origin);
     Pose pose;
     for (const DeformedMesh& mesh : scene.rig->meshes) pose.meshes.push_back(posed(scene, mesh, nodes));
     for (const NodeObject& object : scene.rig->objects)
-        pose.objects.push_back({object.object, glm::mat4(nodes.world_from_node[std::size_t(object.node)])});
+        pose.objects.push_back({object.object, world_from_object(nodes, object)});
     return pose;
 }
 

@@ -3,6 +3,8 @@
 
 #include "core/fail.h"
 #include "core/math.h"
+#include "scene/deform_mesh.h"
+#include "scene/far_positions.h"
 #include "scene/gltf_animations.h"
 #include "scene/gltf_file.h"
 #include "scene/gltf_lights.h"
@@ -18,6 +20,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace pellucid {
 namespace {
@@ -38,12 +42,28 @@ public:
         const GltfNodes nodes = read_gltf_nodes(gltf_);
         rig_.tree = nodes.tree;
         rig_.animations = read_gltf_animations(gltf_, rig_.tree, warnings_);
-        const NodePose pose =
+        NodePose pose =
             pose_nodes(rig_.tree, chosen_animation(gltf_, rig_.animations, options_), options_.time_s.value_or(0.0));
+        const std::span<const int> order(rig_.tree.order.data(), nodes.in_scene);
+        read_objects(order, pose);
+        choose_frame(pose);
+        rebase(pose, scene_.origin);
+        place(pose);
+        for (const int index : order) {
+            const tinygltf::Node& node = gltf_.model.nodes[std::size_t(index)];
+            const glm::dmat4& world = pose.world_from_node[std::size_t(index)];
+            add_camera(node, index, world);
+            add_gltf_light(gltf_, node, gltf_node_name(gltf_, index), world, scene_, warnings_);
+        }
+        keep_rig();
+    }
+
+private:
+    /// Objects and volumes of the nodes. They are placed later, but for vertices of skins.
+    void read_objects(std::span<const int> order, const NodePose& pose) {
         GltfMeshes meshes(gltf_, options_, scene_, rig_, warnings_);
         GltfVolumes volumes(gltf_, scene_);
-        for (std::size_t i = 0; i < nodes.in_scene; ++i) {
-            const int index = rig_.tree.order[i];
+        for (const int index : order) {
             const tinygltf::Node& node = gltf_.model.nodes[std::size_t(index)];
             const glm::dmat4& world = pose.world_from_node[std::size_t(index)];
             const std::string name = gltf_node_name(gltf_, index);
@@ -51,14 +71,62 @@ public:
             const std::size_t first_object = scene_.objects.size();
             if (node.mesh >= 0) add_objects(meshes, index, name, pose);
             volumes.add(node, name, world, first_object);
-            add_camera(node, index, world);
-            add_gltf_light(gltf_, node, name, world, scene_, warnings_);
+            volume_nodes_.resize(scene_.volume_objects.size(), index);
         }
         meshes.warn_about_leftovers();
-        keep_rig();
     }
 
-private:
+    /// Moves vertices that are stored far from their origin to it, and chooses Scene::origin.
+    void choose_frame(const NodePose& pose) {
+        std::vector<char> deforms(scene_.meshes.size(), 0);
+        for (const DeformedMesh& mesh : rig_.meshes) deforms[std::size_t(mesh.mesh)] = 1;
+        std::vector<Box> stored;
+        std::vector<glm::dvec3> origins;
+        for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
+            stored.push_back(box_of(scene_.meshes[m].positions));
+            origins.push_back(deforms[m] ? glm::dvec3(0.0) : recentre(scene_.meshes[m]));
+        }
+        CoarsePositions coarse;
+        Box world;
+        std::vector<char> placed_by_node(scene_.objects.size(), 0);
+        for (NodeObject& object : rig_.objects) {
+            const auto mesh = std::size_t(scene_.objects[std::size_t(object.object)].mesh);
+            const glm::dmat4& world_from_node = pose.world_from_node[std::size_t(object.node)];
+            placed_by_node[std::size_t(object.object)] = 1;
+            object.mesh_origin = origins[mesh];
+            world.add(stored[mesh], world_from_node);
+            coarse.add(scene_.meshes[mesh].name, stored[mesh], std::cbrt(std::abs(glm::determinant(world_from_node))));
+        }
+        for (const DeformedMesh& mesh : rig_.meshes)
+            if (const Mesh& base = rig_.shapes[mesh.shape].base; mesh.skin >= 0)
+                coarse.add(base.name, box_of(base.positions), 1.0);
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i)
+            if (!placed_by_node[i]) world.add(stored[std::size_t(scene_.objects[i].mesh)], glm::dmat4(1.0));
+        for (std::size_t i = 0; i < scene_.volume_objects.size(); ++i) {
+            const Volume& volume = *scene_.volumes[std::size_t(scene_.volume_objects[i].volume)];
+            const Box box{.low = volume.low, .high = volume.high()};
+            world.add(box, pose.world_from_node[std::size_t(volume_nodes_[i])]);
+        }
+        coarse.warn(warnings_);
+        scene_.origin = frame_origin(world);
+    }
+
+    /// Transforms in the frame that was chosen.
+    void place(const NodePose& pose) {
+        for (const NodeObject& object : rig_.objects)
+            scene_.objects[std::size_t(object.object)].world_from_object = world_from_object(pose, object);
+        for (std::size_t i = 0; i < scene_.volume_objects.size(); ++i)
+            scene_.volume_objects[i].world_from_volume =
+                glm::mat4(pose.world_from_node[std::size_t(volume_nodes_[i])]);
+        if (scene_.origin == glm::dvec3(0.0)) return;
+        for (const DeformedMesh& mesh : rig_.meshes) {
+            if (mesh.skin < 0) continue;
+            DeformedVertices vertices = deform(rig_, mesh, pose);
+            scene_.meshes[std::size_t(mesh.mesh)].positions = std::move(vertices.positions);
+            scene_.meshes[std::size_t(mesh.mesh)].normals = std::move(vertices.normals);
+        }
+    }
+
     /// Objects are taken back to their own frame in 32 bits, so the inverse must exist there.
     static bool invertible(const glm::dmat4& world) {
         const glm::dmat3 linear(world);
@@ -80,8 +148,8 @@ private:
             if (part.in_world) {
                 scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(1.0f)});
             } else if (rigid) {
-                rig_.objects.push_back({static_cast<int>(scene_.objects.size()), node});
-                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(world)});
+                rig_.objects.push_back({.object = static_cast<int>(scene_.objects.size()), .node = node});
+                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(1.0f)});
             } else {
                 warnings_.add(left_out);
             }
@@ -148,6 +216,7 @@ private:
     Scene& scene_;
     Warnings& warnings_;
     Rig rig_;
+    std::vector<int> volume_nodes_;  ///< one per volume object
 };
 
 }  // namespace

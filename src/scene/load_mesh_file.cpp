@@ -4,8 +4,10 @@
 #include "core/file.h"
 #include "core/file_extension.h"
 #include "core/math.h"
+#include "scene/far_positions.h"
 #include "scene/mesh_file_checks.h"
 #include "scene/mesh_repair.h"
+#include "scene/text_positions.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -13,6 +15,7 @@
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -133,15 +136,20 @@ Mesh merge_parts(const std::filesystem::path& file, const aiScene& scene, Leftov
     }
     for (const glm::vec3 p : mesh.positions)
         if (!std::isfinite(p.x + p.y + p.z)) fail(file, "a transformed position is not finite");
+    const bool all_zero = std::all_of(mesh.normals.begin(), mesh.normals.end(),
+                                      [](const glm::vec3& n) { return n == glm::vec3(0.0f); });
+    if (all_zero) mesh.normals.clear();
     return mesh;
 }
 
 }  // namespace
 
-Mesh load_mesh_file(const std::filesystem::path& file, Warnings& warnings) {
+MeshFile load_mesh_file(const std::filesystem::path& file, Warnings& warnings) {
     std::vector<std::byte> bytes = read_file(file);
     const std::string extension = lower_extension(file);
     const std::optional<std::uint64_t> announced = check_mesh_file(file, extension, bytes);
+    MeshFile result;
+    result.origin = rebase_stored_positions(extension, bytes);
 
     Assimp::Importer importer;
     importer.SetIOHandler(new NoFiles);  // the importer owns it
@@ -160,13 +168,18 @@ Mesh load_mesh_file(const std::filesystem::path& file, Warnings& warnings) {
     if (!scene) fail(file, cause_of(importer));
 
     Leftovers leftovers;
-    Mesh mesh = merge_parts(file, *scene, leftovers);
+    Mesh& mesh = result.mesh;
+    mesh = merge_parts(file, *scene, leftovers);
     mesh.name = file.stem().string();
     if (mesh.triangles.empty()) fail(file, "contains no triangles");
     if (leftovers.points + leftovers.lines > 0)
         warnings.add(fmt::format("{}: {} points and {} lines left out", mesh.name, leftovers.points, leftovers.lines));
     join_identical_vertices(mesh);
-    return mesh;
+    CoarsePositions coarse;
+    coarse.add(mesh.name, box_of(mesh.positions), 1.0);
+    coarse.warn(warnings);
+    result.origin += recentre(mesh);
+    return result;
 }
 
 }  // namespace pellucid

@@ -37,8 +37,8 @@ void check(const LoadOptions& options) {
     if (options.attenuation_distance && !(*options.attenuation_distance > 0.0f))
         throw Error(fmt::format("attenuation distance {}: must be greater than 0", *options.attenuation_distance));
     if (options.translucent) check_translucency(*options.translucent);  // before anything is read
-    // The constant is pi rounded to a float, as is the option's default.
-    if (!(options.crease_angle >= 0.0f && options.crease_angle <= kPi))
+    const bool angle = options.crease_angle >= 0.0f && options.crease_angle <= kPi;
+    if (!angle && options.crease_angle != kCreasesByShell)
         throw Error(fmt::format("crease angle {}: must be within 0..pi radians", options.crease_angle));
     if (options.time_s) check_animation_time(*options.time_s);
 }
@@ -87,8 +87,15 @@ Scene load_by_kind(const std::string& source, const LoadOptions& options, Warnin
         return glass_scene(load_shape(source.substr(kShapePrefix.size())), options, true, warnings);
     if (gltf) return load_gltf(file, options, warnings);
     if (std::find(kMeshExtensions.begin(), kMeshExtensions.end(), extension) != kMeshExtensions.end()) {
-        Mesh mesh = load_mesh_file(file, warnings);
-        return glass_scene(std::move(mesh), options, !options.remake_normals, warnings);
+        MeshFile content = load_mesh_file(file, warnings);
+        // The normals of .stl files are those of the facets, or zero where a program left them out.
+        const bool facets = extension == ".stl" && !options.remake_normals;
+        const bool keep_normals = !facets && !options.remake_normals;
+        LoadOptions how = options;
+        if (facets && how.crease_angle == kCreasesByShell) how.crease_angle = 0.0f;
+        Scene scene = glass_scene(std::move(content.mesh), how, keep_normals, warnings);
+        scene.origin = content.origin;
+        return scene;
     }
     fail(file, fmt::format("unknown kind of file \"{}\" (known: .gltf, .glb, .vdb, {}, shape:NAME or volume:NAME)",
                            extension, fmt::join(kMeshExtensions, ", ")));
@@ -116,7 +123,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     const Bounds bounds = scene_bounds(scene);
     // Squares and products of positions must stay finite on the GPU, in 32 bits.
     constexpr float kLargest = 1e15f, kSmallest = 1e-15f;
-    if (!(glm::length(bounds.center) < kLargest && bounds.radius < kLargest))
+    if (!(glm::length(glm::dvec3(bounds.center) + scene.origin) < double(kLargest) && bounds.radius < kLargest))
         fail(source, "positions are too large (more than 1e15)");
     if (!(bounds.radius > kSmallest)) fail(source, "all positions are the same");
     scene.warnings = warnings.lines();

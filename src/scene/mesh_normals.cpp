@@ -1,6 +1,7 @@
 #include "scene/mesh_normals.h"
 
 #include "core/math.h"
+#include "scene/crease_angles.h"
 #include "scene/mesh_repair.h"
 
 #include <algorithm>
@@ -111,13 +112,12 @@ CornerTable corners_by_vertex(const Mesh& mesh, const std::vector<std::uint32_t>
     return table;
 }
 
+/// `crease_angles`: one per welded vertex; pi joins all of its corners.
 std::vector<std::uint32_t> make_creased_normals(Mesh& mesh, const std::vector<std::uint32_t>& weld,
-                                                float crease_angle) {
+                                                const std::vector<float>& crease_angles) {
     const std::vector<glm::dvec3> areas = area_vectors(mesh);
     const std::vector<glm::vec3> smooth = smooth_normals(mesh, weld);
     const CornerTable table = corners_by_vertex(mesh, weld);
-    const double cos_crease = std::cos(double(crease_angle));
-
     std::vector<glm::uvec3> triangles(mesh.triangles.size());
     std::vector<std::uint32_t> source;  // new vertex -> old vertex
     std::vector<glm::vec3> normals;
@@ -127,7 +127,12 @@ std::vector<std::uint32_t> make_creased_normals(Mesh& mesh, const std::vector<st
         corners.clear();
         for (std::uint32_t i = table.first[v]; i < table.first[v + 1]; ++i)
             corners.push_back({table.corner[i] / 3, table.corner[i] % 3, static_cast<std::uint32_t>(corners.size())});
-        group_corners(mesh, weld, areas, cos_crease, corners, spokes);
+        const bool creased = crease_angles[v] < kPi;
+        if (creased) {
+            group_corners(mesh, weld, areas, std::cos(double(crease_angles[v])), corners, spokes);
+        } else {
+            for (Corner& corner : corners) corner.group = 0;
+        }
 
         // One new vertex for each pair of group and old vertex.
         const auto old_vertex = [&](const Corner& c) { return mesh.triangles[c.triangle][int(c.slot)]; };
@@ -138,7 +143,7 @@ std::vector<std::uint32_t> make_creased_normals(Mesh& mesh, const std::vector<st
             glm::dvec3 sum(0.0);
             for (end = begin; end < corners.size() && corners[end].group == corners[begin].group; ++end)
                 sum += areas[corners[end].triangle];
-            const glm::vec3 normal = usable(sum) ? glm::vec3(glm::normalize(sum)) : smooth[v];
+            const glm::vec3 normal = creased && usable(sum) ? glm::vec3(glm::normalize(sum)) : smooth[v];
             for (std::size_t i = begin; i < end; ++i) {
                 if (i == begin || old_vertex(corners[i]) != old_vertex(corners[i - 1])) {
                     source.push_back(old_vertex(corners[i]));
@@ -159,7 +164,11 @@ std::vector<std::uint32_t> make_creased_normals(Mesh& mesh, const std::vector<st
 
 std::vector<std::uint32_t> make_normals(Mesh& mesh, float crease_angle) {
     const std::vector<std::uint32_t> weld = weld_positions(mesh.positions);
-    if (crease_angle < kPi) return make_creased_normals(mesh, weld, crease_angle);
+    const std::vector<float> angles = crease_angle == kCreasesByShell
+                                          ? crease_angles(mesh, weld)
+                                          : std::vector<float>(mesh.positions.size(), crease_angle);
+    if (std::any_of(angles.begin(), angles.end(), [](float angle) { return angle < kPi; }))
+        return make_creased_normals(mesh, weld, angles);
     const std::vector<glm::vec3> smooth = smooth_normals(mesh, weld);
     mesh.normals.resize(mesh.positions.size());
     for (std::size_t v = 0; v < weld.size(); ++v) mesh.normals[v] = smooth[weld[v]];

@@ -11,7 +11,7 @@ namespace pellucid {
 /// Makes a unit normal for every vertex: the mean of the surrounding triangles' normals, weighted
 /// by area, over vertices of equal position. Where two triangles meet at an edge bent by
 /// `crease_angle` or more (radians), each side gets its own normals and vertices are split;
-/// 0 makes flat triangles, pi joins everything. Returns for each vertex the one that it was before.
+/// 0 makes flat triangles, pi joins everything, kCreasesByShell takes each shell's crease_angles(). Returns for each vertex the one that it was before.
 std::vector<std::uint32_t> make_normals(Mesh& mesh, float crease_angle);
 
 /// Scales normals to unit length. Those that are zero or not finite are replaced by made ones

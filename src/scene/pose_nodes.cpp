@@ -52,6 +52,14 @@ NodePose pose_nodes(const NodeTree& tree, const Animation* animation, double tim
     return pose;
 }
 
+void rebase(NodePose& pose, const glm::dvec3& origin) {
+    for (glm::dmat4& world_from_node : pose.world_from_node) world_from_node[3] -= glm::dvec4(origin, 0.0);
+}
+
+glm::mat4 world_from_object(const NodePose& pose, const NodeObject& object) {
+    return glm::mat4(glm::translate(pose.world_from_node[std::size_t(object.node)], object.mesh_origin));
+}
+
 std::vector<char> moved_nodes(const NodeTree& tree, const Animation& animation) {
     std::vector<char> moved(tree.rest.size(), 0);
     for (const Channel& channel : animation.channels)

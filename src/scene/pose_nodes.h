@@ -16,6 +16,12 @@ struct NodePose {
 /// No animation: the nodes at rest.
 NodePose pose_nodes(const NodeTree& tree, const Animation* animation, double time_s);
 
+/// Changes the world's frame to one whose origin lies at `origin` (world, m).
+void rebase(NodePose& pose, const glm::dvec3& origin);
+
+/// An object's transform in a pose, rounded once.
+glm::mat4 world_from_object(const NodePose& pose, const NodeObject& object);
+
 /// For each node whether an animation moves it, itself or through its ancestors.
 std::vector<char> moved_nodes(const NodeTree& tree, const Animation& animation);
 

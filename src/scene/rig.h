@@ -97,6 +97,7 @@ struct DeformedMesh {
 struct NodeObject {
     int object = 0;  ///< Scene::objects
     int node = 0;
+    glm::dvec3 mesh_origin{0.0};  ///< in the node's frame: where the origin of Scene's mesh lies
 };
 
 struct Rig {
