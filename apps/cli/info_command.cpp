@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,11 +46,20 @@ std::string counted(std::size_t count, const std::string& what, const std::strin
 void print_scene(const InfoArguments& arguments) {
     const Scene scene = load_given_scene(arguments.scene, arguments.how);
     const Bounds bounds = scene_bounds(scene);
-    const glm::vec3 low = bounds.center - bounds.half_size, high = bounds.center + bounds.half_size;
+    const glm::dvec3 center = glm::dvec3(bounds.center) + scene.origin, half_size(bounds.half_size);
+    const glm::dvec3 low = center - half_size, high = center + half_size;
+    // Six digits of what the box measures, however far away it stands.
+    const bool moved = scene.origin != glm::dvec3(0.0);
+    const int digits =
+        moved ? 6 + int(std::clamp(std::log10(glm::length(center) / double(bounds.radius)), 0.0, 9.0)) : 6;
     fmt::print("{}: {}, {}, {}\n", arguments.scene, counted(scene.objects.size(), "object", "objects"),
                counted(scene.meshes.size(), "mesh", "meshes"),
                counted(scene.triangle_count(), "triangle", "triangles"));
-    fmt::print("box: {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g} m\n", low.x, low.y, low.z, high.x, high.y, high.z);
+    fmt::print("box: {:.{}g} {:.{}g} {:.{}g} to {:.{}g} {:.{}g} {:.{}g} m\n", low.x, digits, low.y, digits, low.z,
+               digits, high.x, digits, high.y, digits, high.z, digits);
+    if (moved)
+        fmt::print("origin: {:.17g} {:.17g} {:.17g} m, subtracted from all positions\n", scene.origin.x, scene.origin.y,
+                   scene.origin.z);
     for (const Camera& camera : scene.cameras) fmt::print("camera: {}\n", one_line(camera.name));
     for (const VolumeObject& object : scene.volume_objects) {
         const glm::uvec3 size = scene.volumes[std::size_t(object.volume)]->size;

@@ -54,9 +54,10 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
 }
 
 Scene load_given_scene(const std::string& source, const SceneArguments& arguments) {
-    const std::vector<Light> lights = parse_lights(arguments.translucency);  // wrong ones are said before any work
+    parse_lights(arguments.translucency, glm::dvec3(0.0));  // wrong ones are reported before any work
     Scene scene = load_scene(source, with_grids(load_options(arguments), source, arguments.volumes));
     add_volumes(scene, arguments.volumes);
+    const std::vector<Light> lights = parse_lights(arguments.translucency, scene.origin);
     scene.lights.insert(scene.lights.end(), lights.begin(), lights.end());
     return scene;
 }

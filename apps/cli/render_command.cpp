@@ -115,6 +115,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"samples", settings.samples},
                                 {"objects", scene.objects.size()},
                                 {"triangles", scene.triangle_count()},
+                                {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}},
                                 {"covered", result.covered},
                                 {"side_conflicts", result.side_conflicts}};
     if (arguments.how.animation) json["animation"] = *arguments.how.animation;

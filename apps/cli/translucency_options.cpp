@@ -31,9 +31,7 @@ std::string light_forms() {
     return forms;
 }
 
-glm::vec3 vec3_at(const std::vector<double>& v, std::size_t first) {
-    return {float(v[first]), float(v[first + 1]), float(v[first + 2])};
-}
+glm::dvec3 vec3_at(const std::vector<double>& v, std::size_t first) { return {v[first], v[first + 1], v[first + 2]}; }
 
 Light sun(const std::vector<double>& v) {
     const float azimuth = radians_from_degrees(float(v[0])), elevation = radians_from_degrees(float(v[1]));
@@ -45,12 +43,12 @@ Light sun(const std::vector<double>& v) {
     return light;
 }
 
-Light spot(const std::vector<double>& v, const std::string& text) {
+Light spot(const std::vector<double>& v, const glm::dvec3& origin, const std::string& text) {
     Light light;
     light.kind = Light::Kind::kSpot;
-    light.position = vec3_at(v, 0);
-    const glm::vec3 way = vec3_at(v, 3) - light.position;
-    if (!(glm::length(way) > 0.0f)) throw Error(fmt::format("--add-light: '{}' shines nowhere", text));
+    light.position = vec3_at(v, 0) - origin;
+    const glm::dvec3 way = vec3_at(v, 3) - vec3_at(v, 0);
+    if (!(glm::length(way) > 0.0)) throw Error(fmt::format("--add-light: '{}' shines nowhere", text));
     light.direction = glm::normalize(way);
     if (!(v[6] > 0.0 && v[6] <= 90.0))
         throw Error(fmt::format("--add-light: '{}': half the cone's angle is 0 to 90 degrees", text));
@@ -60,7 +58,8 @@ Light spot(const std::vector<double>& v, const std::string& text) {
     return light;
 }
 
-Light parse_light(const std::string& text) {
+/// `origin`: Scene::origin of the scene that the light is added to.
+Light parse_light(const std::string& text, const glm::dvec3& origin) {
     const std::size_t colon = text.find(':');
     const auto kind = std::find_if(kLightKinds.begin(), kLightKinds.end(),
                                    [&](const LightKind& k) { return text.substr(0, colon) == k.name; });
@@ -72,10 +71,10 @@ Light parse_light(const std::string& text) {
     if (!(v.back() >= 0.0) && v.size() == kind->most)
         throw Error(fmt::format("--add-light: '{}': the intensity is negative", text));
     if (kind->name == "sun") return sun(v);
-    if (kind->name == "spot") return spot(v, text);
+    if (kind->name == "spot") return spot(v, origin, text);
     Light light;
     light.kind = Light::Kind::kPoint;
-    light.position = vec3_at(v, 0);
+    light.position = vec3_at(v, 0) - origin;
     light.intensity = glm::vec3(float(v[3]));
     return light;
 }
@@ -102,10 +101,10 @@ std::optional<Translucency> parse_translucency(const TranslucencyArguments& argu
     return Translucency{vec3_at(v, 0), float(v[3])};
 }
 
-std::vector<Light> parse_lights(const TranslucencyArguments& arguments) {
+std::vector<Light> parse_lights(const TranslucencyArguments& arguments, const glm::dvec3& origin) {
     std::vector<Light> lights;
     for (const std::string& text : arguments.lights) {
-        lights.push_back(parse_light(text));
+        lights.push_back(parse_light(text, origin));
         lights.back().name = text;
     }
     return lights;

@@ -20,8 +20,9 @@ struct TranslucencyArguments {
 };
 void add_translucency_options(CLI::App& command, TranslucencyArguments& arguments);
 std::optional<Translucency> parse_translucency(const TranslucencyArguments& arguments);
+/// Positions are given in the file's world; `origin` is Scene::origin of the scene that the lights are for.
 /// Throws Error naming what is wrong with one of them.
-std::vector<Light> parse_lights(const TranslucencyArguments& arguments);
+std::vector<Light> parse_lights(const TranslucencyArguments& arguments, const glm::dvec3& origin);
 
 /// How thickness is found. The names of the flags differ from command to command.
 struct ThicknessArguments {

@@ -92,7 +92,9 @@ void make_volume_file(const CommandArguments& arguments) {
         throw Error(fmt::format("--output: '{}': volumes are written as .vdb", arguments.output));
     check_outputs({arguments.output}, {arguments.source});
     const Scene scene = load_given_scene(arguments.source, arguments.how);
-    const VoxelizedScene made = make_volume_of(scene, arguments);
+    VoxelizedScene made = make_volume_of(scene, arguments);
+    // Back to the file's world. Rounding moves the volume as a whole, by half the spacing of floats there at most.
+    made.volume.low = glm::dvec3(made.volume.low) + scene.origin;
     save_volume(arguments.output, made.volume,
                 {.double_precision = arguments.double_precision, .compress = !arguments.uncompressed});
     print_volume(made.volume);

@@ -39,7 +39,7 @@ bool is_vdb(const std::string& source) { return lower_extension(source) == ".vdb
 /// SOURCE[@X,Y,Z[,SCALE]]
 struct PlacedVolume {
     std::string source;
-    glm::vec3 position{0.0f};
+    glm::dvec3 position{0.0};  ///< in the file's world, m
     float scale = 1.0f;
 };
 
@@ -51,7 +51,7 @@ PlacedVolume parse_placed_volume(const std::string& text) {
     const std::string numbers = text.substr(at + 1);
     const auto count = std::size_t(std::count(numbers.begin(), numbers.end(), ',')) + 1;
     const std::vector<double> v = parse_numbers("--add-volume", numbers, std::clamp<std::size_t>(count, 3, 4));
-    placed.position = {float(v[0]), float(v[1]), float(v[2])};
+    placed.position = {v[0], v[1], v[2]};
     if (v.size() > 3) placed.scale = float(v[3]);
     if (!(placed.scale > 0.0f)) throw Error(fmt::format("--add-volume: '{}': the scale must be above 0", text));
     return placed;
@@ -98,7 +98,8 @@ void add_volumes(Scene& scene, const VolumeArguments& arguments) {
         VolumeObject object = std::move(added.volume_objects.front());
         object.volume = int(scene.volumes.size());
         object.world_from_volume = glm::mat4(placed.scale);
-        object.world_from_volume[3] = glm::vec4(placed.position, 1.0f);
+        const glm::dvec3 origin = placed.position + double(placed.scale) * added.origin;
+        object.world_from_volume[3] = glm::vec4(origin - scene.origin, 1.0);
         scene.volumes.push_back(std::move(added.volumes.front()));
         scene.volume_objects.push_back(std::move(object));
     }

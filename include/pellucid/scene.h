@@ -136,9 +136,9 @@ struct Rig;
 struct Scene {
     std::string source;  ///< what load_scene was given
     /// World position, m, of the origin of the frame in which all transforms, cameras and lights of the scene are
-    /// given. Not 0 where a file's content lies far from the file's own origin (more than 8 radii): 32-bit numbers
-    /// are too coarse there. A position of the file's world minus this one belongs into the scene, and the other way
-    /// round; renderer and tracers never add it.
+    /// given. Not 0 where a file's content lies more than 8 radii from the file's own origin: 32-bit numbers are too
+    /// coarse there. Subtract it, in double precision, from a position of the file's world to get one of the scene.
+    /// "World" in the descriptions of scenes, renderer and tracers means this frame.
     glm::dvec3 origin{0.0};
     std::vector<Image> images;
     std::vector<std::string> image_names;  ///< one per image, for messages
@@ -154,7 +154,7 @@ struct Scene {
     std::uint64_t triangle_count() const;  ///< over all objects; instances count each time
 };
 
-/// Sphere around a set of objects, in world coordinates, and their axis-aligned box about the same centre.
+/// Sphere around a set of objects, in the scene's frame, and their axis-aligned box about the same centre.
 struct Bounds {
     glm::vec3 center{0.0f};
     float radius = 0.0f;

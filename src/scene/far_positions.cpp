@@ -23,6 +23,8 @@ void Box::add(const Box& box, const glm::dmat4& transform) {
     }
 }
 
+double Box::extent() const { return empty() ? 0.0 : largest(high - low); }
+
 Box box_of(std::span<const glm::vec3> positions) {
     Box box;
     for (const glm::vec3& p : positions) box.add(glm::dvec3(p));
@@ -51,10 +53,10 @@ glm::dvec3 recentre(Mesh& mesh) {
 void CoarsePositions::add(const std::string& mesh, const Box& box, double scale) {
     if (box.empty()) return;
     const glm::dvec3 center = 0.5 * (box.low + box.high);
-    const double extent = largest(box.high - box.low);
+    const double extent = box.extent();
     const auto farthest = static_cast<float>(largest(glm::abs(center)));
     const double spacing = double(std::nextafter(farthest, std::numeric_limits<float>::infinity())) - double(farthest);
-    if (!(extent > 0.0) || !(spacing > ratio_ * extent)) return;
+    if (!(extent > 0.0) || !(spacing > ratio_ * extent) || !(spacing * scale > smallest_spacing_)) return;
     mesh_ = mesh;
     ratio_ = spacing / extent;
     distance_ = glm::length(center) * scale;

@@ -24,6 +24,7 @@ struct Box {
     /// Adds the corners of `box`, transformed.
     void add(const Box& box, const glm::dmat4& transform);
     bool empty() const { return !(low.x <= high.x); }
+    double extent() const;  ///< the longest side
 };
 Box box_of(std::span<const glm::vec3> positions);
 
@@ -35,17 +36,21 @@ glm::dvec3 frame_origin(const Box& box);
 /// Subtracts the frame_origin() of the mesh's box from its positions, and returns it. Exact.
 glm::dvec3 recentre(Mesh& mesh);
 
-/// Finds the mesh whose 32-bit positions are the coarsest for its size.
+/// Finds the mesh whose 32-bit positions are the coarsest for its size. A small part of a scene about its origin does
+/// not count: floats must be spaced by more than 1e-6 of the mesh's extent and by more than 1e-7 of the scene's.
 class CoarsePositions {
 public:
+    explicit CoarsePositions(double scene_extent) : smallest_spacing_(1e-7 * scene_extent) {}  ///< m
+
     /// `box`: the mesh's, as stored in the file; `scale`: metres per unit of it.
     void add(const std::string& mesh, const Box& box, double scale);
-    /// Names the worst mesh whose floats are spaced by more than 1e-6 of its extent, if any.
+    /// Names that mesh, if there is one.
     void warn(Warnings& warnings) const;
 
 private:
+    double smallest_spacing_;
     std::string mesh_;
-    double ratio_ = 1e-6;  ///< spacing by extent
+    double ratio_ = 1e-6;                    ///< spacing by extent
     double distance_ = 0.0, spacing_ = 0.0;  ///< m
 };
 

@@ -78,37 +78,44 @@ private:
 
     /// Moves vertices that are stored far from their origin to it, and chooses Scene::origin.
     void choose_frame(const NodePose& pose) {
+        std::vector<Box> boxes;  // of the meshes, as stored
+        for (const Mesh& mesh : scene_.meshes) boxes.push_back(box_of(mesh.positions));
         std::vector<char> deforms(scene_.meshes.size(), 0);
         for (const DeformedMesh& mesh : rig_.meshes) deforms[std::size_t(mesh.mesh)] = 1;
-        std::vector<Box> stored;
-        std::vector<glm::dvec3> origins;
-        for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
-            stored.push_back(box_of(scene_.meshes[m].positions));
-            origins.push_back(deforms[m] ? glm::dvec3(0.0) : recentre(scene_.meshes[m]));
-        }
-        CoarsePositions coarse;
+        std::vector<glm::dvec3> origins(scene_.meshes.size(), glm::dvec3(0.0));
+        for (std::size_t m = 0; m < origins.size(); ++m)
+            if (!deforms[m]) origins[m] = recentre(scene_.meshes[m]);
+
         Box world;
-        std::vector<char> placed_by_node(scene_.objects.size(), 0);
+        std::vector<char> goes_with_node(scene_.objects.size(), 0);
         for (NodeObject& object : rig_.objects) {
-            const auto mesh = std::size_t(scene_.objects[std::size_t(object.object)].mesh);
-            const glm::dmat4& world_from_node = pose.world_from_node[std::size_t(object.node)];
-            placed_by_node[std::size_t(object.object)] = 1;
-            object.mesh_origin = origins[mesh];
-            world.add(stored[mesh], world_from_node);
-            coarse.add(scene_.meshes[mesh].name, stored[mesh], std::cbrt(std::abs(glm::determinant(world_from_node))));
+            const int mesh = scene_.objects[std::size_t(object.object)].mesh;
+            goes_with_node[std::size_t(object.object)] = 1;
+            object.mesh_origin = origins[std::size_t(mesh)];
+            world.add(boxes[std::size_t(mesh)], pose.world_from_node[std::size_t(object.node)]);
         }
-        for (const DeformedMesh& mesh : rig_.meshes)
-            if (const Mesh& base = rig_.shapes[mesh.shape].base; mesh.skin >= 0)
-                coarse.add(base.name, box_of(base.positions), 1.0);
         for (std::size_t i = 0; i < scene_.objects.size(); ++i)
-            if (!placed_by_node[i]) world.add(stored[std::size_t(scene_.objects[i].mesh)], glm::dmat4(1.0));
+            if (!goes_with_node[i]) world.add(boxes[std::size_t(scene_.objects[i].mesh)], glm::dmat4(1.0));
         for (std::size_t i = 0; i < scene_.volume_objects.size(); ++i) {
             const Volume& volume = *scene_.volumes[std::size_t(scene_.volume_objects[i].volume)];
             const Box box{.low = volume.low, .high = volume.high()};
             world.add(box, pose.world_from_node[std::size_t(volume_nodes_[i])]);
         }
-        coarse.warn(warnings_);
         scene_.origin = frame_origin(world);
+        warn_about_coarse_positions(pose, boxes, world.extent());
+    }
+
+    void warn_about_coarse_positions(const NodePose& pose, const std::vector<Box>& boxes, double scene_extent) {
+        CoarsePositions coarse(scene_extent);
+        for (const NodeObject& object : rig_.objects) {
+            const auto mesh = std::size_t(scene_.objects[std::size_t(object.object)].mesh);
+            const double volume = glm::determinant(pose.world_from_node[std::size_t(object.node)]);
+            coarse.add(scene_.meshes[mesh].name, boxes[mesh], std::cbrt(std::abs(volume)));
+        }
+        for (const DeformedMesh& mesh : rig_.meshes)
+            if (const Mesh& base = rig_.shapes[mesh.shape].base; mesh.skin >= 0)
+                coarse.add(base.name, box_of(base.positions), 1.0);
+        coarse.warn(warnings_);
     }
 
     /// Transforms in the frame that was chosen.
@@ -116,8 +123,7 @@ private:
         for (const NodeObject& object : rig_.objects)
             scene_.objects[std::size_t(object.object)].world_from_object = world_from_object(pose, object);
         for (std::size_t i = 0; i < scene_.volume_objects.size(); ++i)
-            scene_.volume_objects[i].world_from_volume =
-                glm::mat4(pose.world_from_node[std::size_t(volume_nodes_[i])]);
+            scene_.volume_objects[i].world_from_volume = glm::mat4(pose.world_from_node[std::size_t(volume_nodes_[i])]);
         if (scene_.origin == glm::dvec3(0.0)) return;
         for (const DeformedMesh& mesh : rig_.meshes) {
             if (mesh.skin < 0) continue;

@@ -136,8 +136,8 @@ Mesh merge_parts(const std::filesystem::path& file, const aiScene& scene, Leftov
     }
     for (const glm::vec3 p : mesh.positions)
         if (!std::isfinite(p.x + p.y + p.z)) fail(file, "a transformed position is not finite");
-    const bool all_zero = std::all_of(mesh.normals.begin(), mesh.normals.end(),
-                                      [](const glm::vec3& n) { return n == glm::vec3(0.0f); });
+    const bool all_zero =
+        std::all_of(mesh.normals.begin(), mesh.normals.end(), [](const glm::vec3& n) { return n == glm::vec3(0.0f); });
     if (all_zero) mesh.normals.clear();
     return mesh;
 }
@@ -175,8 +175,9 @@ MeshFile load_mesh_file(const std::filesystem::path& file, Warnings& warnings) {
     if (leftovers.points + leftovers.lines > 0)
         warnings.add(fmt::format("{}: {} points and {} lines left out", mesh.name, leftovers.points, leftovers.lines));
     join_identical_vertices(mesh);
-    CoarsePositions coarse;
-    coarse.add(mesh.name, box_of(mesh.positions), 1.0);
+    const Box box = box_of(mesh.positions);
+    CoarsePositions coarse(box.extent());
+    coarse.add(mesh.name, box, 1.0);
     coarse.warn(warnings);
     result.origin += recentre(mesh);
     return result;

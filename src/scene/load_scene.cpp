@@ -5,6 +5,7 @@
 #include "core/file_extension.h"
 #include "core/math.h"
 #include "scene/animation_names.h"
+#include "scene/far_positions.h"
 #include "scene/load_gltf.h"
 #include "scene/load_mesh_file.h"
 #include "scene/mesh_repair.h"
@@ -67,6 +68,8 @@ Scene glass_scene(Mesh mesh, const LoadOptions& options, bool keep_normals, Warn
 
 Scene volume_scene(Volume volume) {
     Scene scene;
+    scene.origin = frame_origin({.low = volume.low, .high = volume.high()});
+    volume.low = glm::dvec3(volume.low) - scene.origin;
     VolumeObject object;
     object.name = volume.name;
     scene.volume_objects.push_back(std::move(object));
