@@ -98,6 +98,7 @@ Scene load_by_kind(const std::string& source, const LoadOptions& options, Warnin
         if (facets && how.crease_angle == kCreasesByShell) how.crease_angle = 0.0f;
         Scene scene = glass_scene(std::move(content.mesh), how, keep_normals, warnings);
         scene.origin = content.origin;
+        if (facets) join_identical_vertices(scene.meshes.front());  // of facets in one plane
         return scene;
     }
     fail(file, fmt::format("unknown kind of file \"{}\" (known: .gltf, .glb, .vdb, {}, shape:NAME or volume:NAME)",

@@ -35,6 +35,13 @@ std::optional<double> number(std::string_view token) {
     return value;
 }
 
+/// 0 where it is none.
+std::uint64_t count_of(std::string_view token) {
+    std::uint64_t count = 0;
+    const auto [last, error] = std::from_chars(token.data(), token.data() + token.size(), count);
+    return error == std::errc() && last == token.data() + token.size() ? count : 0;
+}
+
 /// Walks through the words of a text.
 class Words {
 public:
@@ -118,10 +125,8 @@ bool visit_off(std::string_view text, Visit&& visit) {
         }
         if (head) {
             head = false;
-            const std::optional<double> count = number(word);
-            right = count.has_value();
-            left = right ? std::uint64_t(*count) : 0;
-            return right && left > 0;
+            left = count_of(word);
+            return left > 0;
         }
         Words coordinates(line, begin, line.size());
         const std::optional<TextPosition> position = take_position(coordinates);
@@ -167,7 +172,7 @@ std::optional<PlyLayout> ply_layout(std::string_view text) {
         if (word == "format") layout.format = second;
         if (word == "element" && ++elements == 1) {
             right = second == "vertex";
-            layout.vertices = std::uint64_t(number(third).value_or(0.0));
+            layout.vertices = count_of(third);
         }
         if (word == "property" && elements == 1) {
             right = right && second != "list";
