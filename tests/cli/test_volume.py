@@ -66,7 +66,7 @@ class VolumeFiles(VolumeHelpers, CliTest):
         described = self.make("shape:sphere", "--resolution", "24", "--scattering", "3", "--mean-cosine", "0.5",
                               "--noise", "1", "--coverage-samples", "2", "--smoothing", "0")
         self.assertRegex(described, r"24 x 24 x 24 voxels")
-        self.assertRegex(described, r"(?m)^g: 0 to 0\.5$")
+        self.assertRegex(described, r"(?m)^g: 0\.5 to 0\.5$")
         self.assertGreater(float(re.search(r"(?m)^sigma_s: .* to \((\S+),", described)[1]), 3.2)
 
     def test_grids_of_other_tools(self):
