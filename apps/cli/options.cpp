@@ -37,9 +37,10 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
         ->type_name("R,G,B");
     add_number(command, "--attenuation-distance", arguments.attenuation_distance, "Metres after which that is left")
         ->type_name("M");
-    add_number(command, "--crease-angle", arguments.crease_angle_deg,
-               "Made normals are smooth across edges bent less than this, degrees; default: where the bends of a shell "
-               "leave a gap; 0 for .stl")
+    add_number(
+        command, "--crease-angle", arguments.crease_angle_deg,
+        "Made normals are smooth across edges bent less than this, degrees; default: each shell's own, in a gap of "
+        "its bends if there is one; 0 for .stl")
         ->type_name("DEG")
         ->check(CLI::Range(0.0, 180.0));
     command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");

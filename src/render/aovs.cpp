@@ -15,7 +15,8 @@ namespace {
 constexpr std::array kAovs = {
     AovInfo{"exit-direction", 3,
             "unit world direction in which the path leaves the glass; the view ray where there is none"},
-    AovInfo{"exit-position", 3, "world position of the path's last interface, m; the eye where there is no glass"},
+    AovInfo{"exit-position", 3,
+            "position of the path's last interface, m, without the scene's origin; the eye where there is no glass"},
     AovInfo{"exit-object", 1, "index of the opaque object that the path ends on; -1: it leaves into the environment"},
     AovInfo{"path-length", 1, "length of the path inside glass, m"},
     AovInfo{"events", 2, "interface events on the path; total internal reflections among them"},

@@ -106,13 +106,14 @@ bool visit_obj(std::string_view text, Visit&& visit) {
 
 template <class Visit>
 bool visit_off(std::string_view text, Visit&& visit) {
-    const auto plain_line = [&](std::size_t begin, std::size_t end) {
-        return text.substr(0, std::min(text.find('#', begin), end));
+    const auto without_comment = [&](std::size_t begin, std::size_t end) {
+        const std::size_t length = text.substr(begin, end - begin).find('#');
+        return text.substr(0, length == text.npos ? end : begin + length);
     };
     std::uint64_t left = 0;
     bool known = false, head = true, right = true;
     for_each_line(text, 0, [&](std::size_t begin, std::size_t end) {
-        const std::string_view line = plain_line(begin, end);
+        const std::string_view line = without_comment(begin, end);
         Words words(line, begin, line.size());
         std::string_view word = words.next();
         if (word.empty()) return true;

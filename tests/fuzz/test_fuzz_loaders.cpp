@@ -146,6 +146,19 @@ std::string ply(bool binary) {
     return bytes;
 }
 
+/// Far from its origin, in double precision.
+std::string far_ply() {
+    std::string bytes =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty uchar label\nproperty double x\n"
+        "property double y\nproperty double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const auto& p : kPositions) {
+        bytes += '\7';
+        for (const float coordinate : p) append(bytes, 1e6 + double(coordinate));
+    }
+    for (const auto& triangle : kTriangles) append(bytes += '\3', triangle);
+    return bytes;
+}
+
 std::string stl(bool binary) {
     std::string bytes = binary ? std::string(80, ' ') + std::string("\4\0\0\0", 4) : "solid a\n";
     for (const auto& triangle : kTriangles) {
@@ -253,6 +266,17 @@ TEST(FuzzMeshes, Obj) {
 }
 TEST(FuzzMeshes, PlyAscii) { fuzz("ascii.ply", ply(false), load_checked); }
 TEST(FuzzMeshes, PlyBinary) { fuzz("binary.ply", ply(true), load_checked); }
+TEST(FuzzMeshes, FarPly) { fuzz("far.ply", far_ply(), load_checked); }
+TEST(FuzzMeshes, FarObj) {
+    fuzz("far.obj",
+         "v 1e6 2e6 -3e6 1\nv 1000001 2e6 -3e6 0.5\nv 1e6 2000001 -3e6\nv 1e6 2e6 -2999999.0 0.1 0.2 0.3\n"
+         "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n",
+         load_checked);
+}
+TEST(FuzzMeshes, FarOff) {
+    fuzz("far.off", "OFF 4 4 6\n1e6 0 0\n1000001 0 0 # far\n1e6 1 0\n1e6 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n",
+         load_checked);
+}
 TEST(FuzzMeshes, Off) {
     fuzz("a.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n", load_checked);
 }

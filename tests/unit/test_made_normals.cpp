@@ -94,7 +94,7 @@ TEST(MadeNormals, AnglesOfShellsKeepWhatIsSharp) {
 }
 
 TEST(MadeNormals, CoarseSpheresStaySmooth) {
-    for (const int segments : {16, 24, 64}) {
+    for (const int segments : {10, 16, 24, 64}) {
         const Mesh ball = with_made_normals(sphere(segments));
         EXPECT_EQ(ball.positions.size(), sphere(segments).positions.size());
         Mesh smooth = sphere(segments);
