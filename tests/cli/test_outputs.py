@@ -171,6 +171,7 @@ class Json(CliTest):
         self.assertEqual(described["version"], self.run_cli("--version").stdout.strip())
         self.assertEqual((described["width"], described["height"]), (16, 16))
         self.assertGreater(described["triangles"], 100)
+        self.assertEqual(described["origin"], [0, 0, 0])
         self.assertGreater(described["covered"], 0)
         self.assertEqual(list(described["status"]), STATUS)
         self.assertAlmostEqual(sum(described["status"].values()), 1)

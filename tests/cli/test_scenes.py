@@ -116,6 +116,18 @@ class Animations(CliTest):
         for same in (["--time", "2"], ["--animation", "0", "--time", "99.5"]):
             self.assertEqual(moved, self.picture(*same))
 
+    def test_info_of_a_scene_far_away(self):
+        vertices = "".join(f"v {431000.125 + x} {5412000.5 + y} {120.25 + z}\n"
+                           for x, y, z in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)))
+        self.write("far.obj", vertices + TETRAHEDRON[TETRAHEDRON.index("f"):])
+        result = self.run_cli("info", "far.obj", "--add-volume", "volume:luneburg,resolution=8@431002,5412001,121")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = result.stdout.splitlines()
+        self.assertEqual(lines[2], "origin: 431000.5 5412001 121 m, subtracted from all positions")
+        low = [float(number) for number in lines[1].split()[1:4]]
+        self.assertEqual(low, [431000.125, 5411999.9375, 119.9375], "the lens reaches 1.0625 from its centre")
+        self.assertEqual(result.stderr, "")
+
     def test_info(self):
         self.animated()
         result = self.run_cli("info", "a.gltf")
