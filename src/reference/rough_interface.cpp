@@ -7,9 +7,10 @@
 namespace pellucid::reference {
 namespace {
 
-/// Bound on the facets of one walk, against endless loops by rounding. The longest of 10^8 walks met 250.
+/// Bound on the facets of one walk, against endless loops by rounding. The longest of 3.6e7 walks met 22, over
+/// indices of 1.2 to 2.42 and roughnesses of 0.2 to 1.
 constexpr int kMaxFacets = 100000;
-/// Levels stay above this, from where a walk can come back. One double below 1 is as far from 1.
+/// Lowest level, about the distance from 1 to the double below. No walk could come back from a level of 0.
 constexpr double kLowest = 1e-16;
 
 glm::dvec3 to_other_side(const glm::dvec3& w) { return {w.x, w.y, -w.z}; }
@@ -36,7 +37,7 @@ Incidence RoughInterface::at_facet(const Ray& ray, const glm::dvec3& m) const {
 /// Smith's probability that nothing lies between the level c and a higher one d, in direction w, is
 /// (c / d)^lambda(w), and going down from c to d it is (d / c)^(1 + lambda(w)).
 bool RoughInterface::reaches_facet(Ray& ray, Random& random) const {
-    const double clear = 1.0 - random.next();  // probability of a clear way to the facet, 0 < clear <= 1
+    const double clear = 1.0 - random.next();  // probability that nothing is on the way, 0 < clear <= 1
     const double lambda = facets_.lambda(ray.direction);
     if (ray.direction.z > 0.0) {
         if (clear <= std::pow(ray.level, lambda)) return false;
@@ -65,6 +66,7 @@ void RoughInterface::scatter(Ray& ray, Random& random) const {
 glm::dvec3 RoughInterface::sample(const glm::dvec3& wo, Random& random) const {
     Ray ray{-wo};
     for (int facet = 0; facet < kMaxFacets && reaches_facet(ray, random); ++facet) scatter(ray, random);
+    ray.direction.z = std::abs(ray.direction.z);  // A walk that reached the bound can point at the surface.
     return ray.outside ? ray.direction : to_other_side(ray.direction);
 }
 
@@ -98,7 +100,7 @@ double RoughInterface::single(const glm::dvec3& wo, const glm::dvec3& wi) const 
     // the probability c^lambda_i, on the other side (1 - c)^lambda_i. Both integrals have a closed form.
     const double lambda_o = facets_.lambda(wo), lambda_i = facets_.lambda(wi);
     if (wi.z > 0.0) return reflected_density(ray, wi) * (1.0 + lambda_o) / (1.0 + lambda_o + lambda_i);
-    // Near the horizon lgamma() cancels. A direction so low gets no light worth a number.
+    // Near the horizon lgamma() cancels. Directions within 1e-7 alpha of it get no light that matters.
     constexpr double kMost = 1e7;
     if (std::max(lambda_o, lambda_i) > kMost) return 0.0;
     return refracted_density(ray, wi) * (1.0 + lambda_o) * beta(1.0 + lambda_o, 1.0 + lambda_i);
@@ -139,8 +141,6 @@ double RoughInterface::multiple(const glm::dvec3& wo, const glm::dvec3& wi, Rand
     return walk_towards(wo, wi, reversal, random) + reversal * walk_towards(wi, wo, 1.0 / reversal, random);
 }
 
-double RoughInterface::mis_density(double single) const {
-    return single + 1.0 / (std::numbers::pi * facets_.alpha);
-}
+double RoughInterface::mis_density(double single) const { return single + 1.0 / (std::numbers::pi * facets_.alpha); }
 
 }  // namespace pellucid::reference
