@@ -70,8 +70,8 @@ public:
         user_ = fmt::format("material {}", material.name);
         if (from.name.empty()) user_ = material.name;
         read_surface(from, material);
-        read_alpha(from, material);
         read_glass(from.extensions, material);
+        read_alpha(from, material);
         read_diffuse_transmission(from.extensions, material);
         warn_about_unused_textures(from);
         return material;
@@ -111,6 +111,10 @@ private:
         if (from.alphaMode == "MASK") {
             // A cutoff of 0 keeps every fragment; the largest alpha is 1.
             material.alpha_cutoff = in_range(from.alphaCutoff, 0.0, 2.0, "alphaCutoff");
+        } else if (from.alphaMode == "BLEND" && material.transmissive()) {
+            // Alpha is coverage, transmission is glass: files of glass often have both, and a low alpha.
+            if (material.base_color.a < 1.0f || material.base_color_texture.image >= 0)
+                warnings_.add(fmt::format("{}: alpha is left out, glass is drawn at full coverage", user_));
         } else if (from.alphaMode == "BLEND") {
             material.alpha_cutoff = 0.5f;
             warnings_.add(fmt::format("{}: alpha blending is drawn cut out at 0.5", user_));

@@ -1,6 +1,7 @@
 #include "scene/mesh_repair.h"
 
 #include "scene/mesh_normals.h"
+#include "scene/orient_shells.h"
 
 #include <fmt/format.h>
 
@@ -80,7 +81,8 @@ bool zero_area(const Mesh& mesh, glm::uvec3 t) {
 bool check_solid(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
     // Edges are counted before triangles are dropped: a triangle squeezed to a line leaves no gap
     // in the surface, though its neighbours no longer share an edge.
-    const EdgeCounts edges = count_edges(mesh.triangles, weld_positions(mesh.positions));
+    const std::vector<std::uint32_t> weld = weld_positions(mesh.positions);
+    const EdgeCounts edges = count_edges(mesh.triangles, weld);
     if (const std::size_t dropped = origin.deforms ? 0 : drop_zero_area_triangles(mesh))
         warnings.add(
             fmt::format("{}: {} triangle{} without area left out", mesh.name, dropped, dropped == 1 ? "" : "s"));
@@ -95,8 +97,16 @@ bool check_solid(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
                         "and outside are mixed up there",
                         mesh.name, edges.miswound));
 
-    // The whole mesh is judged, not each of its parts: the inner wall of a hollow body is rightly
-    // wound the other way round. An open sheet has no volume whose sign could be believed.
+    // Shells are judged one by one, but for meshes that deform: their morph targets have one sign for all normals.
+    if (!origin.deforms) {
+        const ShellOrientation shells = orient_shells(mesh, weld);
+        if (shells.turned > 0)
+            warnings.add(fmt::format("{}: {} of {} shells wound inside out, turned", mesh.name, shells.turned,
+                                     shells.shells));
+        if (shells.shells > 1 && shells.all_closed) return false;
+    }
+
+    // A single shell, or one with holes, is judged as a whole. An open sheet has no volume whose sign could be believed.
     const SignedVolume volume = signed_volume(mesh);
     if (!(volume.value < 0.0 && volume.meaningful())) return false;
     turn_inside_out(mesh);

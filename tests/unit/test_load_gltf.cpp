@@ -315,6 +315,18 @@ TEST(LoadGltf, ValuesOutOfRangeAreClampedWithAWarning) {
     EXPECT_NE(warnings.at(0).find("cut out at 0.5"), std::string::npos);
 }
 
+TEST(LoadGltf, GlassWithAlphaBlendingIsNotCutOut) {
+    json glass = extension("KHR_materials_transmission", {{"transmissionFactor", 1}});
+    glass["alphaMode"] = "BLEND";
+    std::vector<std::string> warnings;
+    EXPECT_EQ(material_of(glass, &warnings).alpha_cutoff, 0.0f);
+    EXPECT_TRUE(warnings.empty()) << "alpha is 1";
+    glass["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 1, 1, 0.25}}};
+    EXPECT_EQ(material_of(glass, &warnings).alpha_cutoff, 0.0f);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("full coverage"), std::string::npos);
+}
+
 TEST(LoadGltf, DiffuseTransmission) {
     const json volume = {{"attenuationDistance", 2}, {"attenuationColor", {0.5, 0.25, 1}}};
     const json wax = {{"pbrMetallicRoughness", {{"metallicFactor", 0}}},

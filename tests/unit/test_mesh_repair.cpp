@@ -148,6 +148,34 @@ TEST(MeshRepair, HollowBodyIsNotTurned) {
     EXPECT_NEAR(signed_volume(hollow).value, 1.0 - 0.125, 1e-6);
 }
 
+TEST(MeshRepair, EveryShellIsTurnedOnItsOwn) {
+    Mesh inverted = cube(1.0f, {3, 0, 0});
+    turn_inside_out(inverted);
+    for (const bool first : {false, true}) {
+        Mesh bodies = first ? joined(inverted, cube()) : joined(cube(), inverted);
+        EXPECT_EQ(repair(bodies, false), (std::vector<std::string>{"cube: 1 of 2 shells wound inside out, turned"}));
+        EXPECT_NEAR(signed_volume(bodies).value, 2.0, 1e-6);
+        EXPECT_FALSE(normals_oppose_winding(bodies));
+    }
+}
+
+TEST(MeshRepair, InwardShellThatCrossesAnotherIsNoCavity) {
+    Mesh inverted = cube(1.0f, {0.5f, 0.25f, 0.125f});
+    turn_inside_out(inverted);
+    Mesh bodies = joined(cube(), inverted);
+    EXPECT_EQ(repair(bodies).size(), 1u);
+    EXPECT_NEAR(signed_volume(bodies).value, 2.0, 1e-6);
+}
+
+TEST(MeshRepair, InwardShellAroundACavityIsTurnedAlone) {
+    Mesh outer = cube(), inner = cube(0.5f);
+    turn_inside_out(outer);
+    turn_inside_out(inner);
+    Mesh hollow = joined(outer, inner);
+    EXPECT_EQ(repair(hollow).size(), 1u);
+    EXPECT_NEAR(signed_volume(hollow).value, 1.0 - 0.125, 1e-6) << "the inner wall still bounds a cavity";
+}
+
 TEST(MeshRepair, NearlyClosedIsTurnedButASheetIsNot) {
     Mesh holed = cube();
     holed.triangles.pop_back();
