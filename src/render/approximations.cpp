@@ -68,4 +68,16 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
     return lines;
 }
 
+std::optional<std::string> bad_status_warning(const RenderResult& result, const TechniqueInfo& technique) {
+    const std::uint64_t bad = result.covered - result.status[std::size_t(Status::kOk)];
+    if (100 * bad <= result.covered) return std::nullopt;
+    std::string causes;
+    for (std::size_t status = 0; status < result.status.size(); ++status) {
+        if (Status(status) == Status::kOk || result.status[status] == 0) continue;
+        causes += fmt::format("{}{} {}", causes.empty() ? "" : ", ", result.status[status], status_name(Status(status)));
+    }
+    return fmt::format("{}: {} of {} glass pixels may be wrong by their status: {}", technique.name, bad,
+                       result.covered, causes);
+}
+
 }  // namespace pellucid

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <pellucid/renderer.h>
 #include <pellucid/scene.h>
 #include <pellucid/technique.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,5 +12,8 @@ namespace pellucid {
 
 /// What of `scene` the technique draws otherwise than it is: one line each, for the user.
 std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique);
+
+/// One line where more than 1% of the glass pixels have a status other than ok: how many, and of which status.
+std::optional<std::string> bad_status_warning(const RenderResult& result, const TechniqueInfo& technique);
 
 }  // namespace pellucid

@@ -256,6 +256,7 @@ Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const
     gpu::FrameConstants view{};
     std::memcpy(&view, constants->mapped(), sizeof(view));
     read_back(device, *images, view, scene->first_triangles, settings, result);
+    if (auto warning = bad_status_warning(result, chosen.technique.info)) result.warnings.push_back(*warning);
     result.layer_passes = layer_source.geometry_passes();
     result.cut_rays = solid_lighting.transmitted().cut_rays();
     if (result.cut_rays > 0) {

@@ -1,10 +1,10 @@
 #include "scene/crease_angles.h"
 
 #include "core/math.h"
+#include "scene/mesh_edges.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace pellucid {
 namespace {
@@ -13,19 +13,14 @@ constexpr float kLowestGap = 25.0f, kGapWidth = 15.0f, kHighestGapEnd = 90.0f;  
 constexpr float kFold = 150.0f;  // degrees; sheets folded back to back are no sign of creases
 constexpr std::size_t kAboveByInside = 10;
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-}
-
 /// For each welded vertex a vertex that stands for its shell.
 std::vector<std::uint32_t> shells(const Mesh& mesh, const std::vector<std::uint32_t>& weld) {
-    std::vector<std::uint32_t> parent(weld.size());
-    std::iota(parent.begin(), parent.end(), 0u);
+    DisjointSets sets(weld.size());
     for (const glm::uvec3 t : mesh.triangles)
-        for (int k = 1; k < 3; ++k) parent[root_of(parent, weld[t[k]])] = root_of(parent, weld[t.x]);
-    for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = root_of(parent, v);
-    return parent;
+        for (int k = 1; k < 3; ++k) sets.join(weld[t[k]], weld[t.x]);
+    std::vector<std::uint32_t> shell(weld.size());
+    for (std::uint32_t v = 0; v < shell.size(); ++v) shell[v] = sets.root(v);
+    return shell;
 }
 
 struct Bend {
@@ -36,18 +31,7 @@ struct Bend {
 /// One for each edge between two triangles, ordered by shell and size.
 std::vector<Bend> bends(const Mesh& mesh, const std::vector<std::uint32_t>& weld,
                         const std::vector<std::uint32_t>& shell) {
-    struct Side {
-        std::uint64_t edge;
-        std::uint32_t triangle;
-    };
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh.triangles.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const std::uint64_t a = weld[mesh.triangles[t][k]], b = weld[mesh.triangles[t][(k + 1) % 3]];
-            if (a != b) sides.push_back({std::min(a, b) << 32 | std::max(a, b), t});
-        }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.edge < b.edge; });
+    const std::vector<HalfEdge> sides = sorted_half_edges(mesh.triangles, weld);
     const auto area = [&](std::uint32_t triangle) {
         const glm::uvec3 t = mesh.triangles[triangle];
         const glm::dvec3 a = mesh.positions[t.x];
@@ -55,13 +39,13 @@ std::vector<Bend> bends(const Mesh& mesh, const std::vector<std::uint32_t>& weld
     };
     std::vector<Bend> result;
     for (std::size_t begin = 0, end; begin < sides.size(); begin = end) {
-        for (end = begin; end < sides.size() && sides[end].edge == sides[begin].edge;) ++end;
+        for (end = begin; end < sides.size() && sides[end].ends == sides[begin].ends;) ++end;
         if (end - begin != 2) continue;
         const glm::dvec3 a = area(sides[begin].triangle), b = area(sides[begin + 1].triangle);
         const double scale = glm::length(a) * glm::length(b);
         if (!(scale > 0.0)) continue;
         const double angle = std::acos(std::clamp(glm::dot(a, b) / scale, -1.0, 1.0));
-        result.push_back({shell[std::uint32_t(sides[begin].edge)], degrees_from_radians(float(angle))});
+        result.push_back({shell[std::uint32_t(sides[begin].ends)], degrees_from_radians(float(angle))});
     }
     std::sort(result.begin(), result.end(), [](const Bend& a, const Bend& b) {
         return a.shell != b.shell ? a.shell < b.shell : a.degrees < b.degrees;

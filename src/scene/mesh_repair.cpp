@@ -83,6 +83,9 @@ bool check_solid(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
     // in the surface, though its neighbours no longer share an edge.
     const std::vector<std::uint32_t> weld = weld_positions(mesh.positions);
     const EdgeCounts edges = count_edges(mesh.triangles, weld);
+    // Shells are judged one by one, but for meshes that deform: their morph targets have one sign for all normals.
+    ShellOrientation shells;
+    if (!origin.deforms) shells = orient_shells(mesh, weld);
     if (const std::size_t dropped = origin.deforms ? 0 : drop_zero_area_triangles(mesh))
         warnings.add(
             fmt::format("{}: {} triangle{} without area left out", mesh.name, dropped, dropped == 1 ? "" : "s"));
@@ -97,14 +100,10 @@ bool check_solid(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
                         "and outside are mixed up there",
                         mesh.name, edges.miswound));
 
-    // Shells are judged one by one, but for meshes that deform: their morph targets have one sign for all normals.
-    if (!origin.deforms) {
-        const ShellOrientation shells = orient_shells(mesh, weld);
-        if (shells.turned > 0)
-            warnings.add(fmt::format("{}: {} of {} shells wound inside out, turned", mesh.name, shells.turned,
-                                     shells.shells));
-        if (shells.shells > 1 && shells.all_closed) return false;
-    }
+    if (shells.turned > 0)
+        warnings.add(
+            fmt::format("{}: {} of {} shells wound inside out, turned", mesh.name, shells.turned, shells.shells));
+    if (shells.shells > 1 && shells.all_closed) return false;
 
     // A single shell, or one with holes, is judged as a whole. An open sheet has no volume whose sign could be believed.
     const SignedVolume volume = signed_volume(mesh);
@@ -189,22 +188,22 @@ std::size_t drop_zero_area_triangles(Mesh& mesh) {
     return std::erase_if(mesh.triangles, [&](glm::uvec3 t) { return zero_area(mesh, t); });
 }
 
-SignedVolume signed_volume(const Mesh& mesh) {
+SignedVolume signed_volume(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles) {
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-    for (const glm::uvec3 t : mesh.triangles) {
+    for (const glm::uvec3 t : triangles) {
         for (int k = 0; k < 3; ++k) {
-            low = glm::min(low, glm::dvec3(mesh.positions[t[k]]));
-            high = glm::max(high, glm::dvec3(mesh.positions[t[k]]));
+            low = glm::min(low, glm::dvec3(positions[t[k]]));
+            high = glm::max(high, glm::dvec3(positions[t[k]]));
         }
     }
-    if (mesh.triangles.empty()) return {};
+    if (triangles.empty()) return {};
     const glm::dvec3 center = 0.5 * (low + high);
     double volume = 0.0;
     glm::dvec3 area(0.0);
-    for (const glm::uvec3 t : mesh.triangles) {
-        const glm::dvec3 a = glm::dvec3(mesh.positions[t.x]) - center;
-        const glm::dvec3 b = glm::dvec3(mesh.positions[t.y]) - center;
-        const glm::dvec3 c = glm::dvec3(mesh.positions[t.z]) - center;
+    for (const glm::uvec3 t : triangles) {
+        const glm::dvec3 a = glm::dvec3(positions[t.x]) - center;
+        const glm::dvec3 b = glm::dvec3(positions[t.y]) - center;
+        const glm::dvec3 c = glm::dvec3(positions[t.z]) - center;
         volume += glm::dot(a, glm::cross(b, c)) / 6.0;
         area += 0.5 * glm::cross(b - a, c - a);
     }

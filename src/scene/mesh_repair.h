@@ -50,7 +50,8 @@ struct SignedVolume {
     double uncertainty = 0.0;
     bool meaningful() const { return std::abs(value) > uncertainty; }
 };
-SignedVolume signed_volume(const Mesh& mesh);
+SignedVolume signed_volume(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
+inline SignedVolume signed_volume(const Mesh& mesh) { return signed_volume(mesh.positions, mesh.triangles); }
 
 /// Exchanges inside and outside: winding and normals (if there are any).
 void turn_inside_out(Mesh& mesh);

@@ -2,13 +2,13 @@
 // "The solid angle of a plane triangle", IEEE Transactions on Biomedical Engineering 30(2), 1983.
 #include "scene/orient_shells.h"
 
+#include "scene/mesh_edges.h"
 #include "scene/mesh_repair.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -19,88 +19,53 @@ namespace {
 constexpr std::size_t kProbes = 8;
 
 struct Shell {
-    std::vector<std::uint32_t> triangles;
+    std::vector<std::uint32_t> triangles;  ///< Mesh::triangles
+    std::vector<glm::uvec3> corners;       ///< of each, Mesh::positions
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
     bool closed = true;
     bool inward = false;
 };
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-/// An edge of a triangle between welded vertices.
-struct Edge {
-    std::uint64_t ends;  ///< smaller vertex, larger vertex
-    std::uint32_t triangle;
-    bool forward;  ///< from the smaller to the larger vertex
-};
-
-std::vector<Edge> edges_of(const Mesh& mesh, std::span<const std::uint32_t> weld) {
-    std::vector<Edge> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (int k = 0; k < 3; ++k) {
-            const std::uint64_t a = weld[mesh.triangles[t][k]], b = weld[mesh.triangles[t][(k + 1) % 3]];
-            if (a != b) edges.push_back({a < b ? a << 32 | b : b << 32 | a, t, a < b});
-        }
-    }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-    return edges;
-}
-
 std::vector<Shell> shells_of(const Mesh& mesh, std::span<const std::uint32_t> weld) {
-    const std::vector<Edge> edges = edges_of(mesh, weld);
-    std::vector<std::uint32_t> parent(mesh.triangles.size()), open;
-    std::iota(parent.begin(), parent.end(), 0u);
+    const std::vector<HalfEdge> edges = sorted_half_edges(mesh.triangles, weld);
+    DisjointSets sets(mesh.triangles.size());
+    std::vector<std::uint32_t> open;
     for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
         int balance = 0;
         for (end = begin; end < edges.size() && edges[end].ends == edges[begin].ends; ++end) {
             balance += edges[end].forward ? 1 : -1;
-            parent[root_of(parent, edges[end].triangle)] = root_of(parent, edges[begin].triangle);
+            sets.join(edges[end].triangle, edges[begin].triangle);
         }
         if (balance != 0) open.push_back(edges[begin].triangle);
     }
     std::vector<std::uint32_t> shell_at(mesh.triangles.size(), std::numeric_limits<std::uint32_t>::max());
     std::vector<Shell> shells;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        std::uint32_t& number = shell_at[root_of(parent, t)];
+        std::uint32_t& number = shell_at[sets.root(t)];
         if (number == std::numeric_limits<std::uint32_t>::max()) {
             number = std::uint32_t(shells.size());
             shells.emplace_back();
         }
         Shell& shell = shells[number];
         shell.triangles.push_back(t);
+        shell.corners.push_back(mesh.triangles[t]);
         for (int k = 0; k < 3; ++k) {
             shell.low = glm::min(shell.low, glm::dvec3(mesh.positions[mesh.triangles[t][k]]));
             shell.high = glm::max(shell.high, glm::dvec3(mesh.positions[mesh.triangles[t][k]]));
         }
     }
-    for (const std::uint32_t triangle : open) shells[shell_at[root_of(parent, triangle)]].closed = false;
+    for (const std::uint32_t triangle : open) shells[shell_at[sets.root(triangle)]].closed = false;
     return shells;
-}
-
-double signed_volume_of(const Mesh& mesh, const Shell& shell) {
-    const glm::dvec3 center = 0.5 * (shell.low + shell.high);
-    double volume = 0.0;
-    for (const std::uint32_t t : shell.triangles) {
-        const glm::dvec3 a = glm::dvec3(mesh.positions[mesh.triangles[t].x]) - center;
-        const glm::dvec3 b = glm::dvec3(mesh.positions[mesh.triangles[t].y]) - center;
-        const glm::dvec3 c = glm::dvec3(mesh.positions[mesh.triangles[t].z]) - center;
-        volume += glm::dot(a, glm::cross(b, c)) / 6.0;
-    }
-    return volume;
 }
 
 /// How often the shell surrounds a point; the sign says which way round it is wound.
 double winding_number(const Mesh& mesh, const Shell& shell, const glm::dvec3& point) {
     double angle = 0.0;
-    for (const std::uint32_t t : shell.triangles) {
-        const glm::dvec3 a = glm::dvec3(mesh.positions[mesh.triangles[t].x]) - point;
-        const glm::dvec3 b = glm::dvec3(mesh.positions[mesh.triangles[t].y]) - point;
-        const glm::dvec3 c = glm::dvec3(mesh.positions[mesh.triangles[t].z]) - point;
+    for (const glm::uvec3 t : shell.corners) {
+        const glm::dvec3 a = glm::dvec3(mesh.positions[t.x]) - point;
+        const glm::dvec3 b = glm::dvec3(mesh.positions[t.y]) - point;
+        const glm::dvec3 c = glm::dvec3(mesh.positions[t.z]) - point;
         const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
         angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
                                   la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
@@ -120,7 +85,7 @@ bool enclosed(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& o
 bool is_cavity(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& own) {
     const std::size_t step = std::max<std::size_t>(own.triangles.size() / kProbes, 1);
     for (std::size_t i = 0; i < own.triangles.size(); i += step) {
-        const glm::uvec3 t = mesh.triangles[own.triangles[i]];
+        const glm::uvec3 t = own.corners[i];
         const glm::dvec3 middle =
             (glm::dvec3(mesh.positions[t.x]) + glm::dvec3(mesh.positions[t.y]) + glm::dvec3(mesh.positions[t.z])) / 3.0;
         if (!enclosed(mesh, shells, own, middle)) return false;
@@ -149,7 +114,7 @@ ShellOrientation orient_shells(Mesh& mesh, std::span<const std::uint32_t> weld) 
     std::vector<Shell> shells = shells_of(mesh, weld);
     std::vector<const Shell*> turned;
     if (shells.size() > 1) {
-        for (Shell& shell : shells) shell.inward = shell.closed && signed_volume_of(mesh, shell) < 0.0;
+        for (Shell& shell : shells) shell.inward = shell.closed && signed_volume(mesh.positions, shell.corners).value < 0.0;
         for (const Shell& shell : shells)
             if (shell.inward && !is_cavity(mesh, shells, shell)) turned.push_back(&shell);
         turn(mesh, turned);

@@ -1,6 +1,7 @@
 #include "closed_form/arrangement.h"
 
 #include "closed_form/random_solids.h"
+#include "unit/built_scenes.h"
 
 #include <fmt/format.h>
 
@@ -33,16 +34,18 @@ glm::dmat4 looking(const glm::dvec3& eye, const glm::dvec3& direction, const glm
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(eye, 1)};
 }
 
-/// From outside, towards the middle; from anywhere within; in parallel, from outside or through everything.
+/// Towards one of the solids from outside or from anywhere within, a solid too; in parallel, the image plane anywhere.
 View random_view(Random& random, const closed_form::Scene& scene, bool tidy) {
+    const std::vector<Shell>& aim = scene.bodies()[random.below(std::uint32_t(scene.bodies().size()))].shells;
+    const glm::dvec3 target(aim.front().world_from_shell[3]);
     View view;
     view.orthographic = random.chance(tidy ? 0.5 : 0.25);
     const bool within = random.chance(0.4);
     view.vertical_fov = random.between(within ? 0.7 : 0.4, within ? 1.5 : 0.7);
     view.vertical_extent = random.between(2.0, 3.5);
     for (int attempt = 0;; ++attempt) {
-        const glm::dvec3 eye = within ? 0.8 * random.in_ball() : random.between(3.0, 5.0) * random.direction();
-        glm::dvec3 ahead = within ? random.direction() : 0.4 * random.in_ball() - eye;
+        const glm::dvec3 eye = within ? 0.8 * random.in_ball() : target + random.between(2.0, 4.0) * random.direction();
+        glm::dvec3 ahead = target + (within ? 0.6 : 0.2) * random.in_ball() - eye;
         glm::dmat4 placed = looking(eye, ahead, random.direction());
         if (tidy && view.orthographic) {
             // Straight along an axis, the image's centre on it.
@@ -124,6 +127,15 @@ SolidFile solid_file(const Arrangement& arrangement, int ball_levels) {
     }
     file.camera(arrangement.view);
     return file;
+}
+
+Arrangement written_plainly(Arrangement arrangement) {
+    for (PlannedSolid& solid : arrangement.solids) {
+        solid.primitives = 1;
+        solid.double_sided = solid.miswound = false;
+        for (PlannedShell& shell : solid.shells) shell.written_inside_out = shell.written_twice = false;
+    }
+    return arrangement;
 }
 
 std::string describe(const Arrangement& arrangement) {

@@ -44,8 +44,10 @@ struct Arrangement {
 Arrangement make_arrangement(std::uint32_t seed);
 
 closed_form::Scene closed_form_scene(const Arrangement& arrangement);
-/// What the GLB file of an arrangement holds.
+/// The arrangement as a GLB file.
 SolidFile solid_file(const Arrangement& arrangement, int ball_levels = 5);
+/// The same arrangement with nothing for the loader to repair: one primitive a solid, every triangle once and outward.
+Arrangement written_plainly(Arrangement arrangement);
 /// Several lines: view, solids, shells.
 std::string describe(const Arrangement& arrangement);
 

@@ -224,7 +224,12 @@ std::optional<SolidChooser::Shells> SolidChooser::related(std::string& story) {
     const Shell& first = shells.front();
     const glm::dvec3 center(first.world_from_shell[3]);
     const double size = std::cbrt(std::abs(glm::determinant(glm::dmat3(first.world_from_shell))));
-    switch (random_.below(6)) {
+    // Few solids are hollow, so these are filled often.
+    if (shells.size() == 2 && shells[1].winding < 0 && random_.chance(0.7)) {
+        story = "fills a hollow";
+        return Shells{{shells[1].kind, shells[1].world_from_shell, 1}};
+    }
+    switch (random_.below(5)) {
         case 0:
             story = "in another";
             return Shells{shell(center + 0.2 * size * random_.in_ball(), 0.4 * size)};
@@ -232,12 +237,8 @@ std::optional<SolidChooser::Shells> SolidChooser::related(std::string& story) {
             story = "around another";
             return Shells{shell(center, std::min(1.8 * size, 1.2))};
         case 2:
-            story = "another at the same place";
+            story = other->story + ", another at the same place";
             return shells;
-        case 3:
-            if (shells.size() != 2 || shells[1].winding > 0) return std::nullopt;
-            story = "fills a hollow";
-            return Shells{{shells[1].kind, shells[1].world_from_shell, 1}};
         default:
             if (shells.size() != 1 || first.kind != ShellKind::kBox) return std::nullopt;
             return touching(*other, story);
@@ -259,7 +260,7 @@ closed_form::Medium SolidChooser::medium() {
     const PlannedSolid* const other = any_so_far();
     if (other && random_.chance(0.15)) return other->medium;
     closed_form::Medium medium;
-    const bool bubble = random_.chance(0.07);
+    const bool bubble = !single_ && random_.chance(0.05);
     const auto too_near = [&](const PlannedSolid& s) { return std::abs(s.medium.ior - medium.ior) < 0.03; };
     do medium.ior = bubble ? 1.0 : std::round(random_.between(1.1, 2.2) * 1000.0) / 1000.0;
     while (!bubble && std::any_of(so_far_.begin(), so_far_.end(), too_near));
@@ -291,13 +292,15 @@ void SolidChooser::write_oddly(PlannedSolid& solid) {
     const Shells shells = world_shells(solid);
     const bool hollow = std::any_of(shells.begin(), shells.end(), [](const Shell& s) { return s.winding < 0; });
     if (random_.chance(0.3)) solid.primitives = 2 + int(random_.below(2));
-    if (!hollow && random_.chance(0.08)) {
+    // Cubes that share a wall are one surface of the file: which way it should be turned is not for this test to say.
+    const bool walled = solid.story.find("face to face") != std::string::npos || (tidy_ && shells.size() > 1);
+    if (!hollow && !walled && random_.chance(0.08)) {
         solid.double_sided = true;
     } else if (shells.size() == 1 && random_.chance(0.12)) {
         solid.miswound = true;
-    } else if (!hollow && random_.chance(0.25)) {
+    } else if (!hollow && !walled && random_.chance(0.25)) {
         const std::size_t k = random_.below(std::uint32_t(shells.size()));
-        if (solid.story != "cubes face to face" && !inside_others(shells, k)) solid.shells[k].written_inside_out = true;
+        if (!inside_others(shells, k)) solid.shells[k].written_inside_out = true;
     }
     if (!solid.double_sided && random_.chance(0.1)) solid.shells.back().written_twice = true;
 }

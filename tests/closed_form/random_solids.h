@@ -15,7 +15,7 @@ namespace pellucid::test {
 /// SplitMix64 (Steele, Lea & Flood 2014): the same numbers on every machine, unlike distributions of the standard library.
 class Random {
 public:
-    explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15ull + 1) {}
+    explicit Random(std::uint64_t seed) : state_(seed) { state_ = next(); }  // else streams of seeds overlap
     std::uint64_t next();
     double between(double low, double high);  ///< uniform
     std::uint32_t below(std::uint32_t count);

@@ -170,7 +170,7 @@ TEST_F(RendererSuite, AllLayerBuildersDrawTheSamePicture) {
             const RenderResult result = renderer().render(settings);
             EXPECT_EQ(single.radiance.pixels, result.radiance.pixels) << builder;
             EXPECT_GT(result.layer_passes, 1u) << builder;
-            EXPECT_TRUE(result.warnings.empty()) << builder;
+            EXPECT_EQ(result.warnings, single.warnings) << builder << " is not the builder that was asked for";
         }
     }
 }
@@ -286,6 +286,17 @@ TEST_F(RendererSuite, WhatIsBuiltByHandIsChecked) {
     camera.far_plane = 1.0f;
     EXPECT_THAT([&] { renderer().set_camera(camera); }, ThrowsMessage<Error>(HasSubstr("far plane")));
     EXPECT_GT(renderer().render(sized(16, 16)).covered, 20u);
+}
+
+TEST_F(RendererSuite, BadStatusesAreCountedInOneWarning) {
+    renderer().set_scene(load_scene("shape:sphere,segments=8"));
+    RenderSettings settings = sized(16, 16);
+    settings.technique = "visibility-layers";
+    settings.parameters = {{"events", 1.0}};  // no path gets out of the sphere
+    const RenderResult cut = renderer().render(settings);
+    ASSERT_EQ(cut.warnings.size(), 1u);
+    EXPECT_THAT(cut.warnings[0], AllOf(HasSubstr(std::to_string(cut.covered) + " glass pixels"),
+                                       HasSubstr("event_limit"), HasSubstr("visibility-layers")));
 }
 
 TEST_F(RendererSuite, ApproximationsAreSaid) {

@@ -159,6 +159,21 @@ TEST(MeshRepair, EveryShellIsTurnedOnItsOwn) {
     }
 }
 
+TEST(MeshRepair, SqueezedTriangleDoesNotKeepAShellFromBeingTurned) {
+    Mesh inverted = cube(1.0f, {3, 0, 0});
+    turn_inside_out(inverted);
+    // A vertex on an edge: two triangles for one, and a line in between that closes the surface.
+    const glm::uvec3 t = inverted.triangles[0];
+    const auto middle = std::uint32_t(inverted.positions.size());
+    inverted.positions.push_back(0.5f * (inverted.positions[t.x] + inverted.positions[t.y]));
+    inverted.triangles[0] = {t.x, middle, t.z};
+    inverted.triangles.emplace_back(middle, t.y, t.z);
+    inverted.triangles.emplace_back(t.x, t.y, middle);
+    Mesh bodies = joined(cube(), inverted);
+    repair(bodies);
+    EXPECT_NEAR(signed_volume(bodies).value, 2.0, 1e-6);
+}
+
 TEST(MeshRepair, InwardShellThatCrossesAnotherIsNoCavity) {
     Mesh inverted = cube(1.0f, {0.5f, 0.25f, 0.125f});
     turn_inside_out(inverted);

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pellucid {
+
+/// A side of a triangle, between welded vertices.
+struct HalfEdge {
+    std::uint64_t ends;  ///< smaller vertex << 32 | larger vertex: equal for all triangles at one edge
+    std::uint32_t triangle;
+    bool forward;  ///< runs from the smaller to the larger vertex
+};
+/// The sides of all triangles, ordered by `ends`. Sides between two corners that are welded into one are left out.
+std::vector<HalfEdge> sorted_half_edges(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> weld);
+
+/// Disjoint sets of the numbers 0 .. count - 1 (Tarjan 1975), with paths halved on the way.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t count);
+    /// The number that stands for the set of `i`.
+    std::uint32_t root(std::uint32_t i);
+    void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace pellucid
