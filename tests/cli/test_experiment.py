@@ -69,7 +69,9 @@ class Experiment(CliTest):
         os.mkdir(self.path("models"))
         self.write("models/photon_dragon.obj", TETRAHEDRON)
         result, content = self.measure("wang-layers", "--models", self.path("models"))
-        self.assertEqual(result.stderr, "")  # no progress bar where nobody watches
+        # No progress bar where nobody watches; of four layers alone not every path through a tetrahedron is found.
+        self.assertRegex(result.stderr, r"\A(pellucid: warning: wang-layers: dragon: wang-2014: \d+ of \d+ glass "
+                                        r"pixels may be wrong by their status: [^\n]*\n)?\Z")
         for key in ("device", "driver", "version", "cpu"):
             self.assertTrue(content[key], key)
         one, = content["experiments"]
