@@ -90,6 +90,13 @@ struct Object {
     int mesh = 0;
     int material = 0;
     glm::mat4 world_from_object{1.0f};  ///< affine, invertible; may mirror
+    /// Refracting objects of one number >= 0 bound one solid together, each with surface properties of its own; they have
+    /// one transform, and all solids of one of their meshes are of the same meshes. -1: a solid of its own. The medium
+    /// of a solid is that of most of its surface.
+    int body = -1;
+    /// Where solids overlap, the one of the highest priority displaces the others (nested dielectrics: Schmidt & Budge
+    /// 2002). Of equal ones the solid of less volume does, then the later object.
+    int priority = 0;
 };
 
 /// A camera: right-handed, looking along its own -Z with +Y up.

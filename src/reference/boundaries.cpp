@@ -8,37 +8,37 @@ namespace pellucid::reference {
 namespace {
 
 void cross(const Geometry& geometry, const Hit& boundary, MediumStack& inside, MediumStack& beyond) {
-    const auto [object, triangle, sense] = boundary.crossing;
-    if (!geometry.solids()[object].closed) inside.set(object, sense == Sense::kLeaving ? 1 : 0);
-    beyond.cross(object, sense);
+    const std::uint32_t solid = geometry.solid_of(boundary.crossing.shell);
+    const Sense sense = boundary.crossing.sense;
+    if (!geometry.solids()[solid].closed) inside.set(solid, sense == Sense::kLeaving ? 1 : 0);
+    beyond.cross(solid, sense);
 }
 
 /// Of the solids whose media meet here the one of the highest precedence displaces the other.
 std::int64_t rank(const Geometry& geometry, const Hit& boundary, const MediumStack& inside, const MediumStack& beyond) {
-    const std::uint32_t object = boundary.crossing.object;
-    const bool meets = std::int32_t(object) == inside.object() || std::int32_t(object) == beyond.object();
-    return meets ? std::int64_t(geometry.solids()[object].precedence) : -1;
+    const std::uint32_t solid = geometry.solid_of(boundary.crossing.shell);
+    const bool meets = std::int32_t(solid) == inside.solid() || std::int32_t(solid) == beyond.solid();
+    return meets ? std::int64_t(geometry.solids()[solid].precedence) : -1;
 }
 
 }  // namespace
 
 Hit touching_boundary(const Geometry& geometry, const Query& ray, const Hit& hit) {
-    if (!geometry.touches_others(hit.crossing.object)) return {};
-    const double apart = geometry.coincidence();
+    if (!geometry.touches_others(hit.crossing.shell)) return {};
     Query nearby = ray;
-    nearby.t_max = apart / std::abs(glm::dot(ray.direction, geometry.geometric_normal(hit)));
+    nearby.t_max = geometry.widest_contact() / std::abs(glm::dot(ray.direction, geometry.geometric_normal(hit)));
     nearby.kinds = only(SurfaceKind::kRefractive);
     const Hit other = geometry.intersect(nearby);
-    if (!other.found || other.crossing.object == hit.crossing.object) return {};
+    if (!other.found || other.crossing.shell == hit.crossing.shell) return {};
     const double distance = glm::dot(other.position - hit.position, geometry.geometric_normal(other));
-    return std::abs(distance) <= apart ? other : Hit{};
+    return std::abs(distance) <= geometry.contact(hit.crossing.shell, other.crossing.shell, hit.position) ? other : Hit{};
 }
 
 Hit cross_boundaries(const Geometry& geometry, const Query& ray, const Hit& hit, std::vector<Crossing>& standing,
                      MediumStack& inside, MediumStack& beyond) {
     beyond = inside;
     cross(geometry, hit, inside, beyond);
-    if (!geometry.touches_others(hit.crossing.object)) return hit;
+    if (!geometry.touches_others(hit.crossing.shell)) return hit;
     std::vector<Hit> boundaries{hit};
     Query from = ray;
     for (;;) {

@@ -43,7 +43,7 @@ bool ExactPath::finish(Status status) {
 /// Goes straight on to what was met.
 void ExactPath::travel(const Hit& hit) {
     length_ += hit.t;
-    if (inside_.object() != kAir) {
+    if (inside_.solid() != kAir) {
         length_inside_ += hit.t;
         transmittance_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
     }
@@ -80,7 +80,7 @@ bool ExactPath::cross(const Hit& hit) {
     const Hit interface = cross_boundaries(geometry_, ray_, hit, standing_, inside_, beyond_);
     ray_.standing = standing_;
     bool through = true;
-    if (beyond_.object() != inside_.object()) {
+    if (is_interface(inside_, beyond_)) {
         if (result_.events == max_events_) return finish(Status::kEventLimit);
         bend(interface);
         through = crossing_sense(ray_.direction, interface.normal) == interface.crossing.sense;
@@ -93,7 +93,7 @@ bool ExactPath::advance(const Hit& hit) {
     if (!hit.found) return finish(inside_.enclosed() ? Status::kMissingLayer : Status::kOk);
     travel(hit);
     if (geometry_.kind(hit.crossing.object) == SurfaceKind::kRefractive) return cross(hit);
-    if (inside_.object() != kAir) {
+    if (inside_.solid() != kAir) {
         const Hit wall = touching_boundary(geometry_, ray_, hit);  // what a solid stands on is outside of it
         if (wall.found && wall.crossing.sense == Sense::kLeaving) {
             standing_.back() = wall.crossing;

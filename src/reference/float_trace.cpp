@@ -60,29 +60,53 @@ private:
     std::array<glm::vec3, 2> move_{}, turn_{};  ///< from pixel to pixel, right and down
 };
 
-/// The solid that a path is in and the one around it, with the boundaries of each that it has entered.
+/// The solids that a path is in, as in MediumStack, for no more than eight at a time: what comes then is not seen.
 struct Media {
-    std::int32_t inside = kAir, around = kAir;
-    std::int32_t depth = 0;  ///< of `inside`
+    static constexpr std::uint32_t kMost = 8;
+    struct Entry {
+        std::int32_t solid, count;
+    };
+    std::array<Entry, kMost> entries{};
+    std::uint32_t size = 0;
+    std::int32_t inside = kAir;
 
-    void cross(std::int32_t object, bool entering, const Geometry& geometry) {
-        const std::span<const Solid> solids = geometry.solids();
-        if (object == inside) {
-            const bool closed = solids[std::size_t(object)].closed;  // else the side alone counts, as in MediumStack
-            depth = closed ? depth + (entering ? 1 : -1) : (entering ? 1 : 0);
-            if (depth == 0) *this = {around, kAir, around == kAir ? 0 : 1};
-        } else if (!entering) {
-            if (object == around) around = kAir;
-        } else if (inside == kAir || solids[std::size_t(object)].precedence > solids[std::size_t(inside)].precedence) {
-            *this = {object, inside, 1};
-        } else {
-            around = object;
+    void set(std::int32_t solid, std::int32_t count, const Geometry& geometry) {
+        std::uint32_t i = 0;
+        while (i < size && entries[i].solid != solid) ++i;
+        if (i == kMost) return;
+        entries[i] = {solid, count};
+        if (i == size) ++size;
+        if (count == 0) entries[i] = entries[--size];
+        inside = kAir;
+        for (i = 0; i < size; ++i) {
+            if (entries[i].count <= 0) continue;
+            const std::span<const Solid> solids = geometry.solids();
+            if (inside == kAir ||
+                solids[std::size_t(entries[i].solid)].precedence > solids[std::size_t(inside)].precedence)
+                inside = entries[i].solid;
         }
     }
+    void cross(std::int32_t solid, bool entering, const Geometry& geometry) {
+        std::int32_t count = 0;
+        for (std::uint32_t i = 0; i < size; ++i)
+            if (entries[i].solid == solid) count = entries[i].count;
+        const bool closed = geometry.solids()[std::size_t(solid)].closed;  // else the side alone counts
+        set(solid, closed ? count + (entering ? 1 : -1) : (entering ? 1 : 0), geometry);
+    }
+    const Medium* medium(const Geometry& geometry) const {
+        return inside == kAir ? nullptr : &geometry.solids()[std::size_t(inside)].medium;
+    }
     float ior(const Geometry& geometry, int channel) const {
-        return inside == kAir ? 1.0f : float(geometry.solids()[std::size_t(inside)].medium.ior[channel]);
+        return inside == kAir ? 1.0f : float(medium(geometry)->ior[channel]);
     }
 };
+
+Media media_of(const MediumStack& stack, const Geometry& geometry) {
+    Media media;
+    for (std::uint32_t solid = 0; solid < geometry.solids().size(); ++solid)
+        if (stack.count(solid) != 0) media.set(std::int32_t(solid), stack.count(solid), geometry);
+    return media;
+}
 
 /// Refracts or totally reflects `d` at a boundary with the unit normal `n` on the side it comes from.
 glm::vec3 bend(const glm::vec3& d, const glm::vec3& n, float n_i, float n_t) {
@@ -155,8 +179,7 @@ private:
         Media media = view_.media;
         if (!view_.start_media.fixed()) {
             const glm::dvec2 centre = glm::dvec2(pixel) + 0.5 + view_.settings.shift_px;
-            media.inside = view_.start_media.around(view_.exact_rays.at(centre)).object();
-            media.depth = media.inside == kAir ? 0 : 1;
+            media = media_of(view_.start_media.around(view_.exact_rays.at(centre)), view_.geometry);
         }
         lanes_[i] = {ray.origin, ray.direction, media, 0};
         aim(i, 0.0f, ray.t_max);
@@ -204,8 +227,10 @@ private:
         const float side = glm::dot(of_triangle, lane.direction);
         const bool entering = (side < 0.0f) != geometry.mirrored(object);
         Media beyond = lane.media;
-        beyond.cross(std::int32_t(object), entering, geometry);
-        if (beyond.inside == lane.media.inside) {
+        beyond.cross(std::int32_t(geometry.solid_of(geometry.shell(object, hit.primID[i]))), entering, geometry);
+        const Medium *here = lane.media.medium(geometry), *there = beyond.medium(geometry);
+        const bool two_media = here && there ? !(*here == *there) : here != there;
+        if (!two_media) {
             lane.media = beyond;
             return true;
         }
@@ -253,8 +278,7 @@ void trace_float(const Geometry& geometry, const Camera& camera, const ExactSett
     const glm::dvec2 size(settings.width, settings.height);
     View view{geometry, settings, FloatRays(camera, settings), StartMedia(geometry, exact_rays, size), exact_rays, {}};
     if (view.start_media.fixed()) {
-        view.media.inside = view.start_media.around(exact_rays.at(0.5 * size)).object();
-        view.media.depth = view.media.inside == kAir ? 0 : 1;
+        view.media = media_of(view.start_media.around(exact_rays.at(0.5 * size)), geometry);
     }
     switch (settings.packet) {
         case 4:

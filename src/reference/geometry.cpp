@@ -2,6 +2,7 @@
 #include "reference/geometry.h"
 
 #include "core/math.h"
+#include "scene/bodies.h"
 #include "scene/mesh_repair.h"
 
 #include <pellucid/error.h>
@@ -13,7 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <numeric>
+#include <utility>
 
 namespace pellucid::reference {
 namespace {
@@ -40,15 +41,10 @@ bool boxes_meet(const glm::dvec3& low_a, const glm::dvec3& high_a, const glm::dv
     return glm::all(glm::lessThanEqual(low_a, high_b)) && glm::all(glm::lessThanEqual(low_b, high_a));
 }
 
-double volume(const glm::dvec3& low, const glm::dvec3& high) {
-    const glm::dvec3 size = high - low;
-    return size.x * size.y * size.z;
-}
-
 }  // namespace
 
 Geometry::Geometry(const Scene& scene, const TracerOptions& options)
-    : scene_(scene), options_(options), objects_(scene.objects.size()), solids_(scene.objects.size()) {
+    : scene_(scene), options_(options), objects_(scene.objects.size()) {
     device_.reset(rtcNewDevice(nullptr));
     if (!device_) throw Error(fmt::format("Embree cannot start: error {}", int(rtcGetDeviceError(nullptr))));
     embree_.reset(rtcNewScene(device_.get()));
@@ -60,18 +56,15 @@ Geometry::Geometry(const Scene& scene, const TracerOptions& options)
     // quality of each is then its own.
     rtcSetSceneBuildQuality(embree_.get(), options.deforming ? RTC_BUILD_QUALITY_LOW : embree_quality(options.quality));
 
-    std::vector<char> closed;
-    for (const Mesh& each : scene.meshes) {
-        welds_.push_back(weld_positions(each.positions));
-        closed.push_back(count_edges(each.triangles, welds_.back()).closed());
-    }
     for (std::uint32_t i = 0; i < object_count(); ++i) {
         const Material& m = material(i);
         objects_[i].kind = kind_of(m);
         objects_[i].has_holes = objects_[i].kind != SurfaceKind::kRefractive && m.alpha_cutoff > 0.0f;
         objects_[i].mirrored = glm::determinant(glm::dmat3(scene.objects[i].world_from_object)) < 0.0;
-        solids_[i].medium = {channel_iors(double(m.ior), double(m.dispersion)), glm::dvec3(m.sigma_a())};
-        solids_[i].closed = closed[std::size_t(scene.objects[i].mesh)] != 0;
+        objects_[i].facets.resize(mesh(i).triangles.size());
+    }
+    number_shells();
+    for (std::uint32_t i = 0; i < object_count(); ++i) {
         place(i, mesh(i).positions, mesh(i).normals);
         attach(i);
     }
@@ -84,6 +77,46 @@ const Mesh& Geometry::mesh(std::uint32_t object) const {
 
 const Material& Geometry::material(std::uint32_t object) const {
     return scene_.materials[std::size_t(scene_.objects[object].material)];
+}
+
+/// What vertices that move leave as it is: bodies, their shells, and who displaces whom.
+void Geometry::number_shells() {
+    const Bodies bodies = find_bodies(scene_);
+    const auto count = std::uint32_t(bodies.all.size());
+    for (const Body& body : bodies.all) {
+        const Material& m = scene_.materials[body.material];
+        const Medium medium{channel_iors(double(m.ior), double(m.dispersion)), glm::dvec3(m.sigma_a())};
+        const auto closed = std::uint32_t(solids_.size());
+        solids_.push_back({medium, count + body.rank, true});
+        solids_.push_back({medium, body.rank, false});
+        const auto first = std::uint32_t(shells_.size()), number = std::uint32_t(extents_.size());
+        const BodySurface& surface = *body.surface;
+        for (const char is_closed : surface.shells.closed)
+            shells_.push_back({.solid = is_closed != 0 ? closed : closed + 1, .body = number});
+        extents_.push_back(0.0);
+        for (std::size_t k = 0; k < body.objects.size(); ++k) {
+            const std::vector<glm::uvec3>& triangles = mesh(body.objects[k]).triangles;
+            for (std::size_t t = 0; t < triangles.size(); ++t) {
+                Facet& facet = objects_[body.objects[k]].facets[t];
+                for (int c = 0; c < 3; ++c) facet.vertices[c] = surface.weld[surface.first_vertex[k] + triangles[t][c]];
+                facet.shell = first + surface.shells.of_triangle[surface.first_triangle[k] + t];
+            }
+        }
+    }
+    std::vector<std::vector<std::uint32_t>> welds(scene_.meshes.size());
+    for (std::uint32_t i = 0; i < object_count(); ++i) {
+        if (bodies.of_object[i] != kNoBody) continue;
+        std::vector<std::uint32_t>& weld = welds[std::size_t(scene_.objects[i].mesh)];
+        if (weld.empty()) weld = weld_positions(mesh(i).positions);
+        const auto shell = std::uint32_t(shells_.size());
+        shells_.push_back({.body = std::uint32_t(extents_.size())});
+        extents_.push_back(0.0);
+        for (std::size_t t = 0; t < objects_[i].facets.size(); ++t) {
+            const glm::uvec3 corners = mesh(i).triangles[t];
+            objects_[i].facets[t].vertices = {weld[corners.x], weld[corners.y], weld[corners.z]};
+            objects_[i].facets[t].shell = shell;
+        }
+    }
 }
 
 /// Takes vertices of an object to world space.
@@ -105,14 +138,11 @@ void Geometry::place(std::uint32_t object, std::span<const glm::vec3> positions,
     for (const glm::vec3& n : normals) {
         world_normals.emplace_back(glm::normalize(normal_matrix * glm::dvec3(n)));
     }
-    const std::vector<std::uint32_t>& weld = welds_[std::size_t(scene_.objects[object].mesh)];
     const std::vector<glm::uvec3>& triangles = mesh(object).triangles;
-    o.facets.resize(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const glm::uvec3 t = triangles[i];
-        o.facets[i] = {{o.positions[t.x], o.positions[t.y], o.positions[t.z]},
-                       {world_normals[t.x], world_normals[t.y], world_normals[t.z]},
-                       {weld[t.x], weld[t.y], weld[t.z]}};
+        o.facets[i].corners = {o.positions[t.x], o.positions[t.y], o.positions[t.z]};
+        o.facets[i].normals = {world_normals[t.x], world_normals[t.y], world_normals[t.z]};
     }
 }
 
@@ -130,26 +160,44 @@ void Geometry::attach(std::uint32_t object) {
     rtcReleaseGeometry(geometry);
 }
 
-void Geometry::rank_solids() {
-    std::vector<std::uint32_t> order(objects_.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return volume(objects_[a].low, objects_[a].high) > volume(objects_[b].low, objects_[b].high);
-    });
-    for (std::uint32_t rank = 0; rank < order.size(); ++rank) solids_[order[rank]].precedence = rank;
+void Geometry::measure_shells() {
+    const glm::dvec3 nowhere(std::numeric_limits<double>::infinity());
+    for (ShellRecord& shell : shells_) shell.low = nowhere, shell.high = -nowhere;
+    for (const Object& o : objects_) {
+        for (const Facet& facet : o.facets) {
+            ShellRecord& shell = shells_[facet.shell];
+            for (const glm::vec3& corner : facet.corners) {
+                shell.low = glm::min(shell.low, glm::dvec3(corner));
+                shell.high = glm::max(shell.high, glm::dvec3(corner));
+            }
+        }
+    }
+    std::vector<std::pair<glm::dvec3, glm::dvec3>> boxes(extents_.size(), {nowhere, -nowhere});
+    for (const ShellRecord& shell : shells_) {
+        auto& [low, high] = boxes[shell.body];
+        low = glm::min(low, shell.low);
+        high = glm::max(high, shell.high);
+    }
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+        const glm::dvec3 size = boxes[b].second - boxes[b].first;
+        extents_[b] = std::max({size.x, size.y, size.z, 0.0});
+    }
 }
 
 /// Sweeps along x over the boxes in the order of their low ends.
 void Geometry::find_touching() {
-    std::vector<Object*> order;
-    for (Object& o : objects_) {
-        o.touches = false;
-        order.push_back(&o);
+    widest_contact_ = 4.0 * 0x1p-23 * scale_;
+    for (const double extent : extents_) widest_contact_ = std::max(widest_contact_, kContact * extent);
+    const double apart = widest_contact_;
+    std::vector<ShellRecord*> order;
+    for (ShellRecord& shell : shells_) {
+        shell.touches = false;
+        order.push_back(&shell);
     }
-    std::sort(order.begin(), order.end(), [](const Object* a, const Object* b) { return a->low.x < b->low.x; });
-    const glm::dvec3 apart(coincidence());
+    std::sort(order.begin(), order.end(),
+              [](const ShellRecord* a, const ShellRecord* b) { return a->low.x < b->low.x; });
     for (std::size_t i = 0; i < order.size(); ++i) {
-        for (std::size_t k = i + 1; k < order.size() && order[k]->low.x <= order[i]->high.x + apart.x; ++k) {
+        for (std::size_t k = i + 1; k < order.size() && order[k]->low.x <= order[i]->high.x + apart; ++k) {
             if (!boxes_meet(order[i]->low - apart, order[i]->high + apart, order[k]->low, order[k]->high)) continue;
             order[i]->touches = order[k]->touches = true;
         }
@@ -168,7 +216,7 @@ void Geometry::commit() {
         const glm::dvec3 far = glm::max(glm::abs(o.low), glm::abs(o.high));
         scale_ = std::max({scale_, far.x, far.y, far.z});
     }
-    rank_solids();
+    measure_shells();
     find_touching();
 }
 

@@ -10,9 +10,9 @@
 //    it passes through its inside, some way ahead: near an edge one surface is not entered twice. (After
 //    a reflection the ray runs as if it had just come in through the triangle it was reflected at.)
 // 3. A surface is ahead if its plane is not behind the origin by more than the rounding error of the
-//    origin, which is derived in geometry_search.cpp: a few 1e-15 of the coordinates within one object,
-//    whose triangles share their vertices exactly; a few 1e-7 between objects, whose vertices were
-//    rounded to float each on its own (two solids that touch).
+//    origin, which is derived in geometry_search.cpp: a few 1e-15 of the coordinates within one shell,
+//    whose triangles share their vertices exactly; the contact distance between shells, whose vertices
+//    were rounded to float each on its own (two solids that touch).
 //
 // Nothing else is turned down, so that the crossings of a path add up to its winding number about a
 // closed surface even where that surface passes through itself.
@@ -51,6 +51,7 @@ struct Crossing {
     std::uint32_t object = 0;    ///< Scene::objects
     std::uint32_t triangle = 0;  ///< Mesh::triangles
     Sense sense = Sense::kEntering;
+    std::uint32_t shell = 0;  ///< Geometry::solid_of()
 };
 
 /// A ray, and what it may meet.
@@ -95,7 +96,12 @@ public:
     bool occluded(const Query& query) const;
 
     SurfaceKind kind(std::uint32_t object) const { return objects_[object].kind; }
-    std::span<const Solid> solids() const { return solids_; }  ///< one per object
+    std::span<const Solid> solids() const { return solids_; }  ///< two per body: its closed and its open shells
+    std::uint32_t shell(std::uint32_t object, std::uint32_t triangle) const {
+        return objects_[object].facets[triangle].shell;
+    }
+    /// Solid that a shell bounds; there is none of what does not refract.
+    std::uint32_t solid_of(std::uint32_t shell) const { return shells_[shell].solid; }
     std::uint32_t object_count() const { return std::uint32_t(objects_.size()); }
     const Material& material(std::uint32_t object) const;
     const Mesh& mesh(std::uint32_t object) const;
@@ -119,14 +125,18 @@ public:
     /// True where the surface has a hole by its alpha.
     bool cut_out(std::uint32_t object, std::uint32_t triangle, double u, double v) const;
 
-    /// Distance, m, to which surfaces of different objects can be told apart: the rounding of their
-    /// world coordinates to float.
+    /// Distance, m, to which surfaces anywhere in the scene can be told apart: the rounding of their world coordinates
+    /// to float.
     double coincidence() const;
+    /// Surfaces of two shells no farther apart than this, m, are at the same place: 1e-6 of the larger body's extent, and
+    /// at least four spacings of a float there.
+    double contact(std::uint32_t shell_a, std::uint32_t shell_b, const glm::dvec3& place) const;
+    double widest_contact() const { return widest_contact_; }  ///< m, of any two shells anywhere
 
-    /// False if the object's box is apart from all others: then no surface lies at the same place.
-    bool touches_others(std::uint32_t object) const { return objects_[object].touches; }
+    /// False if the shell's box is apart from all others: then no surface lies at the same place.
+    bool touches_others(std::uint32_t shell) const { return shells_[shell].touches; }
     /// Takes a path that stands on the triangles `standing` on to `hit`: it then stands on that, and
-    /// still on those of other objects that lie at the same place. For a new direction their senses
+    /// still on those of other shells that lie at the same place. For a new direction their senses
     /// must be made anew.
     void step_onto(const Hit& hit, std::vector<Crossing>& standing) const;
 
@@ -145,7 +155,17 @@ private:
     struct alignas(32) Facet {
         std::array<glm::vec3, 3> corners;  ///< world
         std::array<glm::vec3, 3> normals;  ///< of the vertices: world, unit, outward
-        glm::uvec3 vertices;               ///< welded by position
+        glm::uvec3 vertices;               ///< welded by position, in their body
+        std::uint32_t shell = 0;           ///< shells_
+    };
+    static constexpr double kContact = 1e-6;  // of a body's extent
+    static constexpr std::uint32_t kNoSolid = ~0u;
+    /// A shell of a body; or all of an object that does not refract.
+    struct ShellRecord {
+        std::uint32_t solid = kNoSolid;
+        std::uint32_t body = 0;  ///< extents_
+        bool touches = false;    ///< another shell's box, within the contact distance
+        glm::dvec3 low{0.0}, high{0.0};
     };
     struct Object {
         SurfaceKind kind = SurfaceKind::kOpaque;
@@ -154,7 +174,6 @@ private:
         std::vector<glm::vec3> positions;  ///< world; one more than there are, which Embree may read
         std::vector<Facet> facets;         ///< per triangle
         glm::dvec3 low{0.0}, high{0.0};    ///< box, world
-        bool touches = false;              ///< another object's box, within the coincidence
     };
     struct Release {
         void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -182,9 +201,10 @@ private:
     static void filter(const RTCFilterFunctionNArguments* arguments);
 
     void check_moved(const MovedMesh& moved) const;
+    void number_shells();
     void place(std::uint32_t object, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
     void attach(std::uint32_t object);
-    void rank_solids();
+    void measure_shells();
     void find_touching();
     void commit();
 
@@ -192,8 +212,10 @@ private:
     TracerOptions options_;
     std::vector<Object> objects_;
     std::vector<Solid> solids_;
-    std::vector<std::vector<std::uint32_t>> welds_;  ///< per mesh: weld_positions(), fixed when deforming
+    std::vector<ShellRecord> shells_;
+    std::vector<double> extents_;                    ///< of bodies, m: the longest side of the box
     double scale_ = 0.0;                             ///< largest magnitude of any coordinate, m
+    double widest_contact_ = 0.0;
     double build_ms_ = 0.0;
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
     std::unique_ptr<std::remove_pointer_t<RTCScene>, Release> embree_;

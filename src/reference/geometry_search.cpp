@@ -10,8 +10,9 @@
 // and with |p0 - o| <= 2 S in each coordinate and |N| <= |e1| |e2| less than gamma(32) S |e1|_1 |e2|_1.
 // For a sliver that is much compared with S |N|: there the plane itself is known no better.
 //
-// Positions in the world are rounded to float, by half of 2^-23 S. Two objects that were made to touch
-// are apart by up to twice that in each coordinate, so by less than 4 * 2^-24 S: the coincidence.
+// Positions in the world are rounded to float, by half of 2^-23 S. Two surfaces that were made to touch
+// are apart by up to twice that in each coordinate, so by less than 4 * 2^-24 S: the coincidence. What
+// counts as touching is wider than that, so that files need not be made to the last digit: contact().
 #include "reference/geometry.h"
 #include "reference/texture_lookup.h"
 
@@ -92,6 +93,12 @@ glm::dvec3 Geometry::shading_normal(const Hit& hit) const {
 
 double Geometry::coincidence() const { return 4.0 * 0x1p-24 * scale_; }
 
+double Geometry::contact(std::uint32_t shell_a, std::uint32_t shell_b, const glm::dvec3& place) const {
+    const double extent = std::max(extents_[shells_[shell_a].body], extents_[shells_[shell_b].body]);
+    const double largest = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+    return std::max(kContact * extent, 4.0 * 0x1p-23 * largest);
+}
+
 bool Geometry::cut_out(std::uint32_t object, std::uint32_t triangle, double u, double v) const {
     if (!objects_[object].has_holes) return false;
     const SurfaceAttributes attributes = interpolate_attributes(mesh(object), triangle, {float(u), float(v)});
@@ -119,19 +126,22 @@ bool Geometry::accepts(const Query& query, std::uint32_t object, std::uint32_t t
 
     const double ahead = std::copysign(1.0, speed) * glm::dot(c.p0 - query.origin, c.normal);
     const double rounding = kGamma32 * scale_ * norm1(c.p1 - c.p0) * norm1(c.p2 - c.p0);
-    bool same_object = query.standing.empty();
+    const Facet& facet = o.facets[triangle];
+    bool same_shell = query.standing.empty();
     for (const Crossing& on : query.standing) {
-        if (on.object != object) continue;
-        same_object = true;
-        if (on.sense == sense && share_vertex(o.facets[on.triangle].vertices, o.facets[triangle].vertices) &&
+        if (on.shell != facet.shell) continue;
+        same_shell = true;
+        if (on.sense == sense && share_vertex(objects_[on.object].facets[on.triangle].vertices, facet.vertices) &&
             (ahead <= rounding || !within(c.weights(query.origin, query.direction)))) {
             return false;
         }
     }
-    if (same_object) {
+    if (same_shell) {
         if (ahead < -rounding) return false;
     } else {
-        const double touch = coincidence() * glm::length(c.normal);
+        double touch = 0.0;
+        for (const Crossing& on : query.standing)
+            touch = std::max(touch, contact(on.shell, facet.shell, query.origin) * glm::length(c.normal));
         if (ahead < -std::max(touch, rounding)) return false;
         // What a solid stands on lies outside of it, however the two were rounded.
         const bool leaves_no_solid = query.standing.back().sense == Sense::kEntering;
@@ -181,7 +191,8 @@ Hit Geometry::locate(const Query& query, std::uint32_t object, std::uint32_t tri
     const Corners c = corners(object, triangle);
     Hit hit;
     hit.found = true;
-    hit.crossing = {object, triangle, crossing_sense(query.direction, c.normal)};
+    hit.crossing = {object, triangle, crossing_sense(query.direction, c.normal),
+                    objects_[object].facets[triangle].shell};
     hit.normal = c.normal;
     const glm::dvec2 weights = glm::max(c.weights(query.origin, query.direction), glm::dvec2(0.0));
     const glm::dvec2 inside = weights / std::max(weights.x + weights.y, 1.0);
@@ -257,14 +268,15 @@ void Geometry::intersect(std::span<const Query> queries, std::span<const int> ac
 }
 
 void Geometry::step_onto(const Hit& hit, std::vector<Crossing>& standing) const {
-    // Within one object positions are exact, so only the last triangle counts; two reflections in the tip
+    // Within one shell positions are exact, so only the last triangle counts; two reflections in the tip
     // of a wedge can be all but as close as they like. A path that did not move at all keeps the others:
     // on an edge it would go round them for ever.
     const bool moved = hit.t > kGamma32 * scale_;
     std::erase_if(standing, [&](const Crossing& on) {
-        if (on.object == hit.crossing.object) return moved;
+        if (on.shell == hit.crossing.shell) return moved;
         const Corners c = corners(on.object, on.triangle);
-        return std::abs(glm::dot(hit.position - c.p0, c.normal)) > coincidence() * glm::length(c.normal);
+        return std::abs(glm::dot(hit.position - c.p0, c.normal)) >
+               contact(on.shell, hit.crossing.shell, hit.position) * glm::length(c.normal);
     });
     standing.push_back(hit.crossing);
 }
@@ -281,9 +293,9 @@ MediumStack Geometry::solids_around(const glm::dvec3& point) const {
         query.standing = standing;
         const Hit hit = intersect(query);
         if (!hit.found) return solids;
-        const auto [object, triangle, sense] = hit.crossing;
-        if (solids_[object].closed) {  // every boundary that is left now was entered before the point
-            solids.set(object, solids.count(object) + (sense == Sense::kLeaving ? 1 : -1));
+        const std::uint32_t solid = solid_of(hit.crossing.shell);
+        if (solids_[solid].closed) {  // every boundary that is left now was entered before the point
+            solids.set(solid, solids.count(solid) + (hit.crossing.sense == Sense::kLeaving ? 1 : -1));
         }
         step_onto(hit, standing);
         query.origin = hit.position;

@@ -3,9 +3,9 @@
 // Which solids a path is in, and which of them fills the space where they overlap.
 //
 // A path counts, per solid, the boundaries it has entered less those it has left; it is inside where
-// the count is above zero. Overlapping shells of one mesh so count as one solid, and a shell with
-// reversed winding cuts a hole. Where solids overlap, the one with the smallest box displaces the
-// others: liquid displaces the goblet it overlaps, a bubble the block around it.
+// the count is above zero. Overlapping shells of one body so count as one solid, and a shell with
+// reversed winding cuts a hole. Where solids overlap, the one of the highest precedence displaces the
+// others (Schmidt & Budge, "Simple nested dielectrics in ray traced images", 2002).
 
 #include <glm/glm.hpp>
 
@@ -25,6 +25,7 @@ struct Medium {
     glm::dvec3 ior{1.0};      ///< for red, green and blue light
     glm::dvec3 sigma_a{0.0};  ///< absorption coefficient, 1/m
 
+    bool operator==(const Medium&) const = default;
     /// True if colours part at its boundary.
     bool disperses() const { return ior[kRed] != ior[kBlue]; }
 };
@@ -47,40 +48,40 @@ inline glm::dvec3 beer_lambert(const glm::dvec3& sigma_a, double distance) {
     return left;
 }
 
-/// What the geometry knows of one object as a solid. Only refractive objects are ever entered.
+/// The closed shells of a body, or its open ones: these have no inside of their own.
 struct Solid {
     Medium medium;
     std::uint32_t precedence = 0;  ///< unique; where solids overlap the highest fills the space
-    bool closed = true;            ///< every edge, welded by position, has two triangles, wound alike
+    bool closed = true;            ///< every ray enters it as often as it leaves it
 };
 
 /// Sense in which a ray crosses a triangle: against its outward normal, or along it.
 enum class Sense : std::int8_t { kEntering = 1, kLeaving = -1 };
 
-inline constexpr std::int32_t kAir = -1;  ///< as an object: none
+inline constexpr std::int32_t kAir = -1;  ///< as a solid: none
 
 /// The solids that a path is in. Cheap to copy into one that was used before: no allocation then.
 class MediumStack {
 public:
     explicit MediumStack(std::span<const Solid> solids) : solids_(solids) {}
 
-    /// Boundaries of `object` that were entered less those that were left.
-    std::int32_t count(std::uint32_t object) const {
-        const auto entry = find(object);
+    /// Boundaries of `solid` that were entered less those that were left.
+    std::int32_t count(std::uint32_t solid) const {
+        const auto entry = find(solid);
         return entry == entries_.end() ? 0 : entry->count;
     }
 
-    /// Crosses a boundary of `object`. A surface that is not closed has no count to keep: its normal
+    /// Crosses a boundary of `solid`. A surface that is not closed has no count to keep: its normal
     /// alone says on which side the path now is.
-    void cross(std::uint32_t object, Sense sense) {
+    void cross(std::uint32_t solid, Sense sense) {
         const std::int32_t step = sense == Sense::kEntering ? 1 : -1;
-        set(object, solids_[object].closed ? count(object) + step : std::max(step, 0));
+        set(solid, solids_[solid].closed ? count(solid) + step : std::max(step, 0));
     }
 
-    void set(std::uint32_t object, std::int32_t count) {
-        const auto entry = find(object);
+    void set(std::uint32_t solid, std::int32_t count) {
+        const auto entry = find(solid);
         if (entry == entries_.end()) {
-            if (count != 0) entries_.push_back({object, count});
+            if (count != 0) entries_.push_back({solid, count});
         } else if (count != 0) {
             entries_[std::size_t(entry - entries_.begin())].count = count;
         } else {
@@ -94,8 +95,8 @@ public:
         top_ = kAir;
     }
 
-    /// Object that fills the place, kAir outside all of them.
-    std::int32_t object() const { return top_; }
+    /// Solid that fills the place, kAir outside all of them.
+    std::int32_t solid() const { return top_; }
 
     /// What fills the place.
     Medium medium() const { return top_ == kAir ? Medium{} : solids_[std::size_t(top_)].medium; }
@@ -103,24 +104,24 @@ public:
     /// True inside a closed solid: a path from here must meet another surface.
     bool enclosed() const {
         return std::any_of(entries_.begin(), entries_.end(),
-                           [&](const Entry& entry) { return entry.count > 0 && solids_[entry.object].closed; });
+                           [&](const Entry& entry) { return entry.count > 0 && solids_[entry.solid].closed; });
     }
 
 private:
     struct Entry {
-        std::uint32_t object;
+        std::uint32_t solid;
         std::int32_t count;  ///< not 0
     };
-    std::vector<Entry>::const_iterator find(std::uint32_t object) const {
-        return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.object == object; });
+    std::vector<Entry>::const_iterator find(std::uint32_t solid) const {
+        return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.solid == solid; });
     }
 
     void find_top() {
         top_ = kAir;
         for (const Entry& entry : entries_) {
             if (entry.count <= 0) continue;
-            if (top_ == kAir || solids_[entry.object].precedence > solids_[std::size_t(top_)].precedence) {
-                top_ = std::int32_t(entry.object);
+            if (top_ == kAir || solids_[entry.solid].precedence > solids_[std::size_t(top_)].precedence) {
+                top_ = std::int32_t(entry.solid);
             }
         }
     }
@@ -129,5 +130,12 @@ private:
     std::vector<Entry> entries_;
     std::int32_t top_ = kAir;
 };
+
+/// True if two media meet there. Equal media of two solids that touch have no interface.
+inline bool is_interface(const MediumStack& inside, const MediumStack& beyond) {
+    if (inside.solid() == beyond.solid()) return false;
+    return inside.solid() == kAir || beyond.solid() == kAir || !(inside.medium() == beyond.medium());
+}
+
 
 }  // namespace pellucid::reference

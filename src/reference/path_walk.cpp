@@ -64,7 +64,7 @@ void PathWalk::start(const CameraRay& ray, const MediumStack& inside) {
 
 /// Goes straight on to what was met.
 void PathWalk::travel(const Hit& hit) {
-    if (inside_.object() != kAir) throughput_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
+    if (inside_.solid() != kAir) throughput_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
     ray_.origin = hit.position;
     ray_.t_max = std::numeric_limits<double>::infinity();  // the camera's planes cut off what it sees first
     world_.geometry.step_onto(hit, standing_);
@@ -79,7 +79,7 @@ void PathWalk::turn_to(const glm::dvec3& direction) {
 
 PathWalk::Vertex PathWalk::vertex_at(const Hit& hit, const glm::dvec3& direction) const {
     const Geometry& geometry = world_.geometry;
-    const auto [object, triangle, sense] = hit.crossing;
+    const auto [object, triangle, sense, shell] = hit.crossing;
     const Mesh& mesh = world_.scene.meshes[std::size_t(world_.scene.objects[object].mesh)];
     Vertex vertex{hit, geometry.material(object),
                   interpolate_attributes(mesh, triangle, glm::vec2(float(hit.u), float(hit.v))), glm::dvec4(1.0),
@@ -100,7 +100,7 @@ bool PathWalk::crosses(const Hit& hit, const glm::dvec3& direction) const {
 bool PathWalk::meet(const Hit& hit, Random& random) {
     const SurfaceKind kind = world_.geometry.kind(hit.crossing.object);
     if (kind == SurfaceKind::kRefractive) return meet_solid(hit, random);
-    if (inside_.object() != kAir) {
+    if (inside_.solid() != kAir) {
         const Hit wall = touching_boundary(world_.geometry, ray_, hit);
         if (wall.found && wall.crossing.sense == Sense::kLeaving) {  // what a solid stands on is outside of it
             standing_.back() = wall.crossing;
@@ -145,7 +145,7 @@ bool PathWalk::transmits(const Vertex& vertex, Random& random) const {
 
 bool PathWalk::meet_solid(const Hit& hit, Random& random) {
     const Hit interface = cross_boundaries(world_.geometry, ray_, hit, standing_, inside_, beyond_);
-    if (beyond_.object() == inside_.object()) {  // a boundary inside a solid that displaces it
+    if (!is_interface(inside_, beyond_)) {  // such as a boundary inside a solid that displaces it
         std::swap(inside_, beyond_);
         turn_to(ray_.direction);
         pdf_ = 0.0;
@@ -265,7 +265,7 @@ glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, do
     if (world_.geometry.occluded(query)) return glm::dvec3(0.0);
     glm::dvec3 share(1.0);
     // To infinity there is no glass on the way but that of open meshes; see see_environment().
-    if (inside.object() != kAir && std::isfinite(distance)) share = beer_lambert(inside.medium().sigma_a, distance);
+    if (inside.solid() != kAir && std::isfinite(distance)) share = beer_lambert(inside.medium().sigma_a, distance);
     return world_.has_panes ? share * pane_transmittance(query) : share;
 }
 

@@ -9,6 +9,7 @@
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_skins.h"
 #include "scene/mesh_repair.h"
+#include "scene/repair_solid.h"
 
 #include <fmt/format.h>
 
@@ -159,6 +160,8 @@ int GltfMeshes::deformed_mesh(const Deformation& how, const NodePose& pose) {
 
 void GltfMeshes::read(const tinygltf::Mesh& from, int gltf_mesh, std::vector<Primitive>& primitives) {
     const std::string number = std::to_string(gltf_mesh);
+    const std::string name = from.name.empty() ? "mesh " + number : from.name;
+    std::vector<Reading> readings;
     for (std::size_t p = 0; p < from.primitives.size(); ++p) {
         const tinygltf::Primitive& primitive = from.primitives[p];
         const std::string user = fmt::format("mesh {} primitive {}", from.name.empty() ? number : from.name, p);
@@ -168,39 +171,66 @@ void GltfMeshes::read(const tinygltf::Mesh& from, int gltf_mesh, std::vector<Pri
             ++points_or_lines_;
             continue;
         }
-        Mesh mesh = read_triangles(primitive, user);
-        mesh.name = from.name.empty() ? "mesh " + number : from.name;
-        if (from.primitives.size() > 1) mesh.name += fmt::format(" primitive {}", p);
-        const int material = material_of(primitive, user);
-
-        Shape shape;
-        const std::size_t vertices = mesh.positions.size();
-        shape.targets = read_gltf_targets(gltf_, primitive, vertices, user, warnings_);
+        Reading reading;
+        reading.mesh = read_triangles(primitive, user);
+        reading.mesh.name = name;
+        if (from.primitives.size() > 1) reading.mesh.name += fmt::format(" primitive {}", p);
+        reading.material = material_of(primitive, user);
+        const std::size_t vertices = reading.mesh.positions.size();
+        reading.shape.targets = read_gltf_targets(gltf_, primitive, vertices, user, warnings_);
         if (!gltf_.model.skins.empty())
-            shape.influences = read_gltf_influences(gltf_, primitive, vertices, user, warnings_);
-        const bool deforms = !shape.targets.empty() || !shape.influences.first.empty();
+            reading.shape.influences = read_gltf_influences(gltf_, primitive, vertices, user, warnings_);
+        readings.push_back(std::move(reading));
+    }
+    const bool in_parts = repair_solid_of(readings, name);
+    for (Reading& reading : readings) keep(reading, in_parts, primitives);
+}
 
-        MeshOrigin origin;
-        const Material& looks = scene_.materials[std::size_t(material)];
-        origin.refractive = looks.refractive() || looks.translucent() || options_.translucent.has_value();
-        origin.make_normals = mesh.normals.empty() || options_.remake_normals;
-        // glTF asks for flat triangles where a file brings no normals (section 3.7.2.1).
-        origin.crease_angle = options_.remake_normals ? options_.crease_angle : 0.0f;
-        origin.deforms = deforms;
-        const MeshRepair repair = repair_mesh(mesh, origin, warnings_);
-        if (mesh.triangles.empty()) {
-            warnings_.add(fmt::format("{}: no triangles, left out", mesh.name));
-            continue;
-        }
-        if (deforms) {
-            shape.base = std::move(mesh);
-            follow_repair(shape, repair, origin);
-            rig_.shapes.push_back(std::move(shape));
-            primitives.push_back({.shape = static_cast<int>(rig_.shapes.size()) - 1, .material = material});
-        } else {
-            scene_.meshes.push_back(std::move(mesh));
-            primitives.push_back({.mesh = static_cast<int>(scene_.meshes.size()) - 1, .material = material});
-        }
+/// Refracting primitives of one mesh bound one solid. Returns whether there are several, which have been repaired.
+bool GltfMeshes::repair_solid_of(std::vector<Reading>& readings, const std::string& name) {
+    std::vector<Mesh*> parts;
+    const Material* first = nullptr;
+    bool alike = true;
+    for (Reading& reading : readings) {
+        const Material& material = scene_.materials[std::size_t(reading.material)];
+        if (!material.refractive() || reading.deforms()) continue;
+        parts.push_back(&reading.mesh);
+        if (!first) first = &material;
+        alike = alike && material.ior == first->ior && material.dispersion == first->dispersion &&
+                material.sigma_a() == first->sigma_a();
+    }
+    if (parts.size() < 2) return false;
+    if (!alike)
+        warnings_.add(fmt::format("{}: its primitives bound one solid, but are of several media; all of it is of the "
+                                  "medium of most of its surface",
+                                  name));
+    repair_solid_in_parts(parts, name, warnings_);
+    return true;
+}
+
+void GltfMeshes::keep(Reading& reading, bool in_parts, std::vector<Primitive>& primitives) {
+    const bool deforms = reading.deforms();
+    MeshOrigin origin;
+    const Material& looks = scene_.materials[std::size_t(reading.material)];
+    origin.refractive = looks.refractive() || looks.translucent() || options_.translucent.has_value();
+    origin.part_of_solid = in_parts && looks.refractive() && !deforms;
+    origin.make_normals = reading.mesh.normals.empty() || options_.remake_normals;
+    // glTF asks for flat triangles where a file brings no normals (section 3.7.2.1).
+    origin.crease_angle = options_.remake_normals ? options_.crease_angle : 0.0f;
+    origin.deforms = deforms;
+    const MeshRepair repair = repair_mesh(reading.mesh, origin, warnings_);
+    if (reading.mesh.triangles.empty()) {
+        warnings_.add(fmt::format("{}: no triangles, left out", reading.mesh.name));
+        return;
+    }
+    if (deforms) {
+        reading.shape.base = std::move(reading.mesh);
+        follow_repair(reading.shape, repair, origin);
+        rig_.shapes.push_back(std::move(reading.shape));
+        primitives.push_back({.shape = static_cast<int>(rig_.shapes.size()) - 1, .material = reading.material});
+    } else {
+        scene_.meshes.push_back(std::move(reading.mesh));
+        primitives.push_back({.mesh = static_cast<int>(scene_.meshes.size()) - 1, .material = reading.material});
     }
 }
 

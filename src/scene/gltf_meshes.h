@@ -40,10 +40,19 @@ private:
         int shape = -1;  ///< Rig::shapes, of those that do
         int material = 0;
     };
+    /// A primitive on its way.
+    struct Reading {
+        Mesh mesh;
+        Shape shape;  ///< what deforms it; Shape::base comes later
+        int material = 0;
+        bool deforms() const { return !shape.targets.empty() || !shape.influences.first.empty(); }
+    };
     using Deformation = std::tuple<int, int, int, std::vector<float>>;  ///< shape, skin, weights' node, weights
 
     const std::vector<Primitive>& primitives(int gltf_mesh);
     void read(const tinygltf::Mesh& from, int gltf_mesh, std::vector<Primitive>& primitives);
+    bool repair_solid_of(std::vector<Reading>& readings, const std::string& name);
+    void keep(Reading& reading, bool in_parts, std::vector<Primitive>& primitives);
     Mesh read_triangles(const tinygltf::Primitive& from, const std::string& user);
     void read_attributes(const tinygltf::Primitive& from, const std::string& user, Mesh& mesh);
     int material_of(const tinygltf::Primitive& from, const std::string& user);

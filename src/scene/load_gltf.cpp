@@ -149,17 +149,37 @@ private:
         const bool rigid = invertible(world);
         const std::string left_out = fmt::format("{}: scaled to nothing or out of all proportion, left out", name);
         if (!rigid && gltf_.model.nodes[std::size_t(node)].skin < 0) return warnings_.add(left_out);
-        for (const GltfPart& part : meshes.parts(node, pose)) {
+        const std::vector<GltfPart> parts = meshes.parts(node, pose);
+        const auto refracts = [&](const GltfPart& part) {
+            return scene_.materials[std::size_t(part.material)].refractive();
+        };
+        // Refracting primitives of one node bound one solid.
+        const int body = std::count_if(parts.begin(), parts.end(), refracts) > 1 ? node : -1;
+        const int priority = read_priority(node, name);
+        for (const GltfPart& part : parts) {
             // A skin says where in the world its vertices are, whatever the node's own transform is.
             if (part.in_world) {
-                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(1.0f)});
+                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(1.0f), refracts(part) ? body : -1, priority});
             } else if (rigid) {
                 rig_.objects.push_back({.object = static_cast<int>(scene_.objects.size()), .node = node});
-                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(1.0f)});
+                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(1.0f), refracts(part) ? body : -1, priority});
             } else {
                 warnings_.add(left_out);
             }
         }
+    }
+
+    /// Node::extras.pellucid.priority: where solids overlap, the higher number wins.
+    int read_priority(int node, const std::string& name) const {
+        const tinygltf::Value& extras = gltf_.model.nodes[std::size_t(node)].extras;
+        if (!extras.IsObject() || !extras.Has("pellucid") || !extras.Get("pellucid").IsObject()) return 0;
+        const tinygltf::Value& own = extras.Get("pellucid");
+        if (!own.Has("priority")) return 0;
+        const tinygltf::Value& value = own.Get("priority");
+        const double number = value.IsNumber() ? value.GetNumberAsDouble() : 0.5;
+        if (number != std::round(number) || std::abs(number) > 1e6)
+            fail(gltf_.path, fmt::format("{}: extras.pellucid.priority is no whole number within +-1000000", name));
+        return int(number);
     }
 
     /// What the file's animations move is all that posing needs.

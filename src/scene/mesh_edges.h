@@ -14,8 +14,17 @@ struct HalfEdge {
     std::uint32_t triangle;
     bool forward;  ///< runs from the smaller to the larger vertex
 };
-/// The sides of all triangles, ordered by `ends`. Sides between two corners that are welded into one are left out.
+/// The sides of all triangles, ordered by `ends`. Those of triangles with two corners welded into one are left out: such a triangle is only a line.
 std::vector<HalfEdge> sorted_half_edges(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> weld);
+
+/// Calls `function` with the sides at each edge.
+template <class Function>
+void for_each_edge(const std::vector<HalfEdge>& sides, Function function) {
+    for (std::size_t begin = 0, end; begin < sides.size(); begin = end) {
+        for (end = begin; end < sides.size() && sides[end].ends == sides[begin].ends;) ++end;
+        function(std::span(sides).subspan(begin, end - begin));
+    }
+}
 
 /// Disjoint sets of the numbers 0 .. count - 1 (Tarjan 1975), with paths halved on the way.
 class DisjointSets {

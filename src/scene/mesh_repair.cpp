@@ -1,7 +1,7 @@
 #include "scene/mesh_repair.h"
 
 #include "scene/mesh_normals.h"
-#include "scene/orient_shells.h"
+#include "scene/repair_solid.h"
 
 #include <fmt/format.h>
 
@@ -75,42 +75,6 @@ bool zero_area(const Mesh& mesh, glm::uvec3 t) {
     // Rounding of the file's floats alone moves a corner by 1e-7 of its distance from the origin;
     // only what is flat to the last digit is left out.
     return glm::length(glm::cross(b - a, c - a)) <= 1e-14 * longest * longest;
-}
-
-/// Returns whether the mesh was turned inside out.
-bool check_solid(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
-    // Edges are counted before triangles are dropped: a triangle squeezed to a line leaves no gap
-    // in the surface, though its neighbours no longer share an edge.
-    const std::vector<std::uint32_t> weld = weld_positions(mesh.positions);
-    const EdgeCounts edges = count_edges(mesh.triangles, weld);
-    // Shells are judged one by one, but for meshes that deform: their morph targets have one sign for all normals.
-    ShellOrientation shells;
-    if (!origin.deforms) shells = orient_shells(mesh, weld);
-    if (const std::size_t dropped = origin.deforms ? 0 : drop_zero_area_triangles(mesh))
-        warnings.add(
-            fmt::format("{}: {} triangle{} without area left out", mesh.name, dropped, dropped == 1 ? "" : "s"));
-    if (edges.boundary + edges.non_manifold > 0)
-        warnings.add(
-            fmt::format("{}: {} boundary edges, {} non-manifold edges: not a closed solid, "
-                        "refraction there is approximate",
-                        mesh.name, edges.boundary, edges.non_manifold));
-    if (edges.miswound > 0)
-        warnings.add(
-            fmt::format("{}: {} edges between triangles wound against each other: inside "
-                        "and outside are mixed up there",
-                        mesh.name, edges.miswound));
-
-    if (shells.turned > 0)
-        warnings.add(
-            fmt::format("{}: {} of {} shells wound inside out, turned", mesh.name, shells.turned, shells.shells));
-    if (shells.shells > 1 && shells.all_closed) return false;
-
-    // A single shell, or one with holes, is judged as a whole. An open sheet has no volume whose sign could be believed.
-    const SignedVolume volume = signed_volume(mesh);
-    if (!(volume.value < 0.0 && volume.meaningful())) return false;
-    turn_inside_out(mesh);
-    warnings.add(fmt::format("{}: was wound inside out, turned", mesh.name));
-    return true;
 }
 
 }  // namespace
@@ -229,7 +193,8 @@ bool normals_oppose_winding(const Mesh& mesh) {
 MeshRepair repair_mesh(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
     MeshRepair repair;
     if (origin.make_normals) mesh.normals.clear();
-    if (origin.refractive) repair.normals_turned = check_solid(mesh, origin, warnings);
+    if (origin.refractive && !origin.part_of_solid)
+        repair.normals_turned = repair_solid(mesh, origin.deforms, warnings).inside_out;
     std::vector<std::uint32_t> split;  // none of them, unless normals are made
     if (mesh.normals.empty()) {
         split = make_normals(mesh, origin.crease_angle);

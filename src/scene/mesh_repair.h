@@ -62,6 +62,7 @@ bool normals_oppose_winding(const Mesh& mesh);
 /// What is known about a mesh that comes from a file.
 struct MeshOrigin {
     bool refractive = false;           ///< bounds a solid that light goes through, so inside and outside matter
+    bool part_of_solid = false;        ///< repair_solid_in_parts() has been here
     bool make_normals = false;         ///< Mesh::normals is ignored and made anew
     float crease_angle = 3.14159265f;  ///< for made normals, radians
     bool deforms = false;              ///< triangles without area may get one

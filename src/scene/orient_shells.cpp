@@ -2,7 +2,6 @@
 // "The solid angle of a plane triangle", IEEE Transactions on Biomedical Engineering 30(2), 1983.
 #include "scene/orient_shells.h"
 
-#include "scene/mesh_edges.h"
 #include "scene/mesh_repair.h"
 
 #include <algorithm>
@@ -15,8 +14,10 @@
 namespace pellucid {
 namespace {
 
-/// Points of an inward shell at which the winding number of the other shells is computed.
-constexpr std::size_t kProbes = 8;
+/// Where the winding number of the other shells is computed for an inward shell: at its farthest corners in so many
+/// directions, and at so many triangles.
+constexpr std::size_t kDirections = 26, kTriangles = 32;
+constexpr double kApart = 1e-5;  // of the shell's size, from a probe to the shell
 
 struct Shell {
     std::vector<std::uint32_t> triangles;  ///< Mesh::triangles
@@ -27,27 +28,10 @@ struct Shell {
     bool inward = false;
 };
 
-std::vector<Shell> shells_of(const Mesh& mesh, std::span<const std::uint32_t> weld) {
-    const std::vector<HalfEdge> edges = sorted_half_edges(mesh.triangles, weld);
-    DisjointSets sets(mesh.triangles.size());
-    std::vector<std::uint32_t> open;
-    for (std::size_t begin = 0, end; begin < edges.size(); begin = end) {
-        int balance = 0;
-        for (end = begin; end < edges.size() && edges[end].ends == edges[begin].ends; ++end) {
-            balance += edges[end].forward ? 1 : -1;
-            sets.join(edges[end].triangle, edges[begin].triangle);
-        }
-        if (balance != 0) open.push_back(edges[begin].triangle);
-    }
-    std::vector<std::uint32_t> shell_at(mesh.triangles.size(), std::numeric_limits<std::uint32_t>::max());
-    std::vector<Shell> shells;
+std::vector<Shell> list_shells(const Mesh& mesh, const Shells& found) {
+    std::vector<Shell> shells(found.count());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        std::uint32_t& number = shell_at[sets.root(t)];
-        if (number == std::numeric_limits<std::uint32_t>::max()) {
-            number = std::uint32_t(shells.size());
-            shells.emplace_back();
-        }
-        Shell& shell = shells[number];
+        Shell& shell = shells[found.of_triangle[t]];
         shell.triangles.push_back(t);
         shell.corners.push_back(mesh.triangles[t]);
         for (int k = 0; k < 3; ++k) {
@@ -55,7 +39,7 @@ std::vector<Shell> shells_of(const Mesh& mesh, std::span<const std::uint32_t> we
             shell.high = glm::max(shell.high, glm::dvec3(mesh.positions[mesh.triangles[t][k]]));
         }
     }
-    for (const std::uint32_t triangle : open) shells[shell_at[sets.root(triangle)]].closed = false;
+    for (std::uint32_t s = 0; s < found.count(); ++s) shells[s].closed = found.closed[s] != 0;
     return shells;
 }
 
@@ -82,18 +66,61 @@ bool enclosed(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& o
     });
 }
 
-bool is_cavity(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& own) {
-    const std::size_t step = std::max<std::size_t>(own.triangles.size() / kProbes, 1);
-    for (std::size_t i = 0; i < own.triangles.size(); i += step) {
-        const glm::uvec3 t = own.corners[i];
-        const glm::dvec3 middle =
-            (glm::dvec3(mesh.positions[t.x]) + glm::dvec3(mesh.positions[t.y]) + glm::dvec3(mesh.positions[t.z])) / 3.0;
-        if (!enclosed(mesh, shells, own, middle)) return false;
+/// Points just outside an inward shell: in its triangles, and at corners, first those that stick out farthest.
+std::vector<glm::dvec3> probes(const Mesh& mesh, const Shell& shell) {
+    const double apart = kApart * glm::length(shell.high - shell.low);
+    struct Corner {
+        std::size_t triangle = 0;
+        int corner = 0;
+        double along = -std::numeric_limits<double>::infinity();
+    };
+    std::vector<glm::dvec3> directions;  // a spiral from pole to pole
+    for (std::size_t d = 0; d < kDirections; ++d) {
+        const double z = 1.0 - (2.0 * double(d) + 1.0) / double(kDirections), r = std::sqrt(1.0 - z * z);
+        const double turn = double(d) * std::numbers::pi * (3.0 - std::sqrt(5.0));
+        directions.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
     }
-    return true;
+    std::vector<Corner> farthest(kDirections);
+    for (std::size_t i = 0; i < shell.corners.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 p = mesh.positions[shell.corners[i][k]];
+            for (std::size_t d = 0; d < kDirections; ++d)
+                if (const double along = glm::dot(p, directions[d]); along > farthest[d].along)
+                    farthest[d] = {i, k, along};
+        }
+    }
+    std::vector<glm::dvec3> points;
+    const auto outside = [&](std::size_t triangle, const glm::dvec3& p) {
+        const glm::uvec3 t = shell.corners[triangle];
+        const glm::dvec3 a = mesh.positions[t.x];
+        const glm::dvec3 inward =
+            glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
+        const double length = glm::length(inward);
+        return length > 0.0 ? p - apart / length * inward : p;
+    };
+    for (const Corner& c : farthest)
+        points.push_back(outside(c.triangle, mesh.positions[shell.corners[c.triangle][c.corner]]));
+    const std::size_t step = std::max<std::size_t>(shell.corners.size() / kTriangles, 1);
+    for (std::size_t i = 0; i < shell.corners.size(); i += step) {
+        const glm::uvec3 t = shell.corners[i];
+        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        for (const glm::dvec3& p : {(a + b + c) / 3.0, a, 0.5 * (a + b)}) points.push_back(outside(i, p));
+    }
+    return points;
 }
 
-/// Normals follow, but for vertices that are shared with triangles of other shells.
+bool is_cavity(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& own) {
+    const auto inside = [&](const Shell& other) {
+        return &other != &own && other.closed && glm::all(glm::lessThanEqual(other.low, own.high)) &&
+               glm::all(glm::lessThanEqual(own.low, other.high));
+    };
+    if (std::none_of(shells.begin(), shells.end(), inside)) return false;
+    const std::vector<glm::dvec3> points = probes(mesh, own);
+    return std::all_of(points.begin(), points.end(),
+                       [&](const glm::dvec3& point) { return enclosed(mesh, shells, own, point); });
+}
+
+/// Turns shells, and normals that no triangle of another shell has.
 void turn(Mesh& mesh, const std::vector<const Shell*>& turned) {
     if (turned.empty()) return;
     std::vector<char> in_turned(mesh.positions.size(), 0), elsewhere(mesh.positions.size(), 0);
@@ -110,17 +137,23 @@ void turn(Mesh& mesh, const std::vector<const Shell*>& turned) {
 
 }  // namespace
 
-ShellOrientation orient_shells(Mesh& mesh, std::span<const std::uint32_t> weld) {
-    std::vector<Shell> shells = shells_of(mesh, weld);
+TurnedShells orient_shells(Mesh& mesh, const Shells& found) {
+    std::vector<Shell> shells = list_shells(mesh, found);
     std::vector<const Shell*> turned;
-    if (shells.size() > 1) {
-        for (Shell& shell : shells) shell.inward = shell.closed && signed_volume(mesh.positions, shell.corners).value < 0.0;
-        for (const Shell& shell : shells)
-            if (shell.inward && !is_cavity(mesh, shells, shell)) turned.push_back(&shell);
-        turn(mesh, turned);
+    std::vector<glm::uvec3> open;
+    for (Shell& shell : shells) {
+        shell.inward = shell.closed && signed_volume(mesh.positions, shell.corners).value < 0.0;
+        if (!shell.closed) open.insert(open.end(), shell.corners.begin(), shell.corners.end());
     }
-    const bool all_closed = std::all_of(shells.begin(), shells.end(), [](const Shell& shell) { return shell.closed; });
-    return {shells.size(), turned.size(), all_closed};
+    for (const Shell& shell : shells)
+        if (shell.inward && !is_cavity(mesh, shells, shell)) turned.push_back(&shell);
+    TurnedShells result{.closed = turned.size()};
+    const SignedVolume volume = signed_volume(mesh.positions, open);
+    result.open = volume.value < 0.0 && volume.meaningful();
+    for (const Shell& shell : shells)
+        if (result.open && !shell.closed) turned.push_back(&shell);
+    turn(mesh, turned);
+    return result;
 }
 
 }  // namespace pellucid

@@ -220,7 +220,9 @@ Scene::Interface Scene::next_interface(const Ray& ray, const Crossing* start) co
         const double beyond = end < all.size() ? all[end].t : all[end - 1].t + 1.0;
         next.before = body_at(middle(from, all[i].t));
         next.after = body_at(middle(all[end - 1].t, beyond));
-        if (!(medium(next.before) == medium(next.after))) {
+        // Air has an interface with whatever is like it, too.
+        const bool both = next.before != kOutside && next.after != kOutside;
+        if (both ? !(medium(next.before) == medium(next.after)) : next.before != next.after) {
             // The surface of a body that is left or entered bends the ray, not one that merely touches it.
             std::size_t at = i;
             while (at < end && all[at].body != next.before && all[at].body != next.after) ++at;
