@@ -3,8 +3,14 @@
 #include "scene/mesh_repair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <vector>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <utility>
 
 namespace pellucid {
 namespace {
@@ -14,108 +20,334 @@ struct ObjectBox {
     glm::vec3 low;
     float radius;  ///< from the middle of the box to the farthest vertex
     glm::vec3 high;
-    float reserved;
+    float contact;  ///< surfaces no farther apart are at one place, m
 };
 static_assert(sizeof(ObjectBox) == 32);
 
-struct Box {
-    glm::vec3 low{std::numeric_limits<float>::max()};
-    glm::vec3 high{std::numeric_limits<float>::lowest()};
-
-    double volume() const {
-        const glm::dvec3 size = glm::dvec3(high) - glm::dvec3(low);
-        return size.x * size.y * size.z;
-    }
+/// Twin of SlotRecord in object_traits.glsl.
+struct SlotRecord {
+    std::uint32_t material, first, count, medium;
 };
 
-Box box_of(const Mesh& mesh, const glm::mat4& world_from_object) {
-    Box box;
-    for (const glm::vec3& p : mesh.positions) {
-        const glm::vec3 world(world_from_object * glm::vec4(p, 1.0f));
-        box.low = glm::min(box.low, world);
-        box.high = glm::max(box.high, world);
-    }
-    return box;
-}
+// Twins in object_traits.glsl.
+constexpr std::uint32_t kClosed = 4, kTouches = 8, kCutOut = 16, kReplaced = 32, kCavity = 64, kSlotShift = 8;
+constexpr std::uint32_t kReplacedSolid = 0x80000000, kCavitySlot = 0x80000000;
 
-bool meet(const Box& a, const Box& b) {
-    // A few roundings of a coordinate apart still counts as touching.
-    const float apart = 1e-6f * std::max({glm::length(a.low), glm::length(a.high), glm::length(b.high)});
+constexpr float kContact = 1e-6f;  ///< of a body's extent
+
+template <class Box>
+bool meet(const Box& a, const Box& b, float apart) {
     return glm::all(glm::lessThanEqual(a.low - apart, b.high)) && glm::all(glm::lessThanEqual(b.low - apart, a.high));
 }
 
-/// Liquid displaces the goblet that it overlaps, a bubble the block around it: the smaller box wins.
-std::vector<std::uint32_t> rank_by_size(const std::vector<Box>& boxes, const std::vector<std::uint32_t>& solids) {
-    std::vector<std::uint32_t> order = solids;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return boxes[a].volume() > boxes[b].volume(); });
-    std::vector<std::uint32_t> rank(boxes.size(), 0);
-    for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
-    return rank;
+struct ShellBox {
+    glm::vec3 low{std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::lowest()};
+    bool cavity = false;
+};
+
+/// Which shells of a surface share a slot, in numbers from 0; and which of these slots are of cavities.
+struct Coloring {
+    std::vector<std::uint32_t> color;  ///< per shell; of open ones 0
+    std::vector<char> cavity;          ///< per colour
+    bool any_open = false;
+};
+
+std::vector<ShellBox> shell_boxes(const BodySurface& surface) {
+    std::vector<ShellBox> boxes(surface.shells.count());
+    std::vector<double> volume(surface.shells.count(), 0.0);
+    const glm::dvec3 origin = surface.positions.empty() ? glm::dvec3(0.0) : glm::dvec3(surface.positions.front());
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        const std::uint32_t shell = surface.shells.of_triangle[t];
+        glm::dvec3 p[3];
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 corner = surface.positions[surface.triangles[t][k]];
+            boxes[shell].low = glm::min(boxes[shell].low, corner);
+            boxes[shell].high = glm::max(boxes[shell].high, corner);
+            p[k] = glm::dvec3(corner) - origin;
+        }
+        volume[shell] += glm::dot(p[0], glm::cross(p[1], p[2]));
+    }
+    for (std::size_t s = 0; s < boxes.size(); ++s) boxes[s].cavity = volume[s] < 0.0;
+    return boxes;
+}
+
+/// Shells whose boxes meet, of each closed shell. Swept along x.
+std::vector<std::vector<std::uint32_t>> meeting_shells(const std::vector<ShellBox>& boxes, const Shells& shells) {
+    float extent = 0.0f;
+    for (const ShellBox& box : boxes) {
+        const glm::vec3 size = box.high - box.low;
+        extent = std::max({extent, size.x, size.y, size.z, glm::length(box.low), glm::length(box.high)});
+    }
+    const float apart = 4.0f * kContact * extent;
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t s = 0; s < shells.count(); ++s)
+        if (shells.closed[s] != 0) order.push_back(s);
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return boxes[a].low.x < boxes[b].low.x; });
+    std::vector<std::vector<std::uint32_t>> meeting(shells.count());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        for (std::size_t k = i + 1; k < order.size() && boxes[order[k]].low.x - apart <= boxes[order[i]].high.x; ++k) {
+            if (!meet(boxes[order[i]], boxes[order[k]], apart)) continue;
+            meeting[order[i]].push_back(order[k]);
+            meeting[order[k]].push_back(order[i]);
+        }
+    }
+    return meeting;
+}
+
+/// Greedily: no two shells that meet have one colour, but for cavities in a shell that meet nothing else.
+Coloring color_shells(const BodySurface& surface) {
+    const Shells& shells = surface.shells;
+    Coloring coloring;
+    coloring.color.assign(shells.count(), 0);
+    coloring.any_open = !shells.all_closed();
+    if (shells.count() == 1) {
+        if (shells.all_closed()) coloring.cavity.push_back(0);
+        return coloring;
+    }
+    std::vector<ShellBox> boxes = shell_boxes(surface);
+    const std::vector<std::vector<std::uint32_t>> meeting = meeting_shells(boxes, shells);
+    std::vector<std::uint32_t> around(shells.count(), shells.count());  // of cavities that go with a shell
+    for (std::uint32_t s = 0; s < shells.count(); ++s) {
+        if (boxes[s].cavity && meeting[s].size() == 1 && !boxes[meeting[s].front()].cavity) around[s] = meeting[s].front();
+    }
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> color(shells.count(), kNone);
+    for (std::uint32_t s = 0; s < shells.count(); ++s) {
+        if (shells.closed[s] == 0 || around[s] < shells.count()) continue;
+        std::vector<char> taken(coloring.cavity.size() + 1, 0);
+        for (const std::uint32_t other : meeting[s])
+            if (color[other] != kNone) taken[color[other]] = 1;
+        std::uint32_t c = 0;
+        while (c < coloring.cavity.size() && (taken[c] != 0 || (coloring.cavity[c] != 0) != boxes[s].cavity)) ++c;
+        if (c == coloring.cavity.size()) coloring.cavity.push_back(boxes[s].cavity ? 1 : 0);
+        color[s] = c;
+    }
+    for (std::uint32_t s = 0; s < shells.count(); ++s) {
+        if (shells.closed[s] == 0) continue;
+        coloring.color[s] = around[s] < shells.count() ? color[around[s]] : color[s];
+    }
+    return coloring;
+}
+
+/// Sum of the solid angles of triangles over 4 pi.
+double winding(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    return std::atan2(glm::dot(a, glm::cross(b, c)),
+                      la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb) /
+           (2.0 * std::numbers::pi);
 }
 
 }  // namespace
 
-SceneTopology::SceneTopology(const Device& device, const Scene& scene) {
-    for (const Mesh& mesh : scene.meshes)
-        closed_.push_back(count_edges(mesh.triangles, weld_positions(mesh.positions)).closed());
+SceneTopology::SceneTopology(const Device& device, const Scene& scene) : bodies_(find_bodies(scene)) {
+    number_slots(scene);
     const auto usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst;
     const std::size_t count = std::max<std::size_t>(scene.objects.size(), 1);
     traits = Buffer(device, "the objects' traits", count * 4, usage);
-    materials = Buffer(device, "the solids' materials", count * 4, usage);
+    shell_traits = Buffer(device, "the shells' traits", std::max<std::size_t>(shell_words_.size(), 1) * 4, usage);
+    slots = Buffer(device, "the solids' slots", std::max<std::size_t>(slot_words_.size(), 4) * 4, usage);
     boxes = Buffer(device, "the objects' boxes", count * sizeof(ObjectBox), usage);
+    eye = Buffer(device, "the solids around the eye", std::max<std::size_t>((slot_count + 31) / 32, 1) * 4, usage);
+    if (!shell_words_.empty()) upload(device, shell_traits, std::as_bytes(std::span(shell_words_)));
     update(device, scene, 0);
 }
 
+/// Open surfaces come before all others, then bodies by rank.
+void SceneTopology::number_slots(const Scene& scene) {
+    std::map<const BodySurface*, Coloring> colorings;
+    for (const Body& body : bodies_.all) {
+        Coloring& coloring = colorings[body.surface.get()];
+        if (coloring.color.empty()) coloring = color_shells(*body.surface);
+    }
+    std::vector<std::uint32_t> by_rank(bodies_.all.size());
+    for (std::uint32_t b = 0; b < bodies_.all.size(); ++b) by_rank[bodies_.all[b].rank] = b;
+    std::map<std::tuple<float, float, float, float, float>, std::uint32_t> media;
+    std::vector<SlotRecord> records;
+    body_slots_.resize(bodies_.all.size());
+    const auto add = [&](const Body& body, std::uint32_t first, std::uint32_t count, bool cavity) {
+        const Material& m = scene.materials[body.material];
+        const glm::vec3 sigma = m.sigma_a();
+        const auto next = std::uint32_t(media.size());
+        const std::uint32_t medium = media.try_emplace({m.ior, m.dispersion, sigma.r, sigma.g, sigma.b}, next).first->second;
+        records.push_back({body.material, first, count, medium | (cavity ? kCavitySlot : 0u)});
+    };
+    for (const std::uint32_t b : by_rank) {
+        if (!colorings[bodies_.all[b].surface.get()].any_open) continue;
+        body_slots_[b].open = std::uint32_t(records.size());
+        add(bodies_.all[b], body_slots_[b].open, 1, false);
+    }
+    for (const std::uint32_t b : by_rank) {
+        const Coloring& coloring = colorings[bodies_.all[b].surface.get()];
+        const auto first = std::uint32_t(records.size()), count = std::uint32_t(coloring.cavity.size());
+        body_slots_[b].closed = first;
+        for (const char cavity : coloring.cavity) add(bodies_.all[b], first, count, cavity != 0);
+        many_slots = many_slots || count + (coloring.any_open ? 1 : 0) > 1;
+    }
+    slot_count = std::uint32_t(records.size());
+    for (const SlotRecord& r : records) slot_words_.insert(slot_words_.end(), {r.material, r.first, r.count, r.medium});
+
+    // A shell's word holds its slot less that of its body's closed shells.
+    for (std::uint32_t b = 0; b < bodies_.all.size(); ++b) {
+        const Shells& shells = bodies_.all[b].surface->shells;
+        const Coloring& coloring = colorings[bodies_.all[b].surface.get()];
+        for (std::uint32_t s = 0; s < shells.count(); ++s) {
+            const std::uint32_t c = coloring.color[s];
+            body_slots_[b].words.push_back(
+                shells.closed[s] == 0
+                    ? body_slots_[b].open << kSlotShift
+                    : kClosed | (coloring.cavity[c] != 0 ? kCavity : 0u) | (body_slots_[b].closed + c) << kSlotShift);
+        }
+    }
+    if (!many_slots) return;
+    std::vector<std::size_t> first_triangle;
+    std::size_t triangles = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        first_triangle.push_back(triangles);
+        triangles += mesh.triangles.size();
+    }
+    shell_words_.assign(triangles, 0);
+    for (std::uint32_t b = 0; b < bodies_.all.size(); ++b) {
+        const Body& body = bodies_.all[b];
+        for (std::size_t k = 0; k < body.objects.size(); ++k) {
+            const auto mesh = std::size_t(scene.objects[body.objects[k]].mesh);
+            for (std::size_t t = 0; t < scene.meshes[mesh].triangles.size(); ++t) {
+                const std::uint32_t word =
+                    body_slots_[b].words[body.surface->shells.of_triangle[body.surface->first_triangle[k] + t]];
+                // Wraps around where the open slot comes first; adding the object's word undoes it.
+                shell_words_[first_triangle[mesh] + t] = word - (body_slots_[b].closed << kSlotShift);
+            }
+        }
+    }
+}
+
 void SceneTopology::update(const Device& device, const Scene& scene, std::uint64_t moves_now) {
-    std::vector<Box> own_boxes;
     std::vector<ObjectBox> uploaded;
-    std::vector<std::uint32_t> refracting;
-    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
-        const Object& object = scene.objects[i];
-        const Box box = box_of(scene.meshes[std::size_t(object.mesh)], object.world_from_object);
-        own_boxes.push_back(box);
-        const glm::vec3 middle = 0.5f * (box.low + box.high);
+    boxes_.clear();
+    for (const Object& object : scene.objects) {
+        const Mesh& mesh = scene.meshes[std::size_t(object.mesh)];
+        Box box;
+        for (const glm::vec3& p : mesh.positions) {
+            const glm::vec3 world(object.world_from_object * glm::vec4(p, 1.0f));
+            box.low = glm::min(box.low, world);
+            box.high = glm::max(box.high, world);
+        }
+        const glm::vec3 middle = 0.5f * (box.low + box.high), size = box.high - box.low;
         float radius = 0.0f;
-        for (const glm::vec3& p : scene.meshes[std::size_t(object.mesh)].positions)
+        for (const glm::vec3& p : mesh.positions)
             radius = std::max(radius, glm::distance(middle, glm::vec3(object.world_from_object * glm::vec4(p, 1.0f))));
-        uploaded.push_back({box.low, radius, box.high, 0.0f});
-        if (scene.materials[std::size_t(object.material)].refractive()) refracting.push_back(i);
+        boxes_.push_back(box);
+        uploaded.push_back({box.low, radius, box.high, kContact * std::max({size.x, size.y, size.z, 0.0f})});
     }
-    const std::vector<std::uint32_t> rank = rank_by_size(own_boxes, refracting);
-    solids = std::uint32_t(refracting.size());
+    body_boxes_.clear();
+    for (const Body& body : bodies_.all) {  // one extent for all of a body
+        Box& all = body_boxes_.emplace_back();
+        for (const std::uint32_t i : body.objects) {
+            all.low = glm::min(all.low, boxes_[i].low);
+            all.high = glm::max(all.high, boxes_[i].high);
+        }
+        const glm::vec3 size = all.high - all.low;
+        for (const std::uint32_t i : body.objects) uploaded[i].contact = kContact * std::max({size.x, size.y, size.z, 0.0f});
+    }
+
+    largest_contact = 0.0f;
+    for (const ObjectBox& box : uploaded) largest_contact = std::max(largest_contact, box.contact);
     all_alone = true;
-    std::vector<std::uint32_t> words, by_rank(std::max<std::size_t>(refracting.size(), 1), 0);
-    for (const std::uint32_t i : refracting) by_rank[rank[i]] = std::uint32_t(scene.objects[i].material);
+    trait_words_.clear();
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
-        const Object& object = scene.objects[i];
-        const Material& material = scene.materials[std::size_t(object.material)];
+        const Material& material = scene.materials[std::size_t(scene.objects[i].material)];
+        const std::uint32_t body = bodies_.of_object[i];
         bool touches = false;
-        for (std::uint32_t k = 0; k < own_boxes.size() && !touches; ++k)
-            touches = k != i && meet(own_boxes[i], own_boxes[k]);
+        for (std::uint32_t k = 0; k < boxes_.size() && !touches; ++k) {
+            if (k == i || (body != kNoBody && bodies_.of_object[k] == body)) continue;
+            // A few roundings of a coordinate apart still counts as touching.
+            const float rounding =
+                1e-6f * std::max({glm::length(boxes_[i].low), glm::length(boxes_[i].high), glm::length(boxes_[k].high)});
+            touches = meet(boxes_[i], boxes_[k], std::max({rounding, uploaded[i].contact, uploaded[k].contact}));
+        }
+        std::uint32_t word = material.refractive() ? 2u : material.transmissive() ? 1u : 0u;
+        if (material.alpha_cutoff > 0.0f) word |= kCutOut;
+        if (body != kNoBody) {
+            const BodySlots& own = body_slots_[body];
+            word |= many_slots ? own.closed << kSlotShift : own.words.front();
+            const std::vector<std::uint32_t>& words = own.words;
+            touches = touches || std::any_of(words.begin(), words.end(), [&](auto w) { return w != words.front(); });
+        }
         all_alone = all_alone && !touches;
-        const std::uint32_t kind = material.refractive() ? 2u : material.transmissive() ? 1u : 0u;
-        words.push_back(kind | (closed_[std::size_t(object.mesh)] ? 4u : 0u) | (touches ? 8u : 0u) |
-                        (material.alpha_cutoff > 0.0f ? 16u : 0u) | rank[i] << 8);
+        trait_words_.push_back(word | (touches ? kTouches : 0u));
     }
-    upload(device, traits, std::as_bytes(std::span(words)));
-    upload(device, materials, std::as_bytes(std::span(by_rank)));
-    trait_words_ = std::move(words);
-    material_words_ = std::move(by_rank);
+    upload(device, traits, std::as_bytes(std::span(trait_words_)));
+    if (!slot_words_.empty()) upload(device, slots, std::as_bytes(std::span(slot_words_)));
     if (!uploaded.empty()) upload(device, boxes, std::as_bytes(std::span(uploaded)));
     moves = moves_now;
 }
 
 void SceneTopology::mark_replaced(const Device& device, const std::vector<int>& objects) {
-    constexpr std::uint32_t kReplaced = 32, kReplacedSolid = 0x80000000;  // twins in object_traits.glsl
-    std::vector<std::uint32_t> words = trait_words_, by_rank = material_words_;
+    std::vector<std::uint32_t> words = trait_words_, records = slot_words_;
     for (const int object : objects) {
-        std::uint32_t& word = words[std::size_t(object)];
-        word |= kReplaced;
-        by_rank[word >> 8] |= kReplacedSolid;
+        const std::uint32_t body = bodies_.of_object[std::size_t(object)];
+        if (body == kNoBody) continue;
+        words[std::size_t(object)] |= kReplaced;
+        for (const std::uint32_t word : body_slots_[body].words) {
+            const std::uint32_t slot = word >> kSlotShift;
+            records[4 * slot] |= kReplacedSolid;
+            records[4 * slot + 3] |= 0x40000000u | slot;  // a medium like no other
+        }
     }
     upload(device, traits, std::as_bytes(std::span(words)));
-    upload(device, materials, std::as_bytes(std::span(by_rank)));
+    if (!records.empty()) upload(device, slots, std::as_bytes(std::span(records)));
+}
+
+void SceneTopology::look_from(const Device& device, const Scene& scene, const Camera& camera) {
+    const glm::dvec3 at(camera.world_from_view[3]);
+    std::vector<std::uint32_t> bits(std::max<std::size_t>((slot_count + 31) / 32, 1), 0);
+    eye_in_solid = eye_differs = false;
+    eye_depth = camera.near_plane;
+    const bool one_origin = !camera.orthographic && camera.near_plane == 0.0f;
+    std::vector<double> windings(slot_count, 0.0);
+    for (std::uint32_t b = 0; b < bodies_.all.size(); ++b) {
+        const Body& body = bodies_.all[b];
+        for (std::size_t k = 0; k < body.objects.size(); ++k) {
+            const Box& box = boxes_[body.objects[k]];
+            if (!one_origin) {
+                // In view space: does the box reach the plane on which rays start?
+                const glm::dmat4 view_from_world = glm::inverse(glm::dmat4(camera.world_from_view));
+                double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+                for (int corner = 0; corner < 8; ++corner) {
+                    const glm::dvec3 p((corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
+                                       (corner & 4) != 0 ? box.high.z : box.low.z);
+                    const double depth = -(view_from_world * glm::dvec4(p, 1.0)).z - double(camera.near_plane);
+                    nearest = std::min(nearest, depth);
+                    farthest = std::max(farthest, depth);
+                }
+                eye_differs = eye_differs || (nearest <= 0.0 && farthest >= 0.0);
+                continue;
+            }
+            // What is open in one object of a body closes in another.
+            if (glm::any(glm::lessThan(at, glm::dvec3(body_boxes_[b].low))) ||
+                glm::any(glm::greaterThan(at, glm::dvec3(body_boxes_[b].high))))
+                continue;
+            const Object& object = scene.objects[body.objects[k]];
+            const Mesh& mesh = scene.meshes[std::size_t(object.mesh)];
+            const glm::dmat4 world_from_object(object.world_from_object);
+            const double sense = glm::determinant(glm::dmat3(world_from_object)) < 0.0 ? -1.0 : 1.0;
+            std::vector<glm::dvec3> from_eye;
+            for (const glm::vec3& p : mesh.positions)  // as rounded as the surfaces that rays meet
+                from_eye.push_back(glm::dvec3(glm::vec3(world_from_object * glm::dvec4(glm::dvec3(p), 1.0))) - at);
+            for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+                const std::uint32_t word =
+                    body_slots_[b].words[body.surface->shells.of_triangle[body.surface->first_triangle[k] + t]];
+                if ((word & kClosed) == 0) continue;
+                const glm::uvec3 c = mesh.triangles[t];
+                windings[word >> kSlotShift] += sense * winding(from_eye[c.x], from_eye[c.y], from_eye[c.z]);
+            }
+        }
+    }
+    for (std::uint32_t slot = 0; slot < slot_count; ++slot) {
+        if (std::abs(windings[slot]) < 0.5) continue;
+        bits[slot / 32] |= 1u << slot % 32;
+        eye_in_solid = true;
+    }
+    upload(device, eye, std::as_bytes(std::span(bits)));
 }
 
 }  // namespace pellucid

@@ -86,6 +86,8 @@ public:
     Layers build(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     /// A map of the view, in which every triangle of the scene is. Once per frame; needs GpuScene::topology.
     SurfaceMap map_view(Recorder& recorder, const Frame& frame);
+    /// Whether the boxes of all glass lie in the view, so that paths inside it find all of its surfaces in a map of that.
+    static bool view_holds_glass(const Frame& frame);
     /// Lists every triangle of the scene in the texels of a projection.
     SurfaceMap map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
                             const MapProjection& projection);

@@ -22,17 +22,16 @@ uint walked_traits;  // of the object that is being walked
 uint walked_shift;   // from a triangle of its mesh to its own
 
 bool can_meet_walked(uint record_traits, bool leaving, uint triangle) {
-    return kMapPerMesh ? can_meet(walked_traits, leaving, triangle + walked_shift)
+    return kMapPerMesh ? can_meet(walked_traits + record_traits, leaving, triangle + walked_shift)
                        : can_meet(record_traits, leaving, triangle);
 }
 #define can_meet can_meet_walked
 #include "layers/surface_walk.glsl"
 #undef can_meet
 
-// The nearest surface beyond `t_min`, m. What lies `apart`, m, behind it may be at the same place, and is looked for.
-SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, float apart, out bool gave_up,
-                                      inout uint visits) {
-    SurfaceHit nearest = kNoHit, second = kNoHit;
+// The nearest surface beyond `t_min`, m.
+SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, out bool gave_up, inout uint visits) {
+    SurfaceHit nearest = kNoHit;
     gave_up = false;
     for (uint i = 0u; i < frame.object_count; ++i) {
         MappedObject mapped = mapped_objects[i];
@@ -40,7 +39,7 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, 
         mat3 object_from_world = transpose(mat3(objects[i].world_from_object_normal));
         vec3 from = object_from_world * (origin - objects[i].world_from_object[3].xyz);
         vec3 way = object_from_world * direction;
-        float near = t_min, far = nearest.t + apart;
+        float near = t_min, far = min(nearest.t, walk_limit);
         for (int k = 0; k < 3; ++k) {
             clip(from[k] - mapped.low[k], way[k], near, far);
             clip(mapped.high[k] - from[k], -way[k], near, far);
@@ -56,11 +55,9 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, 
         SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, t_min, t_end, gave_up_here, visits);
         gave_up = gave_up || gave_up_here;
         // A transform that mirrors turns the triangles' winding and their outward normals alike: `leaving` holds.
-        second_hit = second;
-        take_nearer(nearest, SurfaceHit(hit.t, hit.triangle + walked_shift, walked_traits, hit.leaving));
-        second = second_hit;
+        if (hit.t < nearest.t)
+            nearest = SurfaceHit(hit.t, hit.triangle + walked_shift, walked_traits + hit.traits, hit.leaving);
     }
-    second_hit = second;
     return nearest;
 }
 

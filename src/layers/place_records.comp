@@ -14,7 +14,10 @@ layout(set = 0, binding = 6) uniform utextureBuffer texels;
 layout(set = 0, binding = 7) uniform utextureBuffer found;
 layout(std430, set = 0, binding = 8) writeonly buffer Ranges { uint ranges[]; };
 layout(std430, set = 0, binding = 9) writeonly buffer Records { SurfaceRecord records[]; };
+layout(std430, set = 0, binding = 10) readonly buffer ShellTraits { uint shell_traits[]; };  // per triangle of meshes
 layout(constant_id = 0) const bool kOneObject = false;
+layout(constant_id = 1) const bool kOfMesh = false;     // records are of no object: whoever walks it knows that one's traits
+layout(constant_id = 2) const bool kManySlots = false;  // shells of one mesh differ
 layout(push_constant) uniform Push {
     uint found_capacity;
     uint end;  // of the map's room
@@ -30,5 +33,10 @@ void main() {
     uint place = texelFetch(texels, int(record.x)).x + record.y;
     if (place >= end) return;
     ranges[place] = record.w;
-    records[place] = SurfaceRecord(record.z, traits[object]);
+    uint own = kOfMesh ? 0u : traits[object];
+    if (kManySlots) {
+        ObjectRecord o = objects[object];
+        own += shell_traits[kOfMesh ? record.z : record.z - o.first_triangle + o.first_corner / 3u];
+    }
+    records[place] = SurfaceRecord(record.z, own);
 }

@@ -127,9 +127,10 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     recorder.compute(dispatch, {updates("MapCounters", counters), writes("Groups", groups)},
                      std::array{1u, build.found, row_groups}, {1, 1});
     recorder.compute_indirect(
-        workspace.compute({"place_records.comp", kPlaceRecords}, {one_object}),
+        workspace.compute({"place_records.comp", kPlaceRecords},
+                          {one_object, build.of_mesh ? 1u : 0u, topology.many_slots ? 1u : 0u}),
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Traits", topology.traits),
-         updates("MapCounters", counters), reads("texels", *map.texels), reads("found", found),
+         reads("ShellTraits", topology.shell_traits), updates("MapCounters", counters), reads("texels", *map.texels), reads("found", found),
          writes("Ranges", *map.ranges), writes("Records", *map.records)},
         std::array{build.found, build.first_record + build.records}, groups);
     recorder.copy(counters, counts, sizeof(MapCount), build.index * sizeof(MapCount));

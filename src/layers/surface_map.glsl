@@ -22,7 +22,7 @@ struct MapRecord {
 // list of their own, which rays read four at a time; kNoRange where there is no record.
 struct SurfaceRecord {
     uint triangle;
-    uint traits;    // of its object, object_traits.glsl
+    uint traits;    // of its object and its shell, object_traits.glsl; of a mesh's map: of its shell
 };
 // Where those of a texel lie, one after the other; `first` is a multiple of kRangeBlock.
 struct TexelRecords {

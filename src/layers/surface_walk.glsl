@@ -32,25 +32,15 @@ struct SurfaceHit {
     bool leaving;    // along the outward normal
 };
 
-const SurfaceHit kNoHit = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
+float walk_limit = kFarthest;  // m, how far rays go
 
-// Programs that have to know which surfaces of two objects lie at one place define PELLUCID_FINDS_SECOND as whether
-// they do.
-#ifndef PELLUCID_FINDS_SECOND
-#define PELLUCID_FINDS_SECOND false
-#endif
-SurfaceHit second_hit;  // behind the nearest, of another object, as far as it was seen
+const SurfaceHit kNoHit = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
 
 // Of two triangles at one place the first counts: records lie in an order that is chance.
 bool is_nearer(SurfaceHit a, SurfaceHit b) { return a.t < b.t || (a.t == b.t && a.triangle < b.triangle); }
 
 void take_nearer(inout SurfaceHit hit, SurfaceHit candidate) {
-    bool nearer = is_nearer(candidate, hit);
-    if (PELLUCID_FINDS_SECOND && candidate.traits != hit.traits) {
-        if (nearer) second_hit = hit;
-        else if (is_nearer(candidate, second_hit)) second_hit = candidate;
-    }
-    if (nearer) hit = candidate;
+    if (is_nearer(candidate, hit)) hit = candidate;
 }
 
 // Keeps [t_low, t_high] where start + t rate >= 0.
@@ -64,7 +54,7 @@ void clip(float start, float rate, inout float t_low, inout float t_high) {
 // False: the ray does not enter the map.
 bool map_ray(MapRecord map, vec3 origin, vec3 direction, out MapRay ray) {
     vec4 p = map.map_from_space * vec4(origin, 1.0), r = map.map_from_space * vec4(direction, 0.0);
-    float low = 0.0, high = kFarthest;
+    float low = 0.0, high = walk_limit;
     clip(p.w - map.near_w, r.w, low, high);
     clip(p.x, r.x, low, high);
     clip(p.y, r.y, low, high);
@@ -94,7 +84,6 @@ float way_at(MapRay ray, float t) {
 SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, out float t_end, out bool gave_up,
                         inout uint visits) {
     SurfaceHit hit = kNoHit;
-    second_hit = kNoHit;
     MapRay ray;
     gave_up = false;
     bool in_map = map_ray(map, origin, direction, ray);
@@ -117,7 +106,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
             int side = 1 << level;
             vec2 to_edge = (vec2((texel & -side) + (ahead & side)) - ray.a.xy) * inverse;
             s_out = min(min(to_edge.x, to_edge.y) + nudge, 1.0);
-            s_out = max(s_out, s + 0.5 * nudge);
+            s_out = min(max(s_out, s + 0.5 * nudge), 1.0);  // along the map's axis a ray crosses no edge
             float q_in = ray.a.z + s * ray.way.z, q_out = ray.a.z + s_out * ray.way.z;
             low = int(min(q_in, q_out) * kDepthSteps - 1.0);
             high = int(max(q_in, q_out) * kDepthSteps + 2.0);

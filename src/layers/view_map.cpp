@@ -103,6 +103,18 @@ float choose_texels(const Frame& frame, const gpu::FrameConstants& view) {
 
 }  // namespace
 
+bool LayerSource::view_holds_glass(const Frame& frame) {
+    const MapProjection pixels = view_projection(view_of(frame), frame.extent, 1.0f);
+    const glm::vec2 size(pixels.extent.width, pixels.extent.height);
+    const std::vector<glm::vec3>& corners = frame.scene.refractive_corners;
+    return std::all_of(corners.begin(), corners.end(), [&](const glm::vec3& corner) {
+        const glm::vec4 p = pixels.map_from_world * glm::vec4(corner, 1.0f);
+        if (p.w < pixels.near_w || p.z < 0.0f || p.z > p.w) return false;
+        return glm::all(glm::greaterThanEqual(glm::vec2(p), glm::vec2(0.0f))) &&
+               glm::all(glm::lessThanEqual(glm::vec2(p), size * p.w));
+    });
+}
+
 SurfaceMap LayerSource::map_view(Recorder& recorder, const Frame& frame) {
     const Recorder::Scope scope(recorder, "layers");
     const gpu::FrameConstants view = view_of(frame);

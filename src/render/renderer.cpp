@@ -123,7 +123,8 @@ struct Renderer::Impl {
 
     FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
     /// Lets the technique compute what it wants of the scene; ParameterValues of `chosen` say what.
-    void prepare(const FrameSettings& chosen, const Progress& progress, std::vector<std::string>& warnings);
+    void prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
+                 std::vector<std::string>& warnings);
     /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
     /// the pass times. `progress` is of this sample.
     /// `sample`: none for the frame through the centres of the pixels.
@@ -207,13 +208,14 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
     return chosen;
 }
 
-void Renderer::Impl::prepare(const FrameSettings& chosen, const Progress& progress,
+void Renderer::Impl::prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
                              std::vector<std::string>& warnings) {
     if (chosen.technique.prepare == nullptr) return;
     // Shapes that a deforming mesh passes through are not worth a file each.
     bake::BakeCache passing{std::filesystem::path()};
     bake::BakeCache& cache = scene->moves > 0 ? passing : bake_cache;
     chosen.technique.prepare({device, cpu.scene(), *scene, cache, threads, progress, warnings}, chosen.parameters);
+    if (scene->topology) scene->topology->look_from(device, cpu.scene(), view);
 }
 
 void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample) {
@@ -358,7 +360,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     check_settings(settings, impl.device);
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
-    impl.prepare(chosen, settings.progress, result.warnings);
+    impl.prepare(chosen, impl.camera_for(settings), settings.progress, result.warnings);
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
     const Frame frame{impl.workspace,
                       *impl.scene,

@@ -12,9 +12,6 @@
 namespace pellucid {
 namespace {
 
-constexpr std::uint32_t kBeginViewRays[] = {
-#include "begin_view_rays.comp.inc"
-};
 constexpr std::uint32_t kMarchRays[] = {
 #include "march_rays.comp.inc"
 };
@@ -65,21 +62,6 @@ public:
         if (!volumes_.lit()) return;
         push.light_count = volumes_.light_count();
         push.receiver_count = std::uint32_t(volumes_.light_volumes().receiver_list.size());
-    }
-
-    void begin(const PathPass& pass, const Buffer& next) const override {
-        std::vector<Binding> bindings = pass.scene;
-        bindings.insert(bindings.end(), pass.state.begin(), pass.state.end());
-        bindings.insert(bindings.end(), pass.light.begin(), pass.light.end());
-        for (Binding& b : bindings)
-            if (b.name == "path_radiance" || b.name == "reflected_radiance") b.access = Access::kWrite;
-        const Binding own[] = {reads("Traits", pass.frame.scene.topology->traits),
-                               reads("layer_triangle", pass.layers.triangle),
-                               reads("opaque_depth", pass.layers.opaque.depth), reads("Volumes", images_.records),
-                               updates("NextList", next)};
-        bindings.insert(bindings.end(), std::begin(own), std::end(own));
-        pass.recorder.compute(pass.frame.workspace.compute({"begin_view_rays.comp", kBeginViewRays}, pass.constants),
-                              std::span<const Binding>(bindings), pass.push, pass.frame.extent);
     }
 
     void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const override {

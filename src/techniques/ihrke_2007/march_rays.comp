@@ -7,18 +7,18 @@
 #include "techniques/visibility_layers/path_walk.glsl"
 #include "techniques/visibility_layers/path_light.glsl"
 
-// Those of visibility_bindings.glsl go up to 11.
-layout(constant_id = 12) const bool kRk4 = true;
-layout(constant_id = 13) const bool kAbsorbs = false;
-layout(constant_id = 14) const bool kBoundaries = false;      // some volume has surfaces, which reflect
-layout(constant_id = 15) const bool kScatters = false;
-layout(constant_id = 16) const bool kEmits = false;
-layout(constant_id = 17) const bool kDisperses = false;
-layout(constant_id = 18) const bool kSurfacesInside = false;  // objects may lie in volumes
-layout(constant_id = 19) const bool kOverlapping = false;     // and volumes in volumes
-layout(constant_id = 22) const bool kLit = false;             // light was traced
-layout(constant_id = 20) const float kStep = 0.5;             // voxels
-layout(constant_id = 21) const uint kMostSteps = 8192u;       // from one surface or box to the next
+// Those of visibility_bindings.glsl go up to 12.
+layout(constant_id = 13) const bool kRk4 = true;
+layout(constant_id = 14) const bool kAbsorbs = false;
+layout(constant_id = 15) const bool kBoundaries = false;      // some volume has surfaces, which reflect
+layout(constant_id = 16) const bool kScatters = false;
+layout(constant_id = 17) const bool kEmits = false;
+layout(constant_id = 18) const bool kDisperses = false;
+layout(constant_id = 19) const bool kSurfacesInside = false;  // objects may lie in volumes
+layout(constant_id = 20) const bool kOverlapping = false;     // and volumes in volumes
+layout(constant_id = 23) const bool kLit = false;             // light was traced
+layout(constant_id = 21) const float kStep = 0.5;             // voxels
+layout(constant_id = 22) const uint kMostSteps = 8192u;       // from one surface or box to the next
 
 layout(set = 0, binding = 5) uniform texture3D volume_index;
 layout(set = 0, binding = 6) uniform texture3D volume_absorption;
@@ -136,7 +136,7 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
                 meets_replaced = in_air ? kMeetAll : has_mesh || proxy == 0u ? kMeetNone : kMeetEntering;
                 bool gave_up;
                 SurfaceHit hit = find_surface_among_objects((volume.world_from_voxel * vec4(ray.x, 1.0)).xyz,
-                                                            world_from_voxel * direction, t_min, 0.0, gave_up, visits);
+                                                            world_from_voxel * direction, t_min, gave_up, visits);
                 if (gave_up) steps = kMostSteps;
                 t_min = 0.0;
                 until_surface = max(hit.t, 0.0) / volume.voxel;
@@ -206,8 +206,7 @@ void main() {
     uint i = uint(texel.y) * frame.width + uint(texel.x);
     Path path = load_path(i);
     mark &= ~kEntersVolume;
-    uint rank = filling_rank();
-    bool from_mesh = in_replaced(rank);
+    bool from_mesh = in_replaced(filling_body());
     if (from_mesh) {
         for (uint w = 0u; w < kMediumWords; ++w) media[w] = 0u;  // from here on the volume knows what is there
         standing = PELLUCID_NO_TRIANGLE;

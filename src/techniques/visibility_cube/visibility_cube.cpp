@@ -10,7 +10,7 @@ namespace pellucid {
 namespace {
 
 constexpr ParameterInfo kResolution{
-    "resolution", "", 512, 2, 8192, true, "texels of a mesh's maps along the longest side of its box"};
+    "resolution", "", kMeshMapResolution, 2, 8192, true, "texels of a mesh's maps along the longest side of its box"};
 
 constexpr auto kParameters = [] {
     std::array<ParameterInfo, kPathParameters.size() + 1> all{kResolution};

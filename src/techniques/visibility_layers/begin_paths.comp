@@ -1,11 +1,13 @@
 #version 460
-// View rays, and what they do at the first surface of glass.
+// View rays of an eye in the open, and what they do at the first surface of glass.
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/visibility_layers/visibility_bindings.glsl"
 #include "layers/surface_map.glsl"
+#include "gpu/object_traits.glsl"
 
 layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
-layout(std430, set = 0, binding = 4) readonly buffer Solids { uint solids[]; };  // per rank: its material
+layout(std430, set = 0, binding = 4) readonly buffer Slots { SlotRecord slots[]; };
+layout(std430, set = 0, binding = 32) readonly buffer ShellTraits { uint shell_traits[]; };  // per triangle of meshes
 layout(set = 0, binding = 9, r32ui) readonly uniform uimage2DArray layer_triangle;
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray path_radiance;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray reflected_radiance;
@@ -35,20 +37,23 @@ void main() {
     uint first = imageLoad(layer_triangle, ivec3(texel, 0)).r;
     uint triangle = triangle_index(first), object = object_of(triangle);
     uint own_traits = traits[object];
-    Surface surface = surface_at(triangle, object, path.position, path.direction);
+    if (kManySlots) own_traits += shell_traits[triangle - objects[object].first_triangle + objects[object].first_corner / 3u];
     bool leaving = back_face(first);
-    if (leaving) {  // the eye is inside, or the mesh is open
-        set_entered(rank_of(own_traits), 1u);
-        travel(path, distance(path.position, surface.position), filling_material(rank_of(own_traits)).sigma_a.rgb);
+    if (!leaving || (own_traits & kClosed) == 0u) {  // else the near plane has cut off what comes before
+        Surface surface = surface_at(triangle, object, path.position, path.direction);
+        path.position = surface.position;
+        standing = triangle;
+        correct_side(own_traits, leaving);
+        uint before = filling_body();
+        note_here();
+        step_across(own_traits, leaving);
+        note_there();
+        uint beyond = filling_body();
+        if (is_interface(before, beyond))
+            meet_boundary(i, path, surface, leaving, filling_iors(before), filling_iors(beyond), !leaving);
+    } else {
+        standing = PELLUCID_NO_TRIANGLE;
     }
-    path.position = surface.position;
-    standing = triangle;
-    note_here();
-    step_across(own_traits, leaving);
-    note_there();
-    uint beyond = filling_rank();
-    if (leaving) meet_boundary(i, path, surface, true, filling_iors(rank_of(own_traits)), filling_iors(beyond), false);
-    else meet_boundary(i, path, surface, false, vec3(1.0), filling_iors(beyond), true);
     save_path(i, path);
     append_next(texel);
 }

@@ -1,7 +1,7 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_CROSS_SURFACE_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_CROSS_SURFACE_GLSL
 
-// What a path does at a surface. Needs: path_state.glsl, objects, materials, solids, map_triangles, map_normals
+// What a path does at a surface. Needs: path_state.glsl, objects, materials, slots, map_triangles, map_normals
 // (surface_map.glsl), threshold, most_branches, branch_capacity.
 #include "gpu/object_traits.glsl"
 #include "techniques/visibility_layers/microfacets.glsl"
@@ -38,12 +38,45 @@ Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
                    normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material);
 }
 
-MaterialRecord filling_material(uint rank) { return materials[kOneObject ? objects[0].material : solids[rank] & ~kReplacedSolid]; }
+// The body that fills the place, by its first slot: of those around the path the one that displaces the others.
+uint filling_body() {
+    for (uint w = kMediumWords; w-- > 0u;) {
+        uint bits = media[w];
+        while (bits != 0u) {
+            uint slot = w * 32u + uint(findMSB(bits));
+            if (!kManySlots) return slot;
+            SlotRecord record = slots[slot];
+            int winding = 0;
+            for (uint s = record.first; s < record.first + record.count; ++s)
+                if (inside_slot(s)) winding += (slots[s].medium & kCavitySlot) != 0u ? -1 : 1;
+            if (winding > 0) return record.first;
+            // On to the next body: its slots are lower.
+            bits = record.first <= w * 32u ? 0u : bits & ((1u << (record.first - w * 32u)) - 1u);
+        }
+    }
+    return kAir;
+}
+
+uint body_of(uint traits) {
+    uint slot = slot_of(traits);
+    return kManySlots ? slots[slot].first : slot;
+}
+
+// Equal media of two bodies that touch have no interface.
+bool is_interface(uint before, uint beyond) {
+    if (before == beyond) return false;
+    if (before == kAir || beyond == kAir) return true;
+    return ((slots[before].medium ^ slots[beyond].medium) & ~kCavitySlot) != 0u;
+}
+
+MaterialRecord filling_material(uint body) {
+    return materials[kOneObject ? objects[0].material : slots[body].material & ~kReplacedSolid];
+}
 
 // Per channel; without dispersion all are alike.
-vec3 filling_iors(uint rank) {
-    if (rank == kAir) return vec3(1.0);
-    MaterialRecord material = filling_material(rank);
+vec3 filling_iors(uint body) {
+    if (body == kAir) return vec3(1.0);
+    MaterialRecord material = filling_material(body);
     return kDispersive ? ior_per_channel(material.ior, material.dispersion) : vec3(material.ior);
 }
 
@@ -54,7 +87,7 @@ bool may_branch(uint i, vec3 weight) {
     return waiting[i].y < most_branches && max(weight.r, max(weight.g, weight.b)) > threshold;
 }
 
-// The solids around the path on this side and on the other side of the boundary at hand.
+// What the path is inside of on this side and on the other side of the boundary at hand.
 uint media_here[kMediumWords], media_there[kMediumWords];
 
 // After the direction has changed at a boundary: the interpolated normal can send a path to the other side of the
@@ -141,13 +174,9 @@ void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, vec3 
     settle(path.direction, surface, leaving);
 }
 
-// Takes the solids around the path to the other side of a boundary; a surface that is not closed has no count to keep:
-// its normal alone says where the path is.
+// Takes the path to the other side of a shell. Of one that is not closed its normal alone says where the path is.
 void step_across(uint traits, bool leaving) {
-    uint rank = rank_of(traits);
-    bool closed = (traits & kClosed) != 0u;
-    uint count = closed ? entered(rank) : leaving ? 1u : 0u;
-    set_entered(rank, leaving ? max(count, 1u) - 1u : count + 1u);
+    set_inside(slot_of(traits), leaving == ((traits & kCavity) != 0u));
 }
 void note_here() {
     for (uint w = 0u; w < kMediumWords; ++w) media_here[w] = media[w];
@@ -157,8 +186,7 @@ void note_there() {
 }
 // Of an open surface: what its normal says.
 void correct_side(uint traits, bool leaving) {
-    if ((traits & kClosed) == 0u) set_entered(rank_of(traits), leaving ? 1u : 0u);
+    if ((traits & kClosed) == 0u) set_inside(slot_of(traits), leaving);
 }
-
 
 #endif

@@ -137,7 +137,7 @@ void main() {
             if (closing != 0u) path.status = kStatusEventLimit;
             store_result(texel, path);
         }
-        if (kTree || kStochastic) add_light(texel, path.transmittance * environment_light(path));
+        if (kTree || kStochastic || whole_picture != 0u) add_light(texel, path.transmittance * environment_light(path));
     }
     if (closing != 0u) {
         while (pop_branch(i, path)) add_light(texel, path.transmittance * environment_light(path));

@@ -10,7 +10,7 @@ struct ObjectBox {
     vec3 low;
     float radius;  // from the middle of the box to the farthest vertex
     vec3 high;
-    float reserved;
+    float contact;  // m, see contact_distance()
 };
 layout(std430, set = 0, binding = 27) readonly buffer Boxes { ObjectBox boxes[]; };  // per object, world
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
@@ -22,6 +22,7 @@ PELLUCID_APPENDED_LIST(EnteringList, 31, entering_groups, entering_length, enter
 #include "volume/volume_boxes.glsl"
 
 layout(constant_id = 10) const uint kSurfacesPerPass = 1u;
+layout(constant_id = 7) const bool kOpaqueObjects = false;  // there are some
 
 // A pane that bends no light: its two faces and the reflections between them are one factor.
 void pass_pane(inout Path path, Surface surface) {
@@ -48,15 +49,45 @@ bool meets_boxes(vec3 position, vec3 direction) {
     return any_met;
 }
 
-int boundary_rank(SurfaceHit hit, uint before, uint beyond) {
-    uint rank = rank_of(hit.traits);
-    return rank == before || rank == beyond ? int(rank) : -1;
+// Surfaces of two objects no farther apart are at the same place; m.
+float contact_distance(uint object_a, uint object_b, vec3 place) {
+    float spacings = max(max(abs(place.x), abs(place.y)), abs(place.z)) * 4.8e-7;  // four spacings of a float
+    return max(max(boxes[object_a].contact, boxes[object_b].contact), spacings);
+}
+
+// A surface at the same place as one that the path stands on; of the kind that is looked for.
+bool find_touching(uint object, vec3 place, vec3 direction, out SurfaceHit touching, out Surface surface) {
+    const float kGrazing = 32.0;  // along a ray that lies flatter than one in so many, surfaces are not seen to touch
+    float t_end, apart = contact_distance(object, object, place);
+    for (int k = 0; k < 2; ++k) {  // the other may be the larger one
+        bool gave_up;
+        uint visits = 0u;
+        walk_limit = kGrazing * apart;
+        touching = find_next(place, direction, -apart, t_end, gave_up, visits);
+        walk_limit = kFarthest;
+        if (k == 0 && touching.t == kFarthest) {
+            apart = max(apart, largest_contact);
+        } else {
+            break;
+        }
+    }
+    if (touching.t == kFarthest) return false;
+    uint other = object_of(touching.triangle);
+    surface = surface_at(touching.triangle, other, place, direction);
+    float across = abs(dot(direction, surface.geometric)) / max(length(surface.geometric), 1e-30);
+    return abs(touching.t) * across <= contact_distance(object, other, place);
+}
+
+// Of the bodies whose media meet, the one that displaces the other has the boundary.
+bool has_boundary(uint body, uint other, uint before, uint beyond) {
+    bool meets = body == before || body == beyond, other_meets = other == before || other == beyond;
+    return meets && (!other_meets || body > other);
 }
 
 // Takes the path to the next surface, and past it. False: it ends there, or nowhere.
 bool go_on(uint i, inout Path path) {
-    uint rank = filling_rank();
-    if (in_replaced(rank)) {
+    uint body = filling_body();
+    if (in_replaced(body)) {
         mark |= kEntersVolume;
         return false;
     }
@@ -67,14 +98,13 @@ bool go_on(uint i, inout Path path) {
     uint visits = 0u;
     float t_min = -coincidence;
     for (int attempt = 0; attempt < 2; ++attempt) {
-        hit = kMapPerMesh ? find_surface_among_objects(path.position, path.direction, t_min, kApart * coincidence, gave_up, visits)
-                          : find_surface(maps[0], path.position, path.direction, t_min, t_end, gave_up, visits);
+        hit = find_next(path.position, path.direction, t_min, t_end, gave_up, visits);
         // Reflected where its solid touches something opaque, which the path then has behind it.
-        if (rank == kAir || hit.t > coincidence || (hit.traits & kKindMask) != kOpaqueKind) break;
+        if (body == kAir || hit.t > coincidence || (hit.traits & kKindMask) != kOpaqueKind) break;
         t_min = coincidence;
     }
     // A path in the open enters the volume that it meets first. One that stands at a surface crosses that before.
-    if (kVolumes && rank == kAir && hit.t > kApart * coincidence) {
+    if (kVolumes && body == kAir && hit.t > kApart * coincidence) {
         float straight;
         if (next_volume(path.position, path.direction, straight) != kNoVolume && straight < hit.t) {
             path.position += straight * path.direction;
@@ -87,46 +117,82 @@ bool go_on(uint i, inout Path path) {
         if (gave_up) path.status = kStatusStepLimit;
         else if (!kMapPerMesh && t_end < kFarthest && meets_boxes(path.position + t_end * path.direction, path.direction))
             path.status = kStatusLeftScreen;
-        else if (rank != kAir) path.status = kStatusMissingLayer;
-    }
-    bool glass = refractive(hit.traits);
-    if (found && glass && path.events >= max_events) {
-        path.status = kStatusEventLimit;
-        found = false;
+        else if (body != kAir) path.status = kStatusMissingLayer;
     }
     if (!found) return false;
-    // Where boundaries of two objects lie at one place, the order in which they are found is chance: both are crossed
-    // at once. What a solid stands on is outside of it.
-    bool touching = false;
-    if (kTouching && second_hit.t - hit.t <= kApart * coincidence) {
-        bool second_is_glass = refractive(second_hit.traits);
-        touching = glass && second_is_glass;
-        if (glass != second_is_glass && (glass ? !hit.leaving : second_hit.leaving)) {
-            hit = second_hit;
-            glass = second_is_glass;
+    bool glass = refractive(hit.traits);
+    uint object = object_of(hit.triangle);
+    Surface surface = surface_at(hit.triangle, object, path.position, path.direction);
+    float straight = distance(path.position, surface.position);
+    bool may_touch = kTouching && (hit.traits & kTouchesOthers) != 0u;
+    if (kTouching && may_touch && !glass && body != kAir) {
+        // What a solid stands on is outside of it: the path leaves the solid first.
+        SurfaceHit wall;
+        Surface wall_surface;
+        looks_for = kFindShells;
+        if (find_touching(object, surface.position, path.direction, wall, wall_surface) && wall.leaving) {
+            hit = wall;
+            surface = wall_surface;
+            object = object_of(hit.triangle);
+            glass = true;
         }
+        looks_for = kFindAll;
     }
-    uint before = rank, beyond = rank;
+    uint before = body, beyond = body;
     if (glass) {
         correct_side(hit.traits, hit.leaving);
-        if (touching) correct_side(second_hit.traits, second_hit.leaving);
-        before = filling_rank();
+        before = filling_body();
         note_here();
         step_across(hit.traits, hit.leaving);
-        if (touching) step_across(second_hit.traits, second_hit.leaving);
+        // Where boundaries lie at one place, the order in which they are found is chance: all are crossed at once.
+        if (kTouching && may_touch) {
+            const int kMostTouching = 16;
+            uint at_object = object;
+            vec3 place = surface.position;
+            bool leaves = hit.leaving;
+            looks_for = kFindShells;
+            beyond = filling_body();
+            for (int n = 0; n < kMostTouching; ++n) {
+                SurfaceHit other;
+                Surface other_surface;
+                if (!find_touching(at_object, place, path.direction, other, other_surface)) break;
+                step_across(other.traits, other.leaving);
+                beyond = filling_body();
+                leaves = leaves || other.leaving;
+                if (has_boundary(body_of(other.traits), body_of(hit.traits), before, beyond)) {
+                    hit = other;
+                    surface = other_surface;
+                }
+            }
+            looks_for = kFindOpaque;
+            SurfaceHit wall;
+            Surface wall_surface;
+            if (kOpaqueObjects && !leaves && find_touching(at_object, place, path.direction, wall, wall_surface)) {
+                hit = wall;  // it stands on that
+                surface = wall_surface;
+                glass = false;
+                for (uint w = 0u; w < kMediumWords; ++w) media[w] = media_here[w];
+            }
+            looks_for = kFindAll;
+        }
         note_there();
-        beyond = filling_rank();
-        // Of the solids whose media meet here, the one that displaces the other has the boundary.
-        if (touching && boundary_rank(second_hit, before, beyond) > boundary_rank(hit, before, beyond)) hit = second_hit;
+        beyond = filling_body();
     }
-    Surface surface = surface_at(hit.triangle, object_of(hit.triangle), path.position, path.direction);
-    if (before != kAir) travel(path, distance(path.position, surface.position), filling_material(before).sigma_a.rgb);
+    bool meets = glass && is_interface(before, beyond);
+    if (meets && path.events >= max_events) {
+        path.status = kStatusEventLimit;
+        return false;
+    }
+    if (body != kAir) travel(path, straight, filling_material(body).sigma_a.rgb);
     path.position = surface.position;
     standing = hit.triangle;
     bool ends = (hit.traits & kKindMask) == kOpaqueKind;
     if (ends) mark |= kMetOpaque;
     else if (!glass) pass_pane(path, surface);
-    else if (beyond != before) meet_boundary(i, path, surface, hit.leaving, filling_iors(before), filling_iors(beyond), false);
+    else if (meets) {
+        bool first = whole_picture == 0u && path.events == 0u && (mark & kMainPath) != 0u && before == kAir;
+        meet_boundary(i, path, surface, hit.leaving, filling_iors(before), filling_iors(beyond), first);
+    }
     return !ends;
 }
 

@@ -7,31 +7,22 @@
 layout(std430, set = 0, binding = 10) buffer PathPlaces { vec4 path_places[]; };    // w: bits of the triangle there
 layout(std430, set = 0, binding = 11) buffer PathWays { vec4 path_ways[]; };        // direction; length inside, m
 layout(std430, set = 0, binding = 12) buffer PathWeights { vec4 path_weights[]; };  // transmittance; bits of the events
-layout(std430, set = 0, binding = 13) buffer PathMedia { uint path_media[]; };      // the solids around it, and its mark
+layout(std430, set = 0, binding = 13) buffer PathMedia { uint path_media[]; };      // what it is inside of, and its mark
 // What waits: per pixel the last branch's number + 1, and how many there have been; per branch kBranchWords.
 layout(std430, set = 0, binding = 23) buffer Waiting { uvec2 waiting[]; };
 layout(std430, set = 0, binding = 24) buffer Branches { uint branch_count, branch_reserved[3]; uvec4 branches[]; };
 
-// The solids around a path: per rank, in four bits, how often it was entered more than left.
+// Where a path is: a bit per slot (object_traits.glsl) for whether it is inside a shell of that slot.
 uint media[kMediumWords];
 
-uint entered(uint rank) { return (media[rank / 8u] >> (rank % 8u * 4u)) & 15u; }
+bool inside_slot(uint slot) { return (media[slot / 32u] >> slot % 32u & 1u) != 0u; }
 
-void set_entered(uint rank, uint count) {
-    uint shift = rank % 8u * 4u;
-    media[rank / 8u] = (media[rank / 8u] & ~(15u << shift)) | min(count, 15u) << shift;
+void set_inside(uint slot, bool inside) {
+    uint bit = 1u << slot % 32u;
+    media[slot / 32u] = inside ? media[slot / 32u] | bit : media[slot / 32u] & ~bit;
 }
 
 const uint kAir = 0xffffffffu;
-
-// The rank of the solid that fills the place: the highest of those around it.
-uint filling_rank() {
-    uint rank = kAir;
-    for (uint word = 0u; word < kMediumWords; ++word) {
-        if (media[word] != 0u) rank = word * 8u + uint(findMSB(media[word])) / 4u;
-    }
-    return rank;
-}
 
 uint standing;  // the triangle that the path stands on
 

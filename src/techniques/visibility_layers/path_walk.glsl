@@ -4,9 +4,10 @@
 // The surfaces that paths meet: the maps that are walked, and which of the surfaces in them a path can meet.
 // Needs: visibility_bindings.glsl.
 #include "layers/surface_map.glsl"
+#include "gpu/object_traits.glsl"
 
 layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
-layout(std430, set = 0, binding = 4) readonly buffer Solids { uint solids[]; };  // per rank: its material
+layout(std430, set = 0, binding = 4) readonly buffer Slots { SlotRecord slots[]; };
 layout(std430, set = 0, binding = 14) readonly buffer Maps { MapRecord maps[]; };
 layout(set = 0, binding = 15) uniform utextureBuffer map_triangles;
 layout(set = 0, binding = 29) uniform utextureBuffer map_normals;
@@ -22,20 +23,53 @@ layout(set = 0, binding = 22) uniform utextureBuffer pyramid;
 const uint kMeetNone = 0u, kMeetEntering = 1u, kMeetAll = 2u;
 uint meets_replaced = kMeetNone;
 
-// Rays enter and leave a solid in turn, so a surface that the path stands on is never met again.
+// What is looked for: all surfaces; closed shells of glass alone; what is opaque alone.
+const uint kFindAll = 0u, kFindShells = 1u, kFindOpaque = 2u;
+uint looks_for = kFindAll;
+// While what a path is inside of is not known yet: the slots for which it is.
+bool deciding = false;
+uint decided[kMediumWords];
+
+// Rays enter and leave a shell in turn, so a surface that the path stands on is never met again.
 bool can_meet(uint traits, bool leaving, uint triangle) {
+    bool closed_shell = (traits & (kKindMask | kClosed)) == (kRefractiveKind | kClosed);
+    if (deciding) return closed_shell && (decided[slot_of(traits) / 32u] >> slot_of(traits) % 32u & 1u) == 0u;
+    if (kTouching && looks_for == kFindShells && !closed_shell) return false;
+    if (kTouching && looks_for == kFindOpaque && (traits & kKindMask) != kOpaqueKind) return false;
     if (kVolumes && (traits & kReplaced) != 0u)
         return meets_replaced == kMeetAll || (meets_replaced == kMeetEntering && !leaving && triangle != standing);
-    if ((traits & (kKindMask | kClosed)) != (kRefractiveKind | kClosed)) return triangle != standing;
-    return (entered(rank_of(traits)) > 0u) == leaving;
+    if (!closed_shell) return triangle != standing;
+    return inside_slot(slot_of(traits)) == (leaving != ((traits & kCavity) != 0u));
 }
 
 // Whether what fills the place is drawn by a volume.
-bool in_replaced(uint rank) { return kVolumes && rank != kAir && (solids[rank] & kReplacedSolid) != 0u; }
+bool in_replaced(uint body) { return kVolumes && body != kAir && (slots[body].material & kReplacedSolid) != 0u; }
 
-#define PELLUCID_FINDS_SECOND kTouching
 #include "layers/object_walk.glsl"
 
 const float kApart = 16.0;  // coincidences along a ray, which may graze
+
+SurfaceHit find_next(vec3 origin, vec3 direction, float t_min, out float t_end, out bool gave_up, inout uint visits) {
+    t_end = kFarthest;
+    return kMapPerMesh ? find_surface_among_objects(origin, direction, t_min, gave_up, visits)
+                       : find_surface(maps[0], origin, direction, t_min, t_end, gave_up, visits);
+}
+
+// Finds what a ray is inside of where it starts: of each slot, the first surface on its way says it.
+void find_media(vec3 origin, vec3 direction) {
+    for (uint w = 0u; w < kMediumWords; ++w) media[w] = decided[w] = 0u;
+    deciding = true;
+    uint visits = 0u;
+    for (uint n = 0u; n < 32u * kMediumWords; ++n) {
+        float t_end;
+        bool gave_up;
+        SurfaceHit hit = find_next(origin, direction, 0.0, t_end, gave_up, visits);
+        if (hit.t == kFarthest) break;
+        uint slot = slot_of(hit.traits);
+        decided[slot / 32u] |= 1u << slot % 32u;
+        set_inside(slot, hit.leaving != ((hit.traits & kCavity) != 0u));
+    }
+    deciding = false;
+}
 
 #endif

@@ -5,15 +5,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 
-layout(constant_id = 0) const uint kMediumWords = 1u;     // of PathMedia per path: eight solids each
+layout(constant_id = 0) const uint kMediumWords = 1u;     // of PathMedia per path: 32 slots each
 layout(constant_id = 1) const bool kOneObject = false;    // whose record is then the same for all paths
 layout(constant_id = 2) const bool kTree = false;         // what is reflected is followed, too
 layout(constant_id = 3) const bool kStochastic = false;   // one way at random
 layout(constant_id = 4) const bool kDispersive = false;   // some glass disperses
 layout(constant_id = 5) const bool kRough = false;        // some glass is rough
 
+layout(constant_id = 12) const bool kManySlots = false;   // some body has several
 layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is one map of all the scene
-layout(constant_id = 9) const bool kTouching = false;     // surfaces of two objects may lie at one place
+layout(constant_id = 9) const bool kTouching = false;     // surfaces of two shells may lie at one place
 layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend
 
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
@@ -38,6 +39,10 @@ layout(push_constant) uniform Push {
     uint proxy;            // 1: rays enter what a volume stands for at its surface; 0: it is as if that were not there
     uint light_count;      // of the scene, 0 where they are not drawn
     uint receiver_count;   // of light that went through volumes
+    uint whole_picture;    // 1: paths start at the eye and shade all that they meet, the first surface included
+    uint eye_differs;      // 1: what the eye is inside of differs from ray to ray
+    float eye_depth;       // m, of the plane on which rays start
+    float largest_contact; // m, see contact_distance()
 };
 
 uint object_of(uint triangle) { return kOneObject ? 0u : find_object(triangle); }

@@ -11,6 +11,9 @@ namespace {
 constexpr std::uint32_t kBeginPaths[] = {
 #include "begin_paths.comp.inc"
 };
+constexpr std::uint32_t kBeginAtEye[] = {
+#include "begin_at_eye.comp.inc"
+};
 constexpr std::uint32_t kFollowPaths[] = {
 #include "follow_paths.comp.inc"
 };
@@ -20,6 +23,8 @@ constexpr std::uint32_t kEndPaths[] = {
 
 /// That there is time for beyond those of the longest path, for each branch: most branches leave soon.
 constexpr std::uint32_t kSurfacesPerBranch = 4;
+/// That there is time for on the longest path where solids overlap: most surfaces there are inside of something.
+constexpr std::uint32_t kSurfacesPerEvent = 4;
 /// That there is time for on the longest path, besides its surfaces: a path leaves a volume at each surface in it.
 constexpr std::uint32_t kVolumesPerPath = 16;
 
@@ -27,6 +32,9 @@ constexpr std::uint32_t kVolumesPerPath = 16;
 /// on a CPU device eight paths in step wait for the longest among them, so those that have ended had better be left out.
 constexpr std::uint32_t kSurfacesPerPass = 16;
 constexpr std::uint32_t kSurfacesPerPassOnCpu = 4;
+
+/// Words of PathMedia per path.
+std::uint32_t words_of(const SceneTopology& topology) { return std::max((topology.slot_count + 31) / 32, 1u); }
 
 enum class Ways { kTransmitted, kTree, kStochastic };
 
@@ -42,6 +50,10 @@ public:
         push_.most_branches = given >= 0.0 ? std::uint32_t(given) : many ? 16 : 0;
         if (volumes != nullptr) volumes->set(push_);
         push_.threshold = float(parameters["threshold"]);
+        push_.whole_picture = volumes != nullptr || topology_.eye_in_solid || topology_.eye_differs ? 1 : 0;
+        push_.eye_differs = topology_.eye_differs ? 1 : 0;
+        push_.eye_depth = topology_.eye_depth;
+        push_.largest_contact = topology_.largest_contact;
         push_.coincidence = 1e-6f * (glm::length(frame.scene.bounds.center) + frame.scene.bounds.radius);
         const std::uint32_t given_surfaces = parameters.whole("surfaces-per-pass");
         surfaces_per_pass_ = given_surfaces > 0                  ? given_surfaces
@@ -53,7 +65,7 @@ public:
         if (ways_ == Ways::kStochastic) push_.most_branches = 0;
         push_.branch_capacity =
             ways_ == Ways::kTree ? layers.source.room("branches", std::uint32_t(pixels() / 4 + 1024)) : 1;
-        words_ = std::max((topology_.solids + 7) / 8, 1u);
+        words_ = words_of(topology_);
         const std::uint32_t vectors = 4 + (words_ + 1) / 4;  // kBranchVectors of path_state.glsl
         branches_ = &frame.workspace.buffer("branches", 16 + std::uint64_t(push_.branch_capacity) * vectors * 16);
     }
@@ -61,18 +73,19 @@ public:
     Refraction follow() {
         if (ways_ == Ways::kTree) recorder_.fill(*branches_, 0);
         next_ = &start_pixel_list(recorder_, frame_, "paths 0");
-        if (volumes_ != nullptr)
-            volumes_->begin(pass(), *next_);
+        if (push_.whole_picture != 0 || !topology_.all_alone)
+            begin_at_eye();
         else
             begin();
         const auto in_passes = [&](std::uint32_t surfaces) {
             return (surfaces + surfaces_per_pass_ - 1) / surfaces_per_pass_;
         };
-        std::uint32_t passes = in_passes(push_.max_events + 1) +
+        const std::uint32_t surfaces = (push_.max_events + 1) * (topology_.all_alone ? 1 : kSurfacesPerEvent);
+        std::uint32_t passes = in_passes(surfaces) +
                                push_.most_branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1);
         // A pass takes a path through one volume at most.
         if (volumes_ != nullptr)
-            passes = (push_.max_events + kVolumesPerPath) + push_.most_branches * kSurfacesPerBranch;
+            passes = std::max(in_passes(surfaces), push_.max_events + kVolumesPerPath) + push_.most_branches * kSurfacesPerBranch;
         // Ends that lead to nothing else are done all at once.
         const bool at_once = ways_ != Ways::kTree && frame_.scene.opaque.empty() && volumes_ == nullptr;
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
@@ -87,14 +100,14 @@ public:
         if (ways_ == Ways::kTree) layers_.source.measure_room(recorder_, frame_, "branches", *branches_);
         Refraction refraction = refraction_;
         if (ways_ != Ways::kTransmitted) refraction.reflected = &reflected_;
-        if (volumes_ != nullptr) refraction.picture = refraction.radiance;
+        if (push_.whole_picture != 0) refraction.picture = refraction.radiance;
         return refraction;
     }
 
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::array<std::uint32_t, 12> constants() const {
+    std::array<std::uint32_t, 13> constants() const {
         const GpuScene& scene = frame_.scene;
         return {words_,
                 scene.object_count == 1 ? 1u : 0u,
@@ -107,12 +120,13 @@ private:
                 map_.objects != nullptr ? 1u : 0u,
                 topology_.all_alone ? 0u : 1u,
                 surfaces_per_pass_,
-                volumes_ != nullptr ? 1u : 0u};
+                volumes_ != nullptr ? 1u : 0u,
+                topology_.many_slots ? 1u : 0u};
     }
     const Program& program(ShaderCode shader) {
         const auto c = constants();
-        return frame_.workspace.compute(shader,
-                                        {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10], c[11]});
+        return frame_.workspace.compute(
+            shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10], c[11], c[12]});
     }
 
     PathPass pass() const {
@@ -126,7 +140,7 @@ private:
             {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials)},
             {updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
              updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_)},
-            {reads("Solids", topology_.materials), reads("Maps", *map_.maps), reads("map_triangles", *map_.triangles),
+            {reads("Slots", topology_.slots), reads("Maps", *map_.maps), reads("map_triangles", *map_.triangles),
              reads("map_normals", *map_.normals), reads("texels", *map_.texels), reads("ranges", *map_.ranges),
              reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
              reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps)},
@@ -145,13 +159,28 @@ private:
             program({"begin_paths.comp", kBeginPaths}),
             {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
              reads("map_triangles", *map_.triangles), reads("map_normals", *map_.normals),
-             reads("Traits", topology_.traits), reads("Solids", topology_.materials),
-             reads("layer_triangle", layers_.triangle), reads("PixelList", layers_.covered),
+             reads("Traits", topology_.traits), reads("ShellTraits", topology_.shell_traits),
+             reads("Slots", topology_.slots), reads("layer_triangle", layers_.triangle), reads("PixelList", layers_.covered),
              updates("NextList", *next_), updates("PathPlaces", places_), updates("PathWays", ways_buffer_),
              updates("PathWeights", weights_), updates("PathMedia", media_), updates("Waiting", waiting_),
              updates("Branches", *branches_), writes("path_radiance", *refraction_.radiance),
              writes("reflected_radiance", reflected_)},
             push_, layers_.covered);
+    }
+
+    void begin_at_eye() {
+        const PathPass all = pass();
+        std::vector<Binding> bindings = all.scene;
+        for (const auto* more : {&all.state, &all.walk, &all.light})
+            bindings.insert(bindings.end(), more->begin(), more->end());
+        for (Binding& b : bindings)
+            if (b.name == "path_radiance" || b.name == "reflected_radiance") b.access = Access::kWrite;
+        const Binding own[] = {reads("layer_triangle", layers_.triangle), reads("opaque_depth", layers_.opaque.depth),
+                               reads("Volumes", volumes_ != nullptr ? volumes_->records() : *map_.maps),
+                               reads("EyeMedia", topology_.eye), updates("NextList", *next_)};
+        bindings.insert(bindings.end(), std::begin(own), std::end(own));
+        recorder_.compute(program({"begin_at_eye.comp", kBeginAtEye}), std::span<const Binding>(bindings), push_,
+                          frame_.extent);
     }
 
     void follow(std::uint32_t pass, const Buffer& entering) {
@@ -162,7 +191,7 @@ private:
                                    {reads("Frame", frame_.constants),
                                     reads("Objects", scene.objects),
                                     reads("Materials", scene.materials),
-                                    reads("Solids", topology_.materials),
+                                    reads("Slots", topology_.slots),
                                     reads("PixelList", list),
                                     updates("NextList", *next_),
                                     updates("EndedList", *ended_),
@@ -238,7 +267,7 @@ private:
     const Buffer& ways_buffer_ = frame_.workspace.buffer("path ways", pixels() * 16);
     const Buffer& weights_ = frame_.workspace.buffer("path weights", pixels() * 16);
     const Buffer& media_ =
-        frame_.workspace.buffer("path media", pixels() * 4 * (std::max((topology_.solids + 7) / 8, 1u) + 1));
+        frame_.workspace.buffer("path media", pixels() * 4 * (words_of(topology_) + 1));
     const Buffer& waiting_ = frame_.workspace.buffer("waiting branches", pixels() * 8);
     const Buffer* branches_ = nullptr;
     const GpuImage& reflected_ =
@@ -248,7 +277,11 @@ private:
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
-    return follow_paths(recorder, frame, layers, layers.source.map_view(recorder, frame), parameters);
+    // Paths in glass that lies partly beside the view, or around the eye, would leave a map of the view.
+    const SurfaceMap map = LayerSource::view_holds_glass(frame)
+                               ? layers.source.map_view(recorder, frame)
+                               : layers.source.map_meshes(recorder, frame, kMeshMapResolution);
+    return follow_paths(recorder, frame, layers, map, parameters);
 }
 
 }  // namespace

@@ -36,6 +36,10 @@ struct PathPush {
     std::uint32_t proxy;
     std::uint32_t light_count;
     std::uint32_t receiver_count;
+    std::uint32_t whole_picture;
+    std::uint32_t eye_differs;
+    float eye_depth;
+    float largest_contact;
 };
 
 /// What a pass that takes paths on is made of and binds, besides what is its own.
@@ -57,8 +61,6 @@ public:
     virtual ~PathVolumes() = default;
     virtual const Buffer& records() const = 0;  ///< VolumeRecord[]
     virtual void set(PathPush& push) const = 0;
-    /// Starts the paths of pixels with glass or volumes, at the eye, and lists them in `next`.
-    virtual void begin(const PathPass& pass, const Buffer& next) const = 0;
     /// Takes the paths of `entering` through volumes; into `next` or, where they end, `ended`.
     virtual void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const = 0;
     /// Of the program that ends paths where lights shine on what they end on; none where there are no lights.
@@ -69,9 +71,13 @@ public:
     virtual std::optional<LitEnd> lit_end() const = 0;
 };
 
+/// Texels of a mesh's maps along the longest side of its box, unless a parameter says otherwise.
+inline constexpr std::uint32_t kMeshMapResolution = 512;
+
 /// Technique::prepare of techniques that call it.
 void prepare_paths(const Preparation& preparation, const ParameterValues& parameters);
-/// Follows the view rays through `map`: from the first surface of `layers` on, or with `volumes` from the eye on.
+/// Follows the view rays through `map`: from the first surface of `layers` on or, with `volumes`, where surfaces may lie at
+/// one place or where the eye is in a solid, from the eye on.
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
                         const ParameterValues& parameters, const PathVolumes* volumes = nullptr);
 

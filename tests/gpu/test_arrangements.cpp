@@ -1,0 +1,28 @@
+// Techniques that draw whole scenes on random arrangements of balls and boxes, against closed formulas.
+#include "closed_form/survey.h"
+#include "gpu/gpu_test.h"
+
+namespace pellucid::test {
+namespace {
+
+/// Each technique learns from one arrangement how much room paths need, so one renderer draws them all.
+class Arrangements : public RendererTest {
+protected:
+    TraceArrangement with(const std::string& technique) {
+        return [this, technique](const Scene& scene, const Camera& camera, std::uint32_t size) {
+            renderer().set_scene(scene);
+            renderer().set_camera(camera);
+            RenderSettings settings;
+            settings.width = settings.height = size;
+            settings.technique = technique;
+            settings.paths = true;
+            return renderer().render(settings).paths;
+        };
+    }
+};
+
+TEST_F(Arrangements, VisibilityLayersAgreesWithClosedForms) { expect_agreement(with("visibility-layers"), 64); }
+TEST_F(Arrangements, VisibilityCubeAgreesWithClosedForms) { expect_agreement(with("visibility-cube"), 64); }
+
+}  // namespace
+}  // namespace pellucid::test
