@@ -61,6 +61,14 @@ void print_scene(const InfoArguments& arguments) {
         fmt::print("origin: {:.17g} {:.17g} {:.17g} m, subtracted from all positions\n", scene.origin.x, scene.origin.y,
                    scene.origin.z);
     for (const Camera& camera : scene.cameras) fmt::print("camera: {}\n", one_line(camera.name));
+    if (scene.objects.size() > 1) {
+        std::vector<std::string> names;
+        for (const Object& object : scene.objects)
+            if (scene.materials[std::size_t(object.material)].refractive() &&
+                std::find(names.begin(), names.end(), object.name) == names.end())
+                names.push_back(object.name);
+        if (!names.empty()) fmt::print("solids: {}\n", fmt::join(names, ", "));
+    }
     for (const VolumeObject& object : scene.volume_objects) {
         const glm::uvec3 size = scene.volumes[std::size_t(object.volume)]->size;
         fmt::print("volume: {}, {} x {} x {} voxels\n", one_line(object.name), size.x, size.y, size.z);

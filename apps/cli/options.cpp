@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -27,6 +28,16 @@ bool same_file(const fs::path& a, const fs::path& b) {
     return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
+LoadOptions::Priority parse_priority(const std::string& text) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0)
+        throw Error(fmt::format("--priority {}: must be OBJECT=N, such as rod=1", text));
+    const double number = parse_number("--priority", text.substr(equals + 1));
+    if (number != std::round(number) || std::abs(number) > 1e6)
+        throw Error(fmt::format("--priority {}: the number must be whole, within +-1000000", text));
+    return {text.substr(0, equals), int(number)};
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments) {
@@ -44,6 +55,12 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
         ->type_name("DEG")
         ->check(CLI::Range(0.0, 180.0));
     command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");
+    command
+        .add_option("--priority", arguments.priorities,
+                    "Where solids overlap, the one of the highest whole number (default 0) displaces the others, then the "
+                    "one of less volume; may be repeated, with the names that 'pellucid info SCENE' lists")
+        ->type_name("OBJECT=N")
+        ->allow_extra_args(false);
     command
         .add_option("--animation", arguments.animation,
                     "Animation of a glTF file, by name or number ('pellucid info SCENE' lists them), whose pose is "
@@ -73,6 +90,7 @@ LoadOptions load_options(const SceneArguments& arguments) {
     if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
     if (arguments.crease_angle_deg) options.crease_angle = radians_from_degrees(float(*arguments.crease_angle_deg));
     options.remake_normals = arguments.remake_normals;
+    for (const std::string& text : arguments.priorities) options.priorities.push_back(parse_priority(text));
     options.translucent = parse_translucency(arguments.translucency);
     options.animation = arguments.animation;
     options.time_s = arguments.time_s;

@@ -198,6 +198,13 @@ struct LoadOptions {
     /// node transforms and weights.
     std::optional<std::string> animation;
     std::optional<double> time_s;  ///< >= 0, default 0; of the animation, or without one of the file's first
+    /// Object::priority of all objects of that name; it must be there. What glTF nodes say in extras.pellucid.priority
+    /// holds for others.
+    struct Priority {
+        std::string object;
+        int priority = 0;
+    };
+    std::vector<Priority> priorities;
     /// Of OpenVDB files; empty: grids have the names of fields. See load_volume().
     std::vector<GridMapping> grids;
 };

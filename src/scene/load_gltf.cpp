@@ -12,6 +12,7 @@
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_volumes.h"
+#include "scene/join_open_objects.h"
 #include "scene/pose_nodes.h"
 #include "scene/rig.h"
 
@@ -49,6 +50,7 @@ public:
         choose_frame(pose);
         rebase(pose, scene_.origin);
         place(pose);
+        join_open_objects(scene_, moving_objects(), warnings_);
         for (const int index : order) {
             const tinygltf::Node& node = gltf_.model.nodes[std::size_t(index)];
             const glm::dmat4& world = pose.world_from_node[std::size_t(index)];
@@ -180,6 +182,22 @@ private:
         if (number != std::round(number) || std::abs(number) > 1e6)
             fail(gltf_.path, fmt::format("{}: extras.pellucid.priority is no whole number within +-1000000", name));
         return int(number);
+    }
+
+    /// Per object, whether an animation moves it or its vertices.
+    std::vector<char> moving_objects() const {
+        std::vector<char> moves(scene_.objects.size(), 0);
+        std::vector<char> nodes(rig_.tree.rest.size(), 0);
+        for (const Animation& animation : rig_.animations) {
+            const std::vector<char> moved = moved_nodes(rig_.tree, animation);
+            for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n] = nodes[n] || moved[n];
+        }
+        for (const NodeObject& object : rig_.objects)
+            moves[std::size_t(object.object)] = nodes[std::size_t(object.node)];
+        for (const DeformedMesh& mesh : rig_.meshes)
+            for (std::size_t i = 0; i < scene_.objects.size(); ++i)
+                if (scene_.objects[i].mesh == mesh.mesh) moves[i] = 1;
+        return moves;
     }
 
     /// What the file's animations move is all that posing needs.

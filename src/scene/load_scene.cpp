@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace pellucid {
 namespace {
@@ -114,6 +115,22 @@ void apply_overrides(Scene& scene, const LoadOptions& options) {
     }
 }
 
+void apply_priorities(const std::string& source, Scene& scene, const LoadOptions& options) {
+    for (const LoadOptions::Priority& given : options.priorities) {
+        bool found = false;
+        std::set<std::string> known;
+        for (Object& object : scene.objects) {
+            known.insert(object.name);
+            if (object.name != given.object) continue;
+            object.priority = given.priority;
+            found = true;
+        }
+        if (!found)
+            fail(source, fmt::format("priority: there is no object \"{}\" (known: {})", given.object,
+                                     fmt::join(known, ", ")));
+    }
+}
+
 }  // namespace
 
 Scene load_scene(const std::string& source, const LoadOptions& options) {
@@ -122,6 +139,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     Scene scene = load_by_kind(source, options, warnings);
     scene.source = source;
     apply_overrides(scene, options);
+    apply_priorities(source, scene, options);
     if (options.translucent) make_translucent(scene, *options.translucent);
     if (scene.triangle_count() == 0 && scene.volume_objects.empty()) fail(source, "contains no triangles");
     const Bounds bounds = scene_bounds(scene);

@@ -17,6 +17,12 @@ public:
         std::string line = one_line(text);
         if (seen_.insert(line).second) lines_.push_back(std::move(line));
     }
+    /// Takes back lines that start and go on like this: what they said is not so after all.
+    void drop(std::string_view start, std::string_view part) {
+        std::erase_if(lines_, [&](const std::string& line) {
+            return line.starts_with(start) && line.find(part) != std::string::npos;
+        });
+    }
     const std::vector<std::string>& lines() const { return lines_; }
 
 private:
