@@ -42,6 +42,7 @@ struct Material {
     glm::vec3 emission{0.0f};            ///< linear radiance, emissive strength included
     Texture emission_texture;            ///< multiplies emission; its image is sRGB-encoded
     float alpha_cutoff = 0.0f;           ///< fragments with less alpha are left out; 0 keeps all
+    bool alpha_is_coverage = false;      ///< of thin-walled glass: it covers only that share of what lies behind
     bool unlit = false;                  ///< shows base_color itself
     bool double_sided = false;
 

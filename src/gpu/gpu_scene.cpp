@@ -112,7 +112,9 @@ gpu::MaterialRecord material_record(const Material& material, TextureTable& text
     record.ior = material.ior;
     record.transmission = material.transmission;
     record.alpha_cutoff = material.alpha_cutoff;
-    record.flags = material.unlit ? PELLUCID_MATERIAL_UNLIT : 0u;
+    record.flags = (material.unlit ? PELLUCID_MATERIAL_UNLIT : 0u) |
+                   (material.alpha_is_coverage ? PELLUCID_MATERIAL_COVERAGE : 0u) |
+                   (material.double_sided ? 0u : PELLUCID_MATERIAL_SINGLE_SIDED);
     record.base_color_texture = textures.add(material.base_color_texture, true);
     record.emission_texture = textures.add(material.emission_texture, true);
     record.transmission_texture = textures.add(material.transmission_texture, false);
@@ -174,6 +176,10 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
         list.push_back(call);
         if (material.translucent()) translucent.push_back(call);
         rough = rough || (material.transmissive() ? material.roughness > 0.0f : !material.unlit);
+        textured_glass = textured_glass ||
+                         (material.transmissive() &&
+                          (material.base_color_texture.image >= 0 || material.transmission_texture.image >= 0 ||
+                           material.metallic_roughness_texture.image >= 0 || !mesh.colors.empty()));
         if (material.refractive()) {
             rough_glass = rough_glass || material.roughness > 0.0f;
             dispersive = dispersive || material.dispersion > 0.0f;

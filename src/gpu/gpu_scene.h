@@ -64,6 +64,7 @@ struct GpuScene {
     std::vector<DrawCall> textured_refractive;  ///< those of them whose surface varies in colour or transmission
     std::vector<DrawCall> thin_walled;          ///< transmissive surfaces that do not bend light
     bool rough_glass = false;                   ///< some refracting object is rough
+    bool textured_glass = false;                ///< glass of any kind varies along its surface
     bool dispersive = false;                    ///< some refracting object disperses
     std::vector<DrawCall> opaque;
     std::vector<DrawCall> translucent;  ///< those of them that let light of lights through

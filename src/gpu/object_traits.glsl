@@ -9,6 +9,7 @@ const uint kTouchesOthers = 8u;   // another surface may lie at the same place
 const uint kCutOut = 16u;         // has holes by its alpha
 const uint kReplaced = 32u;       // a volume stands for it, where those are drawn
 const uint kCavity = 64u;         // inside is where the normals point: counts against its body
+const uint kSingleSided = 128u;   // opaque, and not there for rays that come from behind
 const uint kReplacedSolid = 0x80000000u;  // a volume stands for it: of a slot, beside its material
 
 // A place in the state of a path for whether it is inside a shell. Shells that never overlap share one.

@@ -47,6 +47,10 @@ vec3 opaque_radiance(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
     return radiance + (at_normal * facets.x + at_grazing * facets.y) * filtered_environment_radiance(lobe, roughness);
 }
 
+vec3 emitted_radiance(MaterialRecord material, vec2 first_set, vec2 second_set) {
+    return material.emission.rgb * sample_texture(material.emission_texture, first_set, second_set).rgb;
+}
+
 // Radiance towards the viewer of a place on a surface with texture coordinates of two sets; `base` is its base colour
 // with textures. Emission is added.
 vec3 opaque_material_radiance(MaterialRecord material, vec3 base, vec2 first_set, vec2 second_set, vec3 normal,
@@ -54,8 +58,7 @@ vec3 opaque_material_radiance(MaterialRecord material, vec3 base, vec2 first_set
     if ((material.flags & PELLUCID_MATERIAL_UNLIT) != 0u) return base;
     vec2 factors = sample_texture(material.metallic_roughness_texture, first_set, second_set).bg;
     OpaqueSurface surface = OpaqueSurface(base, material.metallic * factors.x, material.roughness * factors.y, material.ior);
-    vec3 emission = material.emission.rgb * sample_texture(material.emission_texture, first_set, second_set).rgb;
-    return opaque_radiance(surface, normal, to_viewer) + emission;
+    return opaque_radiance(surface, normal, to_viewer) + emitted_radiance(material, first_set, second_set);
 }
 
 #endif

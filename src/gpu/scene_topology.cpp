@@ -30,7 +30,7 @@ struct SlotRecord {
 };
 
 // Twins in object_traits.glsl.
-constexpr std::uint32_t kClosed = 4, kTouches = 8, kCutOut = 16, kReplaced = 32, kCavity = 64, kSlotShift = 8;
+constexpr std::uint32_t kClosed = 4, kTouches = 8, kCutOut = 16, kReplaced = 32, kCavity = 64, kSingleSided = 128, kSlotShift = 8;
 constexpr std::uint32_t kReplacedSolid = 0x80000000, kCavitySlot = 0x80000000;
 
 constexpr float kContact = 1e-6f;  ///< of a body's extent
@@ -266,6 +266,7 @@ void SceneTopology::update(const Device& device, const Scene& scene, std::uint64
         }
         std::uint32_t word = material.refractive() ? 2u : material.transmissive() ? 1u : 0u;
         if (material.alpha_cutoff > 0.0f) word |= kCutOut;
+        if (word == 0u && !material.double_sided) word |= kSingleSided;
         if (body != kNoBody) {
             const BodySlots& own = body_slots_[body];
             word |= many_slots ? own.closed << kSlotShift : own.words.front();

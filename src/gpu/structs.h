@@ -19,6 +19,8 @@ using uint = std::uint32_t;
 #define PELLUCID_BACK_FACE 0x80000000u  // top bit of a layer record's triangle word
 #define PELLUCID_EMPTY_DEPTH 1e30       // metres; farther than anything
 #define PELLUCID_MATERIAL_UNLIT 1u
+#define PELLUCID_MATERIAL_COVERAGE 2u      // alpha is coverage
+#define PELLUCID_MATERIAL_SINGLE_SIDED 4u
 #define PELLUCID_TEXTURE_NEAREST 1u
 #define PELLUCID_TEXTURE_SRGB 2u
 #define PELLUCID_TEXTURE_SECOND_SET 4u

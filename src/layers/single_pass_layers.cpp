@@ -36,7 +36,7 @@ constexpr std::uint32_t kSelectLayersCompute[] = {
 };
 
 constexpr vk::DeviceSize kNodeSize = 12;
-constexpr float kRasterisedDepthRounding = 5e-5f;  ///< of opaque surfaces' depths, relative
+constexpr float kRasterisedDepthRounding = 2e-6f;  ///< of depths, relative
 
 bool mirrors(const glm::mat4& transform) { return glm::determinant(glm::mat3(transform)) < 0.0f; }
 

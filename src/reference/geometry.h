@@ -170,6 +170,7 @@ private:
     struct Object {
         SurfaceKind kind = SurfaceKind::kOpaque;
         bool mirrored = false;             ///< world_from_object mirrors, so winding is reversed
+        bool single_sided = false;         ///< opaque, and not there for rays that come from behind
         bool has_holes = false;            ///< alpha_cutoff leaves some fragments out
         std::vector<glm::vec3> positions;  ///< world; one more than there are, which Embree may read
         std::vector<Facet> facets;         ///< per triangle

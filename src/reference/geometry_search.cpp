@@ -123,6 +123,7 @@ bool Geometry::accepts(const Query& query, std::uint32_t object, std::uint32_t t
     const double speed = glm::dot(query.direction, c.normal);  // along the normal
     if (speed == 0.0) return false;
     const Sense sense = speed < 0.0 ? Sense::kEntering : Sense::kLeaving;
+    if (o.single_sided && sense == Sense::kLeaving) return false;
 
     const double ahead = std::copysign(1.0, speed) * glm::dot(c.p0 - query.origin, c.normal);
     const double rounding = kGamma32 * scale_ * norm1(c.p1 - c.p0) * norm1(c.p2 - c.p0);

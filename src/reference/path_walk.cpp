@@ -121,8 +121,14 @@ bool PathWalk::meet_opaque(const Vertex& vertex, Random& random) {
     return scatter(vertex, opaque_bsdf(vertex), random);
 }
 
+/// Paths carry radiance over n^2, so what is emitted into a medium is divided by that.
+double PathWalk::emitted_share() const {
+    const double ior = inside_.medium().ior[channel_.value_or(kGreen)];
+    return 1.0 / (ior * ior);
+}
+
 void PathWalk::emit(const Vertex& vertex) {
-    radiance_ += throughput_ * glm::dvec3(emission(world_.scene, vertex.material, vertex.attributes));
+    radiance_ += throughput_ * emitted_share() * glm::dvec3(emission(world_.scene, vertex.material, vertex.attributes));
 }
 
 Bsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
@@ -165,6 +171,10 @@ bool PathWalk::meet_solid(const Hit& hit, Random& random) {
 }
 
 bool PathWalk::meet_pane(const Vertex& vertex, Random& random) {
+    if (vertex.material.alpha_is_coverage && random.next() >= vertex.base.a) {  // past it
+        turn_to(ray_.direction);
+        return true;
+    }
     emit(vertex);
     if (!transmits(vertex, random)) return scatter(vertex, opaque_bsdf(vertex), random);
     return scatter(vertex, PaneBsdf(double(vertex.material.ior), roughness_at(vertex), glm::dvec3(vertex.base)),
@@ -244,7 +254,7 @@ void PathWalk::add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& f
         if (!arriving) continue;
         const BsdfValue bsdf_value = value_towards(arriving->direction);
         if (!(bsdf_value.pdf > 0.0)) continue;
-        radiance_ += throughput_ * bsdf_value.value * arriving->irradiance *
+        radiance_ += throughput_ * emitted_share() * bsdf_value.value * arriving->irradiance *
                      visibility(vertex.hit, arriving->direction, arriving->distance);
     }
 }
@@ -278,9 +288,12 @@ glm::dvec3 PathWalk::pane_transmittance(Query query) {
         if (!hit.found) return share;
         const Vertex pane = vertex_at(hit, query.direction);
         const PaneBsdf bsdf(double(pane.material.ior), roughness_at(pane), glm::dvec3(pane.base));
-        if (!bsdf.only_mirrors()) return glm::dvec3(0.0);
-        share *= bsdf.straight_through(-glm::dot(pane.normal, query.direction)) *
-                 double(transmission(world_.scene, pane.material, pane.attributes));
+        const double coverage = pane.material.alpha_is_coverage ? pane.base.a : 1.0;
+        glm::dvec3 through(0.0);  // rough panes scatter
+        if (bsdf.only_mirrors())
+            through = bsdf.straight_through(-glm::dot(pane.normal, query.direction)) *
+                      double(transmission(world_.scene, pane.material, pane.attributes));
+        share *= (1.0 - coverage) + coverage * through;
         if (share == glm::dvec3(0.0)) return share;
         world_.geometry.step_onto(hit, shadow_standing_);
         query.standing = shadow_standing_;

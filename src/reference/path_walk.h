@@ -77,6 +77,7 @@ private:
     bool meet_solid(const Hit& hit, Random& random);
     bool meet_pane(const Vertex& vertex, Random& random);
     void emit(const Vertex& vertex);
+    double emitted_share() const;
     bool transmits(const Vertex& vertex, Random& random) const;
     Bsdf opaque_bsdf(const Vertex& vertex) const;
     double roughness_at(const Vertex& vertex) const;

@@ -113,8 +113,10 @@ private:
             material.alpha_cutoff = in_range(from.alphaCutoff, 0.0, 2.0, "alphaCutoff");
         } else if (from.alphaMode == "BLEND" && material.transmissive()) {
             // Alpha is coverage, transmission is glass: files of glass often have both, and a low alpha.
+            material.alpha_is_coverage = !material.refractive();
+            if (material.alpha_is_coverage) return;
             if (material.base_color.a < 1.0f || material.base_color_texture.image >= 0)
-                warnings_.add(fmt::format("{}: alpha is left out, glass is drawn at full coverage", user_));
+                warnings_.add(fmt::format("{}: alpha is left out, solid glass is drawn at full coverage", user_));
         } else if (from.alphaMode == "BLEND") {
             material.alpha_cutoff = 0.5f;
             warnings_.add(fmt::format("{}: alpha blending is drawn cut out at 0.5", user_));

@@ -14,6 +14,11 @@ bool hidden() {
     return eye_depth() >= min(imageLoad(opaque_depth, at).r, imageLoad(layer_depth, at).r);
 }
 
+// Alpha, where that is how much of what lies behind the pane covers.
+float coverage(MaterialRecord material, vec4 base) {
+    return (material.flags & PELLUCID_MATERIAL_COVERAGE) != 0u ? base.a : 1.0;
+}
+
 // Both faces of the pane, all reflections between them: 2 R / (1 + R).
 float pane_reflectance(vec3 normal, vec3 view_direction, float ior) {
     float r = fresnel_dielectric(-dot(view_direction, normal), 1.0 / ior);

@@ -17,5 +17,5 @@ void main() {
     float reflectance = pane_reflectance(normal, view_direction, material.ior);
     vec3 radiance = reflectance * environment_radiance(reflect_direction(view_direction, normal)) +
                     (1.0 - reflectance) * (1.0 - transmission(material)) * diffuse_radiance(base.rgb, normal);
-    out_radiance = vec4(min(radiance, vec3(65504.0)), 1.0);  // the target is 16-bit float
+    out_radiance = vec4(min(coverage(material, base) * radiance, vec3(65504.0)), 1.0);  // the target is 16-bit float
 }

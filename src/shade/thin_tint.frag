@@ -10,5 +10,5 @@ void main() {
     if (hidden() || base.a < material.alpha_cutoff) discard;
     vec3 view_direction = world_view_direction();
     float reflectance = pane_reflectance(facing_normal(view_direction), view_direction, material.ior);
-    out_tint = vec4(base.rgb * transmission(material) * (1.0 - reflectance), 1.0);
+    out_tint = vec4(mix(vec3(1.0), base.rgb * transmission(material) * (1.0 - reflectance), coverage(material, base)), 1.0);
 }

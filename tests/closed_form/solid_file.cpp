@@ -133,7 +133,10 @@ std::vector<Mesh> split(const Mesh& mesh, int count) {
 }
 
 int SolidFile::material(const closed_form::Medium& medium, double roughness) {
-    const glm::dvec3 color = glm::exp(-medium.sigma_a);  // left after 1 m
+    // What is left after a distance on which some is.
+    const double most = std::max({medium.sigma_a.r, medium.sigma_a.g, medium.sigma_a.b});
+    const double distance = most > 0.0 ? 1.0 / most : 1.0;
+    const glm::dvec3 color = glm::exp(-medium.sigma_a * distance);
     return material({{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", roughness}}},
                      {"extensions",
                       {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
@@ -141,7 +144,7 @@ int SolidFile::material(const closed_form::Medium& medium, double roughness) {
                        {"KHR_materials_volume",
                         {{"thicknessFactor", 1},
                          {"attenuationColor", {color.r, color.g, color.b}},
-                         {"attenuationDistance", 1}}}}}});
+                         {"attenuationDistance", distance}}}}}});
 }
 
 int SolidFile::material(json material) {

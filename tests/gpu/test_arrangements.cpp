@@ -24,5 +24,8 @@ protected:
 TEST_F(Arrangements, VisibilityLayersAgreesWithClosedForms) { expect_agreement(with("visibility-layers"), 64); }
 TEST_F(Arrangements, VisibilityCubeAgreesWithClosedForms) { expect_agreement(with("visibility-cube"), 64); }
 
+TEST_F(Arrangements, VisibilityLayersAgreesOnEveryKind) { expect_agreement_on_kinds(with("visibility-layers"), 64); }
+TEST_F(Arrangements, VisibilityCubeAgreesOnEveryKind) { expect_agreement_on_kinds(with("visibility-cube"), 64); }
+
 }  // namespace
 }  // namespace pellucid::test

@@ -16,5 +16,13 @@ TEST(Arrangements, ExactTracerAgreesWithClosedForms) {
         64);
 }
 
+TEST(Arrangements, ExactTracerAgreesOnEveryKind) {
+    expect_agreement_on_kinds(
+        [](const Scene& scene, const Camera& camera, std::uint32_t size) {
+            return Tracer(scene).exact(camera, {.width = size, .height = size});
+        },
+        64);
+}
+
 }  // namespace
 }  // namespace pellucid::test

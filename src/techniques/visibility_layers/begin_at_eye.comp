@@ -12,7 +12,7 @@ layout(set = 0, binding = 5, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray path_radiance;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray reflected_radiance;
 layout(std430, set = 0, binding = 30) readonly buffer Volumes { VolumeRecord volumes[]; };
-layout(std430, set = 0, binding = 33) readonly buffer EyeMedia { uint eye_media[]; };  // a bit per slot
+layout(std430, set = 0, binding = 39) readonly buffer EyeMedia { uint eye_media[]; };  // a bit per slot
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 #include "volume/volume_boxes.glsl"
 

@@ -7,7 +7,7 @@
 
 layout(std430, set = 0, binding = 3) readonly buffer Traits { uint traits[]; };  // per object
 layout(std430, set = 0, binding = 4) readonly buffer Slots { SlotRecord slots[]; };
-layout(std430, set = 0, binding = 32) readonly buffer ShellTraits { uint shell_traits[]; };  // per triangle of meshes
+layout(std430, set = 0, binding = 38) readonly buffer ShellTraits { uint shell_traits[]; };  // per triangle of meshes
 layout(set = 0, binding = 9, r32ui) readonly uniform uimage2DArray layer_triangle;
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray path_radiance;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray reflected_radiance;

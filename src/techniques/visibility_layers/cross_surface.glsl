@@ -4,7 +4,15 @@
 // What a path does at a surface. Needs: path_state.glsl, objects, materials, slots, map_triangles, map_normals
 // (surface_map.glsl), threshold, most_branches, branch_capacity.
 #include "gpu/object_traits.glsl"
+#include "techniques/visibility_layers/filling_body.glsl"
 #include "techniques/visibility_layers/microfacets.glsl"
+
+// Of the surfaces' textures.
+layout(std430, set = 0, binding = 40) readonly buffer Indices { uint indices[]; };
+layout(std430, set = 0, binding = 41) readonly buffer Appearance { float appearance[]; };
+layout(std430, set = 0, binding = 42) readonly buffer Textures { TextureRecord textures[]; };
+layout(set = 0, binding = 43) uniform texture2DArray texture_pages;
+#include "gpu/texture.glsl"
 
 // A point of a triangle, in the world.
 struct Surface {
@@ -12,6 +20,9 @@ struct Surface {
     vec3 normal;      // unit, interpolated, outward
     vec3 geometric;   // of the triangle itself, outward, any length
     uint material;
+    vec3 tint;        // base colour times transmission
+    float roughness;
+    float coverage;   // alpha, where that is one; otherwise 1
 };
 
 vec3 map_vector(utextureBuffer vectors, int number) { return uintBitsToFloat(texelFetch(vectors, number)).xyz; }
@@ -34,50 +45,25 @@ Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
         normal = mat3(o.world_from_object_normal) * normal;
         geometric *= o.mirrored != 0u ? -1.0 : 1.0;
     }
-    return Surface(a + weights.y * edge_b + weights.z * edge_c,
-                   normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material);
-}
-
-// The body that fills the place, by its first slot: of those around the path the one that displaces the others.
-uint filling_body() {
-    for (uint w = kMediumWords; w-- > 0u;) {
-        uint bits = media[w];
-        while (bits != 0u) {
-            uint slot = w * 32u + uint(findMSB(bits));
-            if (!kManySlots) return slot;
-            SlotRecord record = slots[slot];
-            int winding = 0;
-            for (uint s = record.first; s < record.first + record.count; ++s)
-                if (inside_slot(s)) winding += (slots[s].medium & kCavitySlot) != 0u ? -1 : 1;
-            if (winding > 0) return record.first;
-            // On to the next body: its slots are lower.
-            bits = record.first <= w * 32u ? 0u : bits & ((1u << (record.first - w * 32u)) - 1u);
+    MaterialRecord material = materials[o.material];
+    vec4 base = material.base_color;
+    float transmission = material.transmission, roughness = material.roughness;
+    if (kTexturedGlass) {
+        uint corner = o.first_corner + 3u * (triangle - o.first_triangle);
+        vec4 texcoords = vec4(0.0), color = vec4(0.0);
+        for (uint k = 0u; k < 3u; ++k) {
+            uint look = 5u * indices[corner + k];
+            texcoords += weights[k] * vec4(appearance[look], appearance[look + 1u], appearance[look + 2u], appearance[look + 3u]);
+            color += weights[k] * unpackUnorm4x8(floatBitsToUint(appearance[look + 4u]));
         }
+        base *= color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
+        transmission *= sample_texture(material.transmission_texture, texcoords.xy, texcoords.zw).r;
+        roughness *= sample_texture(material.metallic_roughness_texture, texcoords.xy, texcoords.zw).g;
     }
-    return kAir;
-}
-
-uint body_of(uint traits) {
-    uint slot = slot_of(traits);
-    return kManySlots ? slots[slot].first : slot;
-}
-
-// Equal media of two bodies that touch have no interface.
-bool is_interface(uint before, uint beyond) {
-    if (before == beyond) return false;
-    if (before == kAir || beyond == kAir) return true;
-    return ((slots[before].medium ^ slots[beyond].medium) & ~kCavitySlot) != 0u;
-}
-
-MaterialRecord filling_material(uint body) {
-    return materials[kOneObject ? objects[0].material : slots[body].material & ~kReplacedSolid];
-}
-
-// Per channel; without dispersion all are alike.
-vec3 filling_iors(uint body) {
-    if (body == kAir) return vec3(1.0);
-    MaterialRecord material = filling_material(body);
-    return kDispersive ? ior_per_channel(material.ior, material.dispersion) : vec3(material.ior);
+    float coverage = (material.flags & PELLUCID_MATERIAL_COVERAGE) != 0u ? base.a : 1.0;
+    return Surface(a + weights.y * edge_b + weights.z * edge_c,
+                   normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material,
+                   base.rgb * transmission, roughness, coverage);
 }
 
 bool refracts_apart(vec3 iors) { return kDispersive && (iors.r != iors.g || iors.b != iors.g); }
@@ -111,23 +97,22 @@ void branch_off(uint i, Path path, vec3 direction, vec3 weight, uint own_mark, S
 // it carries too little for that, its light goes on with what is refracted, so that none is lost.
 void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, vec3 n_i, vec3 n_t, bool first) {
     vec3 n = leaving ? -surface.normal : surface.normal;
-    MaterialRecord material = materials[surface.material];
     uint channel = mark & kChannelMask;
     uint c = channel == 0u ? 1u : channel - 1u;  // the direction is green's, unless the path has another channel
     float eta = n_i[c] / n_t[c];
     bool facets = kRough && (kStochastic || kTree);  // of rough glass, one per sample
-    if (facets && material.roughness > 0.0) n = sampled_normal(n, path, material.roughness);
+    if (facets && surface.roughness > 0.0) n = sampled_normal(n, path, surface.roughness);
     float cos_theta_i = -dot(path.direction, n);
     path.side_conflict = path.side_conflict || cos_theta_i < 0.0;
     ++path.events;
     vec3 incident = path.direction, carried = path.transmittance, refracted;
     bool total = !refract_direction(incident, n, eta, refracted);
     float reflectance = total ? 1.0 : fresnel_dielectric(cos_theta_i, eta);
-    float alpha = kRough && !facets ? material.roughness * material.roughness : 0.0;
+    float alpha = kRough && !facets ? surface.roughness * surface.roughness : 0.0;
     float bending = 0.5 * (max(n_i[c], n_t[c]) / min(n_i[c], n_t[c]) - 1.0);  // of a facet's tilt, beside reflection
     if (total) ++path.reflections;
     path.direction = refracted;  // under total reflection that is the reflected direction
-    vec3 tint = leaving || first ? vec3(1.0) : material.base_color.rgb * material.transmission;
+    vec3 tint = leaving || first ? vec3(1.0) : surface.tint;
 
     if (kStochastic) {
         bool reflects = !total && random_number(path.events) < reflectance;

@@ -17,11 +17,14 @@ layout(set = 0, binding = 9, rgba32f) writeonly uniform image2DArray transmittan
 layout(set = 0, binding = 14, r32ui) writeonly uniform uimage2DArray path_events;
 layout(set = 0, binding = 15) uniform texture2D environment_map;
 layout(set = 0, binding = 16) uniform texture2D filtered_environment;
+#include "gpu/object_traits.glsl"
 layout(std430, set = 0, binding = 17) readonly buffer Appearance { float appearance[]; };
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 
 #include "gpu/vertices.glsl"
 #include "techniques/visibility_layers/path_state.glsl"
+layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]; };
+#include "techniques/visibility_layers/filling_body.glsl"
 #include "techniques/visibility_layers/path_light.glsl"
 #include "techniques/visibility_layers/microfacets.glsl"
 #include "gpu/opaque_surface.glsl"
@@ -64,6 +67,10 @@ OpaqueLight opaque_light(Path path) {
     vec4 base = material.base_color * color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
     vec3 light = opaque_material_radiance(material, base.rgb, texcoords.xy, texcoords.zw,
                                           faceforward(normal, path.direction, normal), -path.direction);
+    // Paths carry radiance over n^2: what a surface emits into a medium, and what lamps in it throw, is divided by that.
+    float ior = filling_iors(filling_body()).g;
+    if (ior != 1.0 && (material.flags & PELLUCID_MATERIAL_UNLIT) == 0u)
+        light -= (1.0 - 1.0 / (ior * ior)) * emitted_radiance(material, texcoords.xy, texcoords.zw);
     bool unlit = (material.flags & PELLUCID_MATERIAL_UNLIT) != 0u;
     float metallic = material.metallic *
                      sample_texture(material.metallic_roughness_texture, texcoords.xy, texcoords.zw).b;
@@ -71,7 +78,7 @@ OpaqueLight opaque_light(Path path) {
     vec3 facing = faceforward(normal, path.direction, normal);
     vec3 diffuse = unlit ? vec3(0.0) : (1.0 - metallic) * (1.0 - root * root) * base.rgb;
 #ifdef PELLUCID_LIT
-    if (!unlit) light += diffuse / 3.14159265 * irradiance_of_lights(path.position, facing);
+    if (!unlit) light += diffuse / (3.14159265 * ior * ior) * irradiance_of_lights(path.position, facing);
 #endif
     return OpaqueLight(light, base.a - material.alpha_cutoff, facing, diffuse);
 }

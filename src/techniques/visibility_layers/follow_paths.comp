@@ -26,9 +26,8 @@ layout(constant_id = 7) const bool kOpaqueObjects = false;  // there are some
 
 // A pane that bends no light: its two faces and the reflections between them are one factor.
 void pass_pane(inout Path path, Surface surface) {
-    MaterialRecord material = materials[surface.material];
-    float once = fresnel_dielectric(abs(dot(path.direction, surface.normal)), 1.0 / material.ior);
-    path.transmittance *= (1.0 - 2.0 * once / (1.0 + once)) * material.base_color.rgb * material.transmission;
+    float once = fresnel_dielectric(abs(dot(path.direction, surface.normal)), 1.0 / materials[surface.material].ior);
+    path.transmittance *= mix(vec3(1.0), (1.0 - 2.0 * once / (1.0 + once)) * surface.tint, surface.coverage);
 }
 
 // Whether the way goes on through an object's box, and the ball around it, beyond the edge of the view's map.

@@ -38,7 +38,7 @@ bool can_meet(uint traits, bool leaving, uint triangle) {
     if (kTouching && looks_for == kFindOpaque && (traits & kKindMask) != kOpaqueKind) return false;
     if (kVolumes && (traits & kReplaced) != 0u)
         return meets_replaced == kMeetAll || (meets_replaced == kMeetEntering && !leaving && triangle != standing);
-    if (!closed_shell) return triangle != standing;
+    if (!closed_shell) return triangle != standing && !(leaving && (traits & kSingleSided) != 0u);
     return inside_slot(slot_of(traits)) == (leaving != ((traits & kCavity) != 0u));
 }
 

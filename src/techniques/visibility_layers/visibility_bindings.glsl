@@ -12,6 +12,7 @@ layout(constant_id = 3) const bool kStochastic = false;   // one way at random
 layout(constant_id = 4) const bool kDispersive = false;   // some glass disperses
 layout(constant_id = 5) const bool kRough = false;        // some glass is rough
 
+layout(constant_id = 13) const bool kTexturedGlass = false;  // some glass varies along its surface
 layout(constant_id = 12) const bool kManySlots = false;   // some body has several
 layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is one map of all the scene
 layout(constant_id = 9) const bool kTouching = false;     // surfaces of two shells may lie at one place

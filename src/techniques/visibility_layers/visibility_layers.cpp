@@ -107,7 +107,7 @@ public:
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::array<std::uint32_t, 13> constants() const {
+    std::array<std::uint32_t, 14> constants() const {
         const GpuScene& scene = frame_.scene;
         return {words_,
                 scene.object_count == 1 ? 1u : 0u,
@@ -121,12 +121,13 @@ private:
                 topology_.all_alone ? 0u : 1u,
                 surfaces_per_pass_,
                 volumes_ != nullptr ? 1u : 0u,
-                topology_.many_slots ? 1u : 0u};
+                topology_.many_slots ? 1u : 0u,
+                scene.textured_glass ? 1u : 0u};
     }
     const Program& program(ShaderCode shader) {
         const auto c = constants();
         return frame_.workspace.compute(
-            shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10], c[11], c[12]});
+            shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10], c[11], c[12], c[13]});
     }
 
     PathPass pass() const {
@@ -143,7 +144,9 @@ private:
             {reads("Slots", topology_.slots), reads("Maps", *map_.maps), reads("map_triangles", *map_.triangles),
              reads("map_normals", *map_.normals), reads("texels", *map_.texels), reads("ranges", *map_.ranges),
              reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
-             reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps)},
+             reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
+             reads("Indices", scene.indices), reads("Appearance", scene.appearance),
+             reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages)},
             {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
             push_};
     }
@@ -160,7 +163,8 @@ private:
             {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
              reads("map_triangles", *map_.triangles), reads("map_normals", *map_.normals),
              reads("Traits", topology_.traits), reads("ShellTraits", topology_.shell_traits),
-             reads("Slots", topology_.slots), reads("layer_triangle", layers_.triangle), reads("PixelList", layers_.covered),
+             reads("Indices", scene.indices), reads("Appearance", scene.appearance), reads("Textures", scene.textures),
+             reads("texture_pages", scene.texture_pages), reads("Slots", topology_.slots), reads("layer_triangle", layers_.triangle), reads("PixelList", layers_.covered),
              updates("NextList", *next_), updates("PathPlaces", places_), updates("PathWays", ways_buffer_),
              updates("PathWeights", weights_), updates("PathMedia", media_), updates("Waiting", waiting_),
              updates("Branches", *branches_), writes("path_radiance", *refraction_.radiance),
@@ -211,6 +215,10 @@ private:
                                     reads("Traits", topology_.traits),
                                     reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
                                     reads("Boxes", topology_.boxes),
+                                    reads("Indices", scene.indices),
+                                    reads("Appearance", scene.appearance),
+                                    reads("Textures", scene.textures),
+                                    reads("texture_pages", scene.texture_pages),
                                     reads("Volumes", volumes_ != nullptr ? volumes_->records() : *map_.maps),
                                     updates("EnteringList", entering)},
                                    push_, list);
@@ -223,6 +231,7 @@ private:
         std::vector<Binding> bindings = {reads("Frame", frame_.constants),
                                          reads("Objects", scene.objects),
                                          reads("Materials", scene.materials),
+                                         reads("Slots", topology_.slots),
                                          reads("Indices", scene.indices),
                                          reads("Vertices", scene.vertices),
                                          reads("PixelList", list),
