@@ -44,7 +44,7 @@ struct Material {
     float alpha_cutoff = 0.0f;           ///< fragments with less alpha are left out; 0 keeps all
     bool alpha_is_coverage = false;      ///< of thin-walled glass: it covers only that share of what lies behind
     bool unlit = false;                  ///< shows base_color itself
-    bool double_sided = false;
+    bool double_sided = true;            ///< opaque surfaces that are not are seen from the front only; glTF says which
 
     float transmission = 0.0f;          ///< 0..1; share of the light that enters instead of scattering at the surface
     Texture transmission_texture;       ///< red channel multiplies transmission (linear)
@@ -62,6 +62,8 @@ struct Material {
     bool transmissive() const { return transmission > 0.0f; }
     /// An opaque surface that lets light of lights through, scattered.
     bool translucent() const { return diffuse_transmission > 0.0f && !transmissive() && !unlit && metallic < 1.0f; }
+    /// Opaque, and not there for rays that come from behind. Light goes through solids that are translucent.
+    bool single_sided() const { return !double_sided && !transmissive() && !translucent(); }
     /// Bounds a solid of glass, as opposed to an opaque or a thin-walled surface.
     bool refractive() const { return transmissive() && thickness > 0.0f; }
     /// Absorption (translucent: extinction) coefficient per metre, `-ln(attenuation_color) / attenuation_distance`.

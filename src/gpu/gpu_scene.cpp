@@ -114,7 +114,7 @@ gpu::MaterialRecord material_record(const Material& material, TextureTable& text
     record.alpha_cutoff = material.alpha_cutoff;
     record.flags = (material.unlit ? PELLUCID_MATERIAL_UNLIT : 0u) |
                    (material.alpha_is_coverage ? PELLUCID_MATERIAL_COVERAGE : 0u) |
-                   (material.double_sided ? 0u : PELLUCID_MATERIAL_SINGLE_SIDED);
+                   (material.single_sided() ? PELLUCID_MATERIAL_SINGLE_SIDED : 0u);
     record.base_color_texture = textures.add(material.base_color_texture, true);
     record.emission_texture = textures.add(material.emission_texture, true);
     record.transmission_texture = textures.add(material.transmission_texture, false);

@@ -266,7 +266,7 @@ void SceneTopology::update(const Device& device, const Scene& scene, std::uint64
         }
         std::uint32_t word = material.refractive() ? 2u : material.transmissive() ? 1u : 0u;
         if (material.alpha_cutoff > 0.0f) word |= kCutOut;
-        if (word == 0u && !material.double_sided) word |= kSingleSided;
+        if (material.single_sided()) word |= kSingleSided;
         if (body != kNoBody) {
             const BodySlots& own = body_slots_[body];
             word |= many_slots ? own.closed << kSlotShift : own.words.front();

@@ -60,7 +60,7 @@ Geometry::Geometry(const Scene& scene, const TracerOptions& options)
         const Material& m = material(i);
         objects_[i].kind = kind_of(m);
         objects_[i].has_holes = objects_[i].kind != SurfaceKind::kRefractive && m.alpha_cutoff > 0.0f;
-        objects_[i].single_sided = objects_[i].kind == SurfaceKind::kOpaque && !m.double_sided;
+        objects_[i].single_sided = m.single_sided();
         objects_[i].mirrored = glm::determinant(glm::dmat3(scene.objects[i].world_from_object)) < 0.0;
         objects_[i].facets.resize(mesh(i).triangles.size());
     }

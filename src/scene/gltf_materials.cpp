@@ -255,6 +255,7 @@ Material default_gltf_material() {
     material.name = "default";
     material.metallic = 1.0f;
     material.roughness = 1.0f;
+    material.double_sided = false;
     return material;
 }
 

@@ -323,8 +323,13 @@ TEST(LoadGltf, GlassWithAlphaBlendingIsNotCutOut) {
     EXPECT_TRUE(warnings.empty()) << "alpha is 1";
     glass["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 1, 1, 0.25}}};
     EXPECT_EQ(material_of(glass, &warnings).alpha_cutoff, 0.0f);
-    ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find("full coverage"), std::string::npos);
+    EXPECT_TRUE(material_of(glass).alpha_is_coverage);
+    EXPECT_TRUE(warnings.empty()) << "of thin glass, alpha is coverage";
+    glass["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}};
+    EXPECT_FALSE(material_of(glass, &warnings).alpha_is_coverage);
+    EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                            [](const std::string& line) { return line.find("full coverage") != std::string::npos; }),
+              1);
 }
 
 TEST(LoadGltf, DiffuseTransmission) {

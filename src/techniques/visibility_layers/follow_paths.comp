@@ -56,13 +56,14 @@ float contact_distance(uint object_a, uint object_b, vec3 place) {
 
 // A surface at the same place as one that the path stands on; of the kind that is looked for.
 bool find_touching(uint object, vec3 place, vec3 direction, out SurfaceHit touching, out Surface surface) {
-    const float kGrazing = 32.0;  // along a ray that lies flatter than one in so many, surfaces are not seen to touch
+    const float kGrazing = 512.0;  // along a ray that lies flatter than one in so many, surfaces are not seen to touch
+    const float kBehind = 32.0;    // rounding puts places on a flat ray as far off
     float t_end, apart = contact_distance(object, object, place);
     for (int k = 0; k < 2; ++k) {  // the other may be the larger one
         bool gave_up;
         uint visits = 0u;
         walk_limit = kGrazing * apart;
-        touching = find_next(place, direction, -apart, t_end, gave_up, visits);
+        touching = find_next(place, direction, -kBehind * apart, t_end, gave_up, visits);
         walk_limit = kFarthest;
         if (k == 0 && touching.t == kFarthest) {
             apart = max(apart, largest_contact);
