@@ -99,7 +99,7 @@ public:
         end(*next_, true);
         if (ways_ == Ways::kTree) layers_.source.measure_room(recorder_, frame_, "branches", *branches_);
         Refraction refraction = refraction_;
-        if (ways_ != Ways::kTransmitted) refraction.reflected = &reflected_;
+        if (ways_ != Ways::kTransmitted || push_.whole_picture != 0) refraction.reflected = &reflected_;
         if (push_.whole_picture != 0) refraction.picture = refraction.radiance;
         return refraction;
     }
