@@ -6,6 +6,8 @@
 #include "gpu/coat.glsl"
 #include "gpu/octahedral.glsl"
 
+#include "shade/exact_depth.glsl"
+
 layout(set = 0, binding = 5, r32f) readonly uniform image2DArray opaque_depth;
 
 layout(location = 0) out vec4 out_reflected;
@@ -16,8 +18,9 @@ layout(location = 3) out uint out_normal;
 void main() {
     MaterialRecord material = materials[material_index];
     vec4 base = base_color(material);
-    float depth = eye_depth();
-    if (depth > imageLoad(opaque_depth, ivec3(gl_FragCoord.xy, 0)).r || base.a < material.alpha_cutoff) discard;
+    bool behind;
+    float depth = exact_depth(find_object(triangle), behind), nearest = imageLoad(opaque_depth, ivec3(gl_FragCoord.xy, 0)).r;
+    if (depth > nearest + kDepthRounding * nearest || base.a < material.alpha_cutoff) discard;
     vec2 factors = sample_texture(material.metallic_roughness_texture, texcoords.xy, texcoords.zw).bg;
     vec3 view_direction = world_view_direction(), normal = facing_normal(view_direction);
     // Both come out through the coat, as the environment's light does (opaque_surface.glsl).
@@ -27,5 +30,5 @@ void main() {
     out_transmitted = vec4(diffuse * material.diffuse_transmission.rgb, 1.0);
     out_triangle = triangle;
     out_normal = pack_direction(normal);
-    gl_FragDepth = depth * frame.depth_scale;
+    gl_FragDepth = eye_depth() * frame.depth_scale;
 }
