@@ -56,9 +56,10 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
         ->check(CLI::Range(0.0, 180.0));
     command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");
     command
-        .add_option("--priority", arguments.priorities,
-                    "Where solids overlap, the one of the highest whole number (default 0) displaces the others, then the "
-                    "one of less volume; may be repeated, with the names that 'pellucid info SCENE' lists")
+        .add_option(
+            "--priority", arguments.priorities,
+            "Where solids overlap, the one of the highest whole number (default 0) displaces the others, then the "
+            "one of less volume; may be repeated, with the names that 'pellucid info SCENE' lists")
         ->type_name("OBJECT=N")
         ->allow_extra_args(false);
     command

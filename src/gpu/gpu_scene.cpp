@@ -176,10 +176,10 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
         list.push_back(call);
         if (material.translucent()) translucent.push_back(call);
         rough = rough || (material.transmissive() ? material.roughness > 0.0f : !material.unlit);
-        textured_glass = textured_glass ||
-                         (material.transmissive() &&
-                          (material.base_color_texture.image >= 0 || material.transmission_texture.image >= 0 ||
-                           material.metallic_roughness_texture.image >= 0 || !mesh.colors.empty()));
+        textured_glass =
+            textured_glass || (material.transmissive() &&
+                               (material.base_color_texture.image >= 0 || material.transmission_texture.image >= 0 ||
+                                material.metallic_roughness_texture.image >= 0 || !mesh.colors.empty()));
         if (material.refractive()) {
             rough_glass = rough_glass || material.roughness > 0.0f;
             dispersive = dispersive || material.dispersion > 0.0f;

@@ -30,7 +30,8 @@ struct SlotRecord {
 };
 
 // Twins in object_traits.glsl.
-constexpr std::uint32_t kClosed = 4, kTouches = 8, kCutOut = 16, kReplaced = 32, kCavity = 64, kSingleSided = 128, kSlotShift = 8;
+constexpr std::uint32_t kClosed = 4, kTouches = 8, kCutOut = 16, kReplaced = 32, kCavity = 64, kSingleSided = 128,
+                        kSlotShift = 8;
 constexpr std::uint32_t kReplacedSolid = 0x80000000, kCavitySlot = 0x80000000;
 
 constexpr float kContact = 1e-6f;  ///< of a body's extent
@@ -108,7 +109,8 @@ Coloring color_shells(const BodySurface& surface) {
     const std::vector<std::vector<std::uint32_t>> meeting = meeting_shells(boxes, shells);
     std::vector<std::uint32_t> around(shells.count(), shells.count());  // of cavities that go with a shell
     for (std::uint32_t s = 0; s < shells.count(); ++s) {
-        if (boxes[s].cavity && meeting[s].size() == 1 && !boxes[meeting[s].front()].cavity) around[s] = meeting[s].front();
+        if (boxes[s].cavity && meeting[s].size() == 1 && !boxes[meeting[s].front()].cavity)
+            around[s] = meeting[s].front();
     }
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> color(shells.count(), kNone);
@@ -168,7 +170,8 @@ void SceneTopology::number_slots(const Scene& scene) {
         const Material& m = scene.materials[body.material];
         const glm::vec3 sigma = m.sigma_a();
         const auto next = std::uint32_t(media.size());
-        const std::uint32_t medium = media.try_emplace({m.ior, m.dispersion, sigma.r, sigma.g, sigma.b}, next).first->second;
+        const std::uint32_t medium =
+            media.try_emplace({m.ior, m.dispersion, sigma.r, sigma.g, sigma.b}, next).first->second;
         records.push_back({body.material, first, count, medium | (cavity ? kCavitySlot : 0u)});
     };
     for (const std::uint32_t b : by_rank) {
@@ -192,10 +195,9 @@ void SceneTopology::number_slots(const Scene& scene) {
         const Coloring& coloring = colorings[bodies_.all[b].surface.get()];
         for (std::uint32_t s = 0; s < shells.count(); ++s) {
             const std::uint32_t c = coloring.color[s];
-            body_slots_[b].words.push_back(
-                shells.closed[s] == 0
-                    ? body_slots_[b].open << kSlotShift
-                    : kClosed | (coloring.cavity[c] != 0 ? kCavity : 0u) | (body_slots_[b].closed + c) << kSlotShift);
+            body_slots_[b].words.push_back(shells.closed[s] == 0 ? body_slots_[b].open << kSlotShift
+                                                                 : kClosed | (coloring.cavity[c] != 0 ? kCavity : 0u) |
+                                                                       (body_slots_[b].closed + c) << kSlotShift);
         }
     }
     if (!many_slots) return;
@@ -246,7 +248,8 @@ void SceneTopology::update(const Device& device, const Scene& scene, std::uint64
             all.high = glm::max(all.high, boxes_[i].high);
         }
         const glm::vec3 size = all.high - all.low;
-        for (const std::uint32_t i : body.objects) uploaded[i].contact = kContact * std::max({size.x, size.y, size.z, 0.0f});
+        for (const std::uint32_t i : body.objects)
+            uploaded[i].contact = kContact * std::max({size.x, size.y, size.z, 0.0f});
     }
 
     largest_contact = 0.0f;
@@ -260,8 +263,8 @@ void SceneTopology::update(const Device& device, const Scene& scene, std::uint64
         for (std::uint32_t k = 0; k < boxes_.size() && !touches; ++k) {
             if (k == i || (body != kNoBody && bodies_.of_object[k] == body)) continue;
             // A few roundings of a coordinate apart still counts as touching.
-            const float rounding =
-                1e-6f * std::max({glm::length(boxes_[i].low), glm::length(boxes_[i].high), glm::length(boxes_[k].high)});
+            const float rounding = 1e-6f * std::max({glm::length(boxes_[i].low), glm::length(boxes_[i].high),
+                                                     glm::length(boxes_[k].high)});
             touches = meet(boxes_[i], boxes_[k], std::max({rounding, uploaded[i].contact, uploaded[k].contact}));
         }
         std::uint32_t word = material.refractive() ? 2u : material.transmissive() ? 1u : 0u;
@@ -314,7 +317,8 @@ void SceneTopology::look_from(const Device& device, const Scene& scene, const Ca
                 const glm::dmat4 view_from_world = glm::inverse(glm::dmat4(camera.world_from_view));
                 double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
                 for (int corner = 0; corner < 8; ++corner) {
-                    const glm::dvec3 p((corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
+                    const glm::dvec3 p((corner & 1) != 0 ? box.high.x : box.low.x,
+                                       (corner & 2) != 0 ? box.high.y : box.low.y,
                                        (corner & 4) != 0 ? box.high.z : box.low.z);
                     const double depth = -(view_from_world * glm::dvec4(p, 1.0)).z - double(camera.near_plane);
                     nearest = std::min(nearest, depth);

@@ -15,19 +15,19 @@ namespace pellucid {
 /// A path keeps a bit for each slot: whether it is inside a shell of that slot. Closed shells of a body that may overlap
 /// have slots of their own, shells that never do share one; a body's winding number is the sum over its slots.
 struct SceneTopology {
-    Buffer traits;              ///< per object, see object_traits.glsl
-    Buffer shell_traits;        ///< per triangle of every mesh, what is added to its object's; empty if !many_slots
-    Buffer slots;               ///< SlotRecord[]
-    Buffer boxes;               ///< ObjectBox[], see follow_paths.comp
-    Buffer eye;                 ///< a bit per slot: what the eye is inside of, see look_from()
+    Buffer traits;        ///< per object, see object_traits.glsl
+    Buffer shell_traits;  ///< per triangle of every mesh, what is added to its object's; empty if !many_slots
+    Buffer slots;         ///< SlotRecord[]
+    Buffer boxes;         ///< ObjectBox[], see follow_paths.comp
+    Buffer eye;           ///< a bit per slot: what the eye is inside of, see look_from()
     std::uint32_t slot_count = 0;
-    bool many_slots = false;    ///< some body has several
-    bool all_alone = true;      ///< no two surfaces lie at one place
-    bool eye_in_solid = false;  ///< see look_from()
-    bool eye_differs = false;   ///< from ray to ray
-    float eye_depth = 0.0f;     ///< m, of the plane on which rays start
+    bool many_slots = false;       ///< some body has several
+    bool all_alone = true;         ///< no two surfaces lie at one place
+    bool eye_in_solid = false;     ///< see look_from()
+    bool eye_differs = false;      ///< from ray to ray
+    float eye_depth = 0.0f;        ///< m, of the plane on which rays start
     float largest_contact = 0.0f;  ///< of any ObjectBox, m
-    std::uint64_t moves = 0;    ///< GpuScene::moves that the traits are of
+    std::uint64_t moves = 0;       ///< GpuScene::moves that the traits are of
 
     SceneTopology(const Device& device, const Scene& scene);
     /// Where vertices have moved. Shells that are closed stay so, and so does who displaces whom.
@@ -50,10 +50,10 @@ private:
         std::uint32_t open = 0;            ///< slot of its open ones, if there are any
         std::vector<std::uint32_t> words;  ///< per shell, what is added to the traits of its objects
     };
-    std::vector<BodySlots> body_slots_;             ///< per body
+    std::vector<BodySlots> body_slots_;  ///< per body
     std::vector<std::uint32_t> trait_words_, slot_words_;
-    std::vector<std::uint32_t> shell_words_;        ///< per triangle of every mesh
-    std::vector<Box> boxes_, body_boxes_;           ///< per object and per body, world
+    std::vector<std::uint32_t> shell_words_;  ///< per triangle of every mesh
+    std::vector<Box> boxes_, body_boxes_;     ///< per object and per body, world
 };
 
 }  // namespace pellucid

@@ -130,8 +130,8 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
         workspace.compute({"place_records.comp", kPlaceRecords},
                           {one_object, build.of_mesh ? 1u : 0u, topology.many_slots ? 1u : 0u}),
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Traits", topology.traits),
-         reads("ShellTraits", topology.shell_traits), updates("MapCounters", counters), reads("texels", *map.texels), reads("found", found),
-         writes("Ranges", *map.ranges), writes("Records", *map.records)},
+         reads("ShellTraits", topology.shell_traits), updates("MapCounters", counters), reads("texels", *map.texels),
+         reads("found", found), writes("Ranges", *map.ranges), writes("Records", *map.records)},
         std::array{build.found, build.first_record + build.records}, groups);
     recorder.copy(counters, counts, sizeof(MapCount), build.index * sizeof(MapCount));
 

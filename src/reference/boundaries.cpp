@@ -31,7 +31,8 @@ Hit touching_boundary(const Geometry& geometry, const Query& ray, const Hit& hit
     const Hit other = geometry.intersect(nearby);
     if (!other.found || other.crossing.shell == hit.crossing.shell) return {};
     const double distance = glm::dot(other.position - hit.position, geometry.geometric_normal(other));
-    return std::abs(distance) <= geometry.contact(hit.crossing.shell, other.crossing.shell, hit.position) ? other : Hit{};
+    return std::abs(distance) <= geometry.contact(hit.crossing.shell, other.crossing.shell, hit.position) ? other
+                                                                                                          : Hit{};
 }
 
 Hit cross_boundaries(const Geometry& geometry, const Query& ray, const Hit& hit, std::vector<Crossing>& standing,

@@ -214,8 +214,8 @@ private:
     std::vector<Object> objects_;
     std::vector<Solid> solids_;
     std::vector<ShellRecord> shells_;
-    std::vector<double> extents_;                    ///< of bodies, m: the longest side of the box
-    double scale_ = 0.0;                             ///< largest magnitude of any coordinate, m
+    std::vector<double> extents_;  ///< of bodies, m: the longest side of the box
+    double scale_ = 0.0;           ///< largest magnitude of any coordinate, m
     double widest_contact_ = 0.0;
     double build_ms_ = 0.0;
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;

@@ -137,5 +137,4 @@ inline bool is_interface(const MediumStack& inside, const MediumStack& beyond) {
     return inside.solid() == kAir || beyond.solid() == kAir || !(inside.medium() == beyond.medium());
 }
 
-
 }  // namespace pellucid::reference

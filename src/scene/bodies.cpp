@@ -105,11 +105,12 @@ std::uint32_t material_by_area(const Scene& scene, const Body& body) {
         const glm::dmat3 linear(object.world_from_object);
         for (const glm::uvec3 t : mesh.triangles) {
             const glm::dvec3 a = mesh.positions[t.x];
-            areas[std::uint32_t(object.material)] += glm::length(
-                glm::cross(linear * (glm::dvec3(mesh.positions[t.y]) - a), linear * (glm::dvec3(mesh.positions[t.z]) - a)));
+            areas[std::uint32_t(object.material)] += glm::length(glm::cross(
+                linear * (glm::dvec3(mesh.positions[t.y]) - a), linear * (glm::dvec3(mesh.positions[t.z]) - a)));
         }
     }
-    return std::max_element(areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+    return std::max_element(areas.begin(), areas.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
         ->first;
 }
 

@@ -15,9 +15,9 @@ namespace pellucid {
 
 /// The surfaces of a body, in the frame of its objects. Bodies of the same meshes share them.
 struct BodySurface {
-    std::vector<glm::vec3> positions;    ///< of all objects of the body, one after the other
-    std::vector<glm::uvec3> triangles;   ///< alike
-    std::vector<std::uint32_t> weld;     ///< weld_positions(positions)
+    std::vector<glm::vec3> positions;   ///< of all objects of the body, one after the other
+    std::vector<glm::uvec3> triangles;  ///< alike
+    std::vector<std::uint32_t> weld;    ///< weld_positions(positions)
     Shells shells;
     std::vector<std::uint32_t> first_vertex, first_triangle;  ///< per object of the body
     double volume = 0.0;  ///< where the winding number of the closed shells is above 0, m3

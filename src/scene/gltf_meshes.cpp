@@ -201,9 +201,10 @@ bool GltfMeshes::repair_solid_of(std::vector<Reading>& readings, const std::stri
     }
     if (parts.size() < 2) return false;
     if (!alike)
-        warnings_.add(fmt::format("{}: its primitives bound one solid, but are of several media; all of it is of the "
-                                  "medium of most of its surface",
-                                  name));
+        warnings_.add(
+            fmt::format("{}: its primitives bound one solid, but are of several media; all of it is of the "
+                        "medium of most of its surface",
+                        name));
     repair_solid_in_parts(parts, name, warnings_);
     return true;
 }

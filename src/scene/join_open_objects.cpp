@@ -145,9 +145,11 @@ void join_open_objects(Scene& scene, const std::vector<char>& moves, Warnings& w
     int next_body = 0;
     for (const Object& object : scene.objects) next_body = std::max(next_body, object.body + 1);
     for (const Body& body : bodies.all) {
-        const bool fixed = std::none_of(body.objects.begin(), body.objects.end(), [&](auto i) { return moves[i] != 0; });
+        const bool fixed =
+            std::none_of(body.objects.begin(), body.objects.end(), [&](auto i) { return moves[i] != 0; });
         const Shells& shells = body.surface->shells;
-        const bool open = std::none_of(shells.closed.begin(), shells.closed.end(), [](char closed) { return closed != 0; });
+        const bool open =
+            std::none_of(shells.closed.begin(), shells.closed.end(), [](char closed) { return closed != 0; });
         if (!fixed || !open || body.objects.size() > 1) continue;
         const std::uint32_t object = body.objects.front();
         const auto material = [&](std::uint32_t i) -> const Material& {

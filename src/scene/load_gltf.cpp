@@ -161,10 +161,12 @@ private:
         for (const GltfPart& part : parts) {
             // A skin says where in the world its vertices are, whatever the node's own transform is.
             if (part.in_world) {
-                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(1.0f), refracts(part) ? body : -1, priority});
+                scene_.objects.push_back(
+                    {name, part.mesh, part.material, glm::mat4(1.0f), refracts(part) ? body : -1, priority});
             } else if (rigid) {
                 rig_.objects.push_back({.object = static_cast<int>(scene_.objects.size()), .node = node});
-                scene_.objects.push_back({name, part.mesh, part.material, glm::mat4(1.0f), refracts(part) ? body : -1, priority});
+                scene_.objects.push_back(
+                    {name, part.mesh, part.material, glm::mat4(1.0f), refracts(part) ? body : -1, priority});
             } else {
                 warnings_.add(left_out);
             }

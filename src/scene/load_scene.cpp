@@ -126,8 +126,8 @@ void apply_priorities(const std::string& source, Scene& scene, const LoadOptions
             found = true;
         }
         if (!found)
-            fail(source, fmt::format("priority: there is no object \"{}\" (known: {})", given.object,
-                                     fmt::join(known, ", ")));
+            fail(source,
+                 fmt::format("priority: there is no object \"{}\" (known: {})", given.object, fmt::join(known, ", ")));
     }
 }
 

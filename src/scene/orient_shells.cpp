@@ -93,8 +93,7 @@ std::vector<glm::dvec3> probes(const Mesh& mesh, const Shell& shell) {
     const auto outside = [&](std::size_t triangle, const glm::dvec3& p) {
         const glm::uvec3 t = shell.corners[triangle];
         const glm::dvec3 a = mesh.positions[t.x];
-        const glm::dvec3 inward =
-            glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
+        const glm::dvec3 inward = glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
         const double length = glm::length(inward);
         return length > 0.0 ? p - apart / length * inward : p;
     };

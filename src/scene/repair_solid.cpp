@@ -43,7 +43,8 @@ std::size_t join_near_vertices(Mesh& mesh, std::vector<std::uint32_t>& weld) {
     });
     std::vector<std::pair<float, std::uint32_t>> order;
     for (std::uint32_t v = 0; v < weld.size(); ++v)
-        if (at_open_edge[v] != 0) order.emplace_back(glm::dot(mesh.positions[v] - low, glm::vec3(0.48f, 0.6f, 0.64f)), v);
+        if (at_open_edge[v] != 0)
+            order.emplace_back(glm::dot(mesh.positions[v] - low, glm::vec3(0.48f, 0.6f, 0.64f)), v);
     std::sort(order.begin(), order.end());
     DisjointSets sets(weld.size());
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -75,7 +76,8 @@ struct SameTriangles {
 };
 
 /// Those that there are more than once.
-std::vector<SameTriangles> same_triangles(const std::vector<glm::uvec3>& triangles, const std::vector<std::uint32_t>& weld) {
+std::vector<SameTriangles> same_triangles(const std::vector<glm::uvec3>& triangles,
+                                          const std::vector<std::uint32_t>& weld) {
     std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> keys;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         std::array<std::uint32_t, 3> key{weld[triangles[t].x], weld[triangles[t].y], weld[triangles[t].z]};
@@ -92,7 +94,8 @@ std::vector<SameTriangles> same_triangles(const std::vector<glm::uvec3>& triangl
         for (end = begin; end < keys.size() && keys[end].first == keys[begin].first;) ++end;
         if (end - begin < 2) continue;
         result.emplace_back();
-        for (std::size_t i = begin; i < end; ++i) result.back().wound[keys[i].second & 1].push_back(keys[i].second >> 1);
+        for (std::size_t i = begin; i < end; ++i)
+            result.back().wound[keys[i].second & 1].push_back(keys[i].second >> 1);
     }
     return result;
 }
@@ -194,7 +197,8 @@ std::size_t wind_alike(Mesh& mesh, const std::vector<std::uint32_t>& weld) {
             }
         }
         if (!orientable) continue;  // a one-sided surface has no inside
-        const auto ones = std::size_t(std::count_if(surface.begin(), surface.end(), [&](auto t) { return turns[t] == 1; }));
+        const auto ones =
+            std::size_t(std::count_if(surface.begin(), surface.end(), [&](auto t) { return turns[t] == 1; }));
         const char fewer = 2 * ones <= surface.size() ? 1 : 0;
         for (const std::uint32_t t : surface) {
             if (turns[t] != fewer) continue;
@@ -248,7 +252,8 @@ void warn_of_edges(const EdgeCounts& edges, bool all_closed, const std::string& 
 /// Parts in one mesh, and back.
 Mesh joined(const std::vector<Mesh*>& parts) {
     Mesh whole;
-    const bool normals = std::none_of(parts.begin(), parts.end(), [](const Mesh* part) { return part->normals.empty(); });
+    const bool normals =
+        std::none_of(parts.begin(), parts.end(), [](const Mesh* part) { return part->normals.empty(); });
     for (const Mesh* part : parts) {
         const auto first = std::uint32_t(whole.positions.size());
         whole.positions.insert(whole.positions.end(), part->positions.begin(), part->positions.end());

@@ -17,8 +17,8 @@ constexpr double kSameAngle = 1e-5;
 
 /// A triangle at an edge, seen along the edge from its first end to its second.
 struct Leaf {
-    double angle;      ///< radians, counter-clockwise
-    bool ends;         ///< material lies before it, not behind it, counter-clockwise
+    double angle;  ///< radians, counter-clockwise
+    bool ends;     ///< material lies before it, not behind it, counter-clockwise
     std::uint32_t triangle;
 };
 
@@ -64,7 +64,9 @@ void join_leaves(std::vector<Leaf> leaves, DisjointSets& sets) {
             }
             // Of ends in one direction the one that the file has nearest: shells lie together there.
             const std::uint32_t start = begun.back().triangle;
-            const auto apart = [&](const Leaf& leaf) { return std::max(leaf.triangle, start) - std::min(leaf.triangle, start); };
+            const auto apart = [&](const Leaf& leaf) {
+                return std::max(leaf.triangle, start) - std::min(leaf.triangle, start);
+            };
             std::size_t nearest = i;
             for (std::size_t k = i + 1; k < leaves.size() && leaves[k].ends && leaves[k].angle == leaves[i].angle; ++k)
                 if (apart(leaves[k]) < apart(leaves[nearest])) nearest = k;
@@ -103,7 +105,8 @@ Shells find_shells(std::span<const glm::vec3> positions, std::span<const glm::uv
         for (int k = 0; k < 3; ++k) at_vertex[weld[triangles[side.triangle][k]]] = side.triangle;
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
         for (int k = 0; k < 3; ++k)
-            if (const std::uint32_t v = weld[triangles[t][k]]; v == weld[triangles[t][(k + 1) % 3]] && at_vertex[v] != kNone)
+            if (const std::uint32_t v = weld[triangles[t][k]];
+                v == weld[triangles[t][(k + 1) % 3]] && at_vertex[v] != kNone)
                 sets.join(t, at_vertex[v]);
 
     Shells shells;

@@ -16,7 +16,8 @@ using closed_form::Shell;
 using closed_form::ShellKind;
 using closed_form::View;
 
-const Medium kGlass{1.5, {0.4, 0.2, 0.1}}, kWater{1.33, {0.0, 0.0, 0.0}}, kFlint{1.8, {0.1, 0.3, 0.2}}, kAir{1.0, {0, 0, 0}};
+const Medium kGlass{1.5, {0.4, 0.2, 0.1}}, kWater{1.33, {0.0, 0.0, 0.0}}, kFlint{1.8, {0.1, 0.3, 0.2}},
+    kAir{1.0, {0, 0, 0}};
 
 Shell shell(ShellKind kind, glm::dvec3 center, glm::dvec3 half, int winding = 1) {
     return {kind, glm::scale(glm::translate(glm::dmat4(1.0), center), half), winding};
@@ -43,29 +44,35 @@ struct Kind {
 
 std::vector<Kind> kinds() {
     std::vector<Kind> all;
-    all.push_back({"overlapping balls", {solid({ball({-0.3, 0, 0}, 0.6), ball({0.35, 0.1, 0}, 0.55)}, kGlass)}, {0.05, 0, 0.1}});
+    all.push_back(
+        {"overlapping balls", {solid({ball({-0.3, 0, 0}, 0.6), ball({0.35, 0.1, 0}, 0.55)}, kGlass)}, {0.05, 0, 0.1}});
     all.push_back({"touching boxes",
                    {solid({box({-0.5, 0, 0}, {0.5, 0.4, 0.5}), box({0.4, 0.1, 0.05}, {0.4, 0.5, 0.45})}, kGlass, 0, 2)},
                    {-0.3, 0.05, 0.1}});
     all.push_back({"nested shells and solids",
-                   {solid({ball({0, 0, 0}, 0.9), box({0.1, 0, 0}, {0.3, 0.3, 0.3})}, kGlass), solid({ball({-0.35, 0.1, 0.2}, 0.3)}, kFlint)},
+                   {solid({ball({0, 0, 0}, 0.9), box({0.1, 0, 0}, {0.3, 0.3, 0.3})}, kGlass),
+                    solid({ball({-0.35, 0.1, 0.2}, 0.3)}, kFlint)},
                    {0.5, 0.1, 0.3}});
-    all.push_back({"hollow filled with water",
-                   {solid({ball({0, 0, 0}, 0.9), ball({0, 0, 0}, 0.7, -1)}, kGlass), solid({ball({0, 0, 0}, 0.7)}, kWater)},
-                   {0.2, 0.1, 0.3}});
+    all.push_back(
+        {"hollow filled with water",
+         {solid({ball({0, 0, 0}, 0.9), ball({0, 0, 0}, 0.7, -1)}, kGlass), solid({ball({0, 0, 0}, 0.7)}, kWater)},
+         {0.2, 0.1, 0.3}});
     PlannedSolid twice = solid({box({0, 0, 0}, {0.6, 0.5, 0.4})}, kGlass);
     twice.shells[0].written_twice = true;
     all.push_back({"duplicates", {twice, solid({box({0, 0, 0}, {0.6, 0.5, 0.4})}, kFlint, 0, 3)}, {0.1, 0.1, 0.1}});
-    PlannedSolid inverted = solid({ball({-0.45, 0, 0}, 0.5), ball({0.5, 0.1, 0}, 0.45), box({0, -0.6, 0}, {0.9, 0.2, 0.4})}, kGlass);
+    PlannedSolid inverted =
+        solid({ball({-0.45, 0, 0}, 0.5), ball({0.5, 0.1, 0}, 0.45), box({0, -0.6, 0}, {0.9, 0.2, 0.4})}, kGlass);
     inverted.shells[1].written_inside_out = true;
     inverted.shells[2].written_inside_out = true;
     all.push_back({"shells inside out", {inverted}, {-0.4, 0.1, 0.1}});
-    all.push_back({"rod in a pool by priority",
-                   {solid({box({0, 0, 0}, {0.8, 0.5, 0.6})}, kWater), solid({box({0.2, 0.1, 0}, {0.1, 0.9, 0.1})}, kGlass, 1),
-                    solid({ball({-0.3, 0, 0}, 0.3)}, kFlint, -1)},
-                   {-0.6, 0.1, 0.1}});
-    all.push_back({"bubbles", {solid({box({0, 0, 0}, {0.8, 0.6, 0.6})}, kGlass), solid({ball({-0.3, 0, 0.1}, 0.25)}, kAir, 1),
-                               solid({ball({0.3, 0.1, 0}, 0.35)}, kAir)},
+    all.push_back(
+        {"rod in a pool by priority",
+         {solid({box({0, 0, 0}, {0.8, 0.5, 0.6})}, kWater), solid({box({0.2, 0.1, 0}, {0.1, 0.9, 0.1})}, kGlass, 1),
+          solid({ball({-0.3, 0, 0}, 0.3)}, kFlint, -1)},
+         {-0.6, 0.1, 0.1}});
+    all.push_back({"bubbles",
+                   {solid({box({0, 0, 0}, {0.8, 0.6, 0.6})}, kGlass), solid({ball({-0.3, 0, 0.1}, 0.25)}, kAir, 1),
+                    solid({ball({0.3, 0.1, 0}, 0.35)}, kAir)},
                    {0.0, -0.45, 0.4}});
     std::vector<Shell> many;
     for (int i = 0; i < 12; ++i) {
@@ -91,7 +98,8 @@ void move(Arrangement& arrangement, const glm::dmat4& world, double scale) {
     const glm::dvec3 position = glm::dvec3(world * eye[3]);
     glm::dmat3 axes = turn * glm::dmat3(eye);
     if (glm::determinant(axes) < 0.0) axes[0] = -axes[0];
-    eye = glm::dmat4(glm::dvec4(axes[0], 0.0), glm::dvec4(axes[1], 0.0), glm::dvec4(axes[2], 0.0), glm::dvec4(position, 1.0));
+    eye = glm::dmat4(glm::dvec4(axes[0], 0.0), glm::dvec4(axes[1], 0.0), glm::dvec4(axes[2], 0.0),
+                     glm::dvec4(position, 1.0));
     arrangement.view.vertical_extent *= scale;
 }
 
@@ -104,12 +112,21 @@ void scale_absorption(Arrangement& arrangement, double scale) {
 
 std::vector<SolidKind> solid_kinds() {
     const glm::dmat4 one(1.0);
-    const auto turned = [&](const glm::dvec3& axis, double angle) { return glm::rotate(one, angle, glm::normalize(axis)); };
+    const auto turned = [&](const glm::dvec3& axis, double angle) {
+        return glm::rotate(one, angle, glm::normalize(axis));
+    };
     const std::vector<std::pair<std::string, std::function<void(Arrangement&, const Kind&)>>> views = {
         {"plain", [](Arrangement&, const Kind&) {}},
-        {"rotated", [&](Arrangement& a, const Kind&) { move(a, turned({1, 2, 0.5}, 0.9), 1.0); }},
-        {"large", [&](Arrangement& a, const Kind&) { move(a, glm::scale(one, glm::dvec3(1000.0)), 1000.0), scale_absorption(a, 1000.0); }},
-        {"small", [&](Arrangement& a, const Kind&) { move(a, glm::scale(one, glm::dvec3(0.001)), 0.001), scale_absorption(a, 0.001); }},
+        {"rotated",
+         [&](Arrangement& a, const Kind&) {
+             move(a, turned({1, 2, 0.5}, 0.9), 1.0);
+         }},
+        {"large",
+         [&](Arrangement& a, const Kind&) {
+             move(a, glm::scale(one, glm::dvec3(1000.0)), 1000.0), scale_absorption(a, 1000.0);
+         }},
+        {"small", [&](Arrangement& a,
+                      const Kind&) { move(a, glm::scale(one, glm::dvec3(0.001)), 0.001), scale_absorption(a, 0.001); }},
         {"mirrored", [&](Arrangement& a, const Kind&) { move(a, glm::scale(one, glm::dvec3(-1.0, 1.0, 1.0)), 1.0); }},
         {"twice",
          [&](Arrangement& a, const Kind&) {
@@ -128,7 +145,10 @@ std::vector<SolidKind> solid_kinds() {
              a.view.world_from_view = glm::dmat4(1.0);
              a.view.world_from_view[3] = glm::dvec4(0.013, 0.021, 5.0, 1.0);
          }},
-        {"from inside", [](Arrangement& a, const Kind& kind) { a.view = look(kind.inside, kind.inside + glm::dvec3(-0.3, 0.1, -1.0), 1.2); }},
+        {"from inside",
+         [](Arrangement& a, const Kind& kind) {
+             a.view = look(kind.inside, kind.inside + glm::dvec3(-0.3, 0.1, -1.0), 1.2);
+         }},
     };
     std::vector<SolidKind> all;
     for (const Kind& kind : kinds()) {

@@ -7,8 +7,8 @@
 
 #include <pellucid/scene.h>
 
-#include <gtest/gtest.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -39,7 +39,8 @@ inline void expect_agreement(const TraceArrangement& trace, std::uint32_t size) 
         const Arrangement arrangement = make_arrangement(seed);
         const Truth truth = trace_closed_form(closed_form_scene(arrangement), arrangement.view, int(size));
         const auto found_with = [&](int ball_levels) {
-            return agreement(truth, trace(solid_file(arrangement, ball_levels).load(), camera_of(arrangement.view), size));
+            return agreement(truth,
+                             trace(solid_file(arrangement, ball_levels).load(), camera_of(arrangement.view), size));
         };
         Agreement found = found_with(5);
         if (found.share() < 0.99) found = found_with(6);  // many reflections in a ball: its triangles decide

@@ -9,11 +9,9 @@ namespace pellucid::test {
 namespace {
 
 TEST(Arrangements, ExactTracerAgreesWithClosedForms) {
-    expect_agreement(
-        [](const Scene& scene, const Camera& camera, std::uint32_t size) {
-            return Tracer(scene).exact(camera, {.width = size, .height = size});
-        },
-        64);
+    expect_agreement([](const Scene& scene, const Camera& camera,
+                        std::uint32_t size) { return Tracer(scene).exact(camera, {.width = size, .height = size}); },
+                     64);
 }
 
 TEST(Arrangements, ExactTracerAgreesOnEveryKind) {

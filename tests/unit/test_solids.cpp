@@ -70,7 +70,8 @@ TEST(RepairSolid, TrianglesDrawnTwiceGo) {
 
 TEST(RepairSolid, OneSideOfTwoIsKept) {
     Mesh mesh = joined(cube(), inside_out(cube()));
-    EXPECT_EQ(repaired(mesh), std::vector<std::string>{"cube: 12 triangles that are the other sides of triangles, left out"});
+    EXPECT_EQ(repaired(mesh),
+              std::vector<std::string>{"cube: 12 triangles that are the other sides of triangles, left out"});
     EXPECT_NEAR(volume_of(mesh), 1.0, 1e-6);
 }
 
@@ -132,7 +133,8 @@ TEST(Bodies, VolumeIsThatOfTheUnion) {
 TEST(Bodies, PriorityThenVolumeThenOrderDecide) {
     Scene scene;
     // A rod across a room's diagonal has a large box, and little volume.
-    const glm::mat4 turned = glm::rotate(glm::mat4(1.0f), 0.8f, glm::vec3(1, 1, 0)) * glm::scale(glm::mat4(1.0f), glm::vec3(0.1f, 0.1f, 9.0f));
+    const glm::mat4 turned = glm::rotate(glm::mat4(1.0f), 0.8f, glm::vec3(1, 1, 0)) *
+                             glm::scale(glm::mat4(1.0f), glm::vec3(0.1f, 0.1f, 9.0f));
     add(scene, with_flat_normals(cube()), glass(1.5f), turned);
     add(scene, with_flat_normals(cube(2.0f)), glass(1.4f));
     add(scene, with_flat_normals(cube(2.0f)), glass(1.3f));
@@ -173,7 +175,8 @@ TEST(JoinOpenObjects, FacesOfOneCubeBecomeABody) {
     Warnings warnings;
     warnings.add("rest: 4 boundary edges, 0 non-manifold edges: not a closed solid, refraction there is approximate");
     join_open_objects(scene, {0, 0}, warnings);
-    EXPECT_EQ(warnings.lines(), std::vector<std::string>{"rest and lid: open surfaces that close each other, joined to one solid"});
+    EXPECT_EQ(warnings.lines(),
+              std::vector<std::string>{"rest and lid: open surfaces that close each other, joined to one solid"});
     EXPECT_EQ(find_bodies(scene).all.size(), 1u);
     EXPECT_TRUE(find_bodies(scene).all[0].surface->shells.all_closed());
 

@@ -81,11 +81,12 @@ public:
             return (surfaces + surfaces_per_pass_ - 1) / surfaces_per_pass_;
         };
         const std::uint32_t surfaces = (push_.max_events + 1) * (topology_.all_alone ? 1 : kSurfacesPerEvent);
-        std::uint32_t passes = in_passes(surfaces) +
-                               push_.most_branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1);
+        std::uint32_t passes =
+            in_passes(surfaces) + push_.most_branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1);
         // A pass takes a path through one volume at most.
         if (volumes_ != nullptr)
-            passes = std::max(in_passes(surfaces), push_.max_events + kVolumesPerPath) + push_.most_branches * kSurfacesPerBranch;
+            passes = std::max(in_passes(surfaces), push_.max_events + kVolumesPerPath) +
+                     push_.most_branches * kSurfacesPerBranch;
         // Ends that lead to nothing else are done all at once.
         const bool at_once = ways_ != Ways::kTree && frame_.scene.opaque.empty() && volumes_ == nullptr;
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
@@ -145,8 +146,8 @@ private:
              reads("map_normals", *map_.normals), reads("texels", *map_.texels), reads("ranges", *map_.ranges),
              reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
              reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
-             reads("Indices", scene.indices), reads("Appearance", scene.appearance),
-             reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages)},
+             reads("Indices", scene.indices), reads("Appearance", scene.appearance), reads("Textures", scene.textures),
+             reads("texture_pages", scene.texture_pages)},
             {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
             push_};
     }
@@ -158,18 +159,31 @@ private:
 
     void begin() {
         const GpuScene& scene = frame_.scene;
-        recorder_.compute_indirect(
-            program({"begin_paths.comp", kBeginPaths}),
-            {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
-             reads("map_triangles", *map_.triangles), reads("map_normals", *map_.normals),
-             reads("Traits", topology_.traits), reads("ShellTraits", topology_.shell_traits),
-             reads("Indices", scene.indices), reads("Appearance", scene.appearance), reads("Textures", scene.textures),
-             reads("texture_pages", scene.texture_pages), reads("Slots", topology_.slots), reads("layer_triangle", layers_.triangle), reads("PixelList", layers_.covered),
-             updates("NextList", *next_), updates("PathPlaces", places_), updates("PathWays", ways_buffer_),
-             updates("PathWeights", weights_), updates("PathMedia", media_), updates("Waiting", waiting_),
-             updates("Branches", *branches_), writes("path_radiance", *refraction_.radiance),
-             writes("reflected_radiance", reflected_)},
-            push_, layers_.covered);
+        recorder_.compute_indirect(program({"begin_paths.comp", kBeginPaths}),
+                                   {reads("Frame", frame_.constants),
+                                    reads("Objects", scene.objects),
+                                    reads("Materials", scene.materials),
+                                    reads("map_triangles", *map_.triangles),
+                                    reads("map_normals", *map_.normals),
+                                    reads("Traits", topology_.traits),
+                                    reads("ShellTraits", topology_.shell_traits),
+                                    reads("Indices", scene.indices),
+                                    reads("Appearance", scene.appearance),
+                                    reads("Textures", scene.textures),
+                                    reads("texture_pages", scene.texture_pages),
+                                    reads("Slots", topology_.slots),
+                                    reads("layer_triangle", layers_.triangle),
+                                    reads("PixelList", layers_.covered),
+                                    updates("NextList", *next_),
+                                    updates("PathPlaces", places_),
+                                    updates("PathWays", ways_buffer_),
+                                    updates("PathWeights", weights_),
+                                    updates("PathMedia", media_),
+                                    updates("Waiting", waiting_),
+                                    updates("Branches", *branches_),
+                                    writes("path_radiance", *refraction_.radiance),
+                                    writes("reflected_radiance", reflected_)},
+                                   push_, layers_.covered);
     }
 
     void begin_at_eye() {
@@ -275,8 +289,7 @@ private:
     const Buffer& places_ = frame_.workspace.buffer("path places", pixels() * 16);
     const Buffer& ways_buffer_ = frame_.workspace.buffer("path ways", pixels() * 16);
     const Buffer& weights_ = frame_.workspace.buffer("path weights", pixels() * 16);
-    const Buffer& media_ =
-        frame_.workspace.buffer("path media", pixels() * 4 * (words_of(topology_) + 1));
+    const Buffer& media_ = frame_.workspace.buffer("path media", pixels() * 4 * (words_of(topology_) + 1));
     const Buffer& waiting_ = frame_.workspace.buffer("waiting branches", pixels() * 8);
     const Buffer* branches_ = nullptr;
     const GpuImage& reflected_ =
