@@ -104,13 +104,15 @@ float choose_texels(const Frame& frame, const gpu::FrameConstants& view) {
 }  // namespace
 
 bool LayerSource::view_holds_glass(const Frame& frame) {
-    const MapProjection pixels = view_projection(view_of(frame), frame.extent, 1.0f);
+    const gpu::FrameConstants view = view_of(frame);
+    const MapProjection pixels = view_projection(view, frame.extent, 1.0f);
     const glm::vec2 size(pixels.extent.width, pixels.extent.height);
+    // Planes that are chosen from the scene leave out no vertex, though corners of boxes may lie before or behind them.
+    const float nearest = view.orthographic != 0 ? 0.0f : std::max(frame.scene.topology->eye_depth, 1e-30f);
     const std::vector<glm::vec3>& corners = frame.scene.refractive_corners;
     return std::all_of(corners.begin(), corners.end(), [&](const glm::vec3& corner) {
         const glm::vec4 p = pixels.map_from_world * glm::vec4(corner, 1.0f);
-        if (p.w < pixels.near_w || p.z < 0.0f || p.z > p.w) return false;
-        return glm::all(glm::greaterThanEqual(glm::vec2(p), glm::vec2(0.0f))) &&
+        return p.w >= nearest && glm::all(glm::greaterThanEqual(glm::vec2(p), glm::vec2(0.0f))) &&
                glm::all(glm::lessThanEqual(glm::vec2(p), size * p.w));
     });
 }
