@@ -189,7 +189,7 @@ void SceneTopology::number_slots(const Scene& scene) {
     slot_count = std::uint32_t(records.size());
     for (const SlotRecord& r : records) slot_words_.insert(slot_words_.end(), {r.material, r.first, r.count, r.medium});
 
-    // A shell's word holds its slot less that of its body's closed shells.
+    // What an object's traits would be if all of it were of one shell.
     for (std::uint32_t b = 0; b < bodies_.all.size(); ++b) {
         const Shells& shells = bodies_.all[b].surface->shells;
         const Coloring& coloring = colorings[bodies_.all[b].surface.get()];
