@@ -1,13 +1,11 @@
 #include "gpu/scene_topology.h"
 
-#include "scene/mesh_repair.h"
+#include "scene/orient_shells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -129,14 +127,6 @@ Coloring color_shells(const BodySurface& surface) {
         coloring.color[s] = around[s] < shells.count() ? color[around[s]] : color[s];
     }
     return coloring;
-}
-
-/// Sum of the solid angles of triangles over 4 pi.
-double winding(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    return std::atan2(glm::dot(a, glm::cross(b, c)),
-                      la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb) /
-           (2.0 * std::numbers::pi);
 }
 
 }  // namespace
@@ -343,7 +333,7 @@ void SceneTopology::look_from(const Device& device, const Scene& scene, const Ca
                     body_slots_[b].words[body.surface->shells.of_triangle[body.surface->first_triangle[k] + t]];
                 if ((word & kClosed) == 0) continue;
                 const glm::uvec3 c = mesh.triangles[t];
-                windings[word >> kSlotShift] += sense * winding(from_eye[c.x], from_eye[c.y], from_eye[c.z]);
+                windings[word >> kSlotShift] += sense * winding_number(from_eye[c.x], from_eye[c.y], from_eye[c.z]);
             }
         }
     }

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
-#include <span>
 
 namespace pellucid {
 namespace {
@@ -79,22 +77,6 @@ double volume_along_lines(const BodySurface& surface, const ShellBox& all) {
     return length * cell.x * cell.y;
 }
 
-std::shared_ptr<const BodySurface> make_surface(const Scene& scene, const std::vector<std::uint32_t>& objects) {
-    auto surface = std::make_shared<BodySurface>();
-    for (const std::uint32_t i : objects) {
-        const Mesh& mesh = scene.meshes[std::size_t(scene.objects[i].mesh)];
-        const auto first = std::uint32_t(surface->positions.size());
-        surface->first_vertex.push_back(first);
-        surface->first_triangle.push_back(std::uint32_t(surface->triangles.size()));
-        surface->positions.insert(surface->positions.end(), mesh.positions.begin(), mesh.positions.end());
-        for (const glm::uvec3 t : mesh.triangles) surface->triangles.push_back(t + first);
-    }
-    surface->weld = weld_positions(surface->positions);
-    surface->shells = find_shells(surface->positions, surface->triangles, surface->weld);
-    surface->volume = material_volume(*surface);
-    return surface;
-}
-
 /// The material of most of the body's surface.
 std::uint32_t material_by_area(const Scene& scene, const Body& body) {
     if (body.objects.size() == 1) return std::uint32_t(scene.objects[body.objects.front()].material);
@@ -144,6 +126,25 @@ void rank_bodies(const Scene& scene, std::vector<Body>& bodies) {
 
 }  // namespace
 
+bool same_medium(const Material& a, const Material& b) {
+    return a.ior == b.ior && a.dispersion == b.dispersion && a.sigma_a() == b.sigma_a();
+}
+
+BodySurface body_surface(std::span<const Mesh* const> meshes) {
+    BodySurface surface;
+    for (const Mesh* mesh : meshes) {
+        const auto first = std::uint32_t(surface.positions.size());
+        surface.first_vertex.push_back(first);
+        surface.first_triangle.push_back(std::uint32_t(surface.triangles.size()));
+        surface.positions.insert(surface.positions.end(), mesh->positions.begin(), mesh->positions.end());
+        for (const glm::uvec3 t : mesh->triangles) surface.triangles.push_back(t + first);
+    }
+    surface.weld = weld_positions(surface.positions);
+    surface.shells = find_shells(surface.positions, surface.triangles, surface.weld);
+    surface.volume = material_volume(surface);
+    return surface;
+}
+
 double material_volume(const BodySurface& surface) {
     std::vector<std::vector<glm::uvec3>> triangles(surface.shells.count());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
@@ -183,7 +184,11 @@ Bodies find_bodies(const Scene& scene) {
         std::vector<int> meshes;
         for (const std::uint32_t i : body.objects) meshes.push_back(scene.objects[i].mesh);
         std::shared_ptr<const BodySurface>& surface = known[meshes];
-        if (!surface) surface = make_surface(scene, body.objects);
+        if (!surface) {
+            std::vector<const Mesh*> parts;
+            for (const int mesh : meshes) parts.push_back(&scene.meshes[std::size_t(mesh)]);
+            surface = std::make_shared<const BodySurface>(body_surface(parts));
+        }
         body.surface = surface;
         body.material = material_by_area(scene, body);
     }

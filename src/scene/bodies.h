@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace pellucid {
@@ -39,6 +40,12 @@ struct Bodies {
     std::vector<Body> all;
     std::vector<std::uint32_t> of_object;  ///< per object, its body; kNoBody where it bounds no solid
 };
+
+/// Whether two materials fill solids with the same.
+bool same_medium(const Material& a, const Material& b);
+
+/// Of meshes in one frame.
+BodySurface body_surface(std::span<const Mesh* const> meshes);
 
 /// The bodies of a scene, as its vertices are now.
 Bodies find_bodies(const Scene& scene);

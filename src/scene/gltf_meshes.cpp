@@ -2,6 +2,7 @@
 #include "scene/gltf_meshes.h"
 
 #include "core/fail.h"
+#include "scene/bodies.h"
 #include "scene/deform_mesh.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_animations.h"
@@ -196,8 +197,7 @@ bool GltfMeshes::repair_solid_of(std::vector<Reading>& readings, const std::stri
         if (!material.refractive() || reading.deforms()) continue;
         parts.push_back(&reading.mesh);
         if (!first) first = &material;
-        alike = alike && material.ior == first->ior && material.dispersion == first->dispersion &&
-                material.sigma_a() == first->sigma_a();
+        alike = alike && same_medium(material, *first);
     }
     if (parts.size() < 2) return false;
     if (!alike)

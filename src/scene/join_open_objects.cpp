@@ -3,25 +3,20 @@
 #include "core/math.h"
 #include "scene/bodies.h"
 #include "scene/mesh_edges.h"
-#include "scene/mesh_repair.h"
 #include "scene/repair_solid.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
 
 namespace pellucid {
 namespace {
-
-bool same_medium(const Material& a, const Material& b) {
-    return a.ior == b.ior && a.dispersion == b.dispersion && a.sigma_a() == b.sigma_a();
-}
 
 /// A mesh in the frame of `target`, as it lies in the world.
 Mesh in_frame(const Scene& scene, const Object& object, const Object& target) {
@@ -39,7 +34,7 @@ Mesh in_frame(const Scene& scene, const Object& object, const Object& target) {
 /// Objects of one medium, in one frame, and which of them share open edges.
 class Neighbours {
 public:
-    Neighbours(const Scene& scene, std::vector<std::uint32_t> objects) : scene_(scene), objects_(std::move(objects)) {
+    Neighbours(const Scene& scene, std::vector<std::uint32_t> objects) : objects_(std::move(objects)) {
         std::vector<glm::vec3> positions;
         std::vector<glm::uvec3> triangles;
         for (std::uint32_t k = 0; k < objects_.size(); ++k) {
@@ -74,41 +69,24 @@ public:
     }
 
 private:
-    /// Positions were rounded in frames of their own: within 1e-6 of the extent they are one.
+    /// Positions were rounded in frames of their own.
     void weld(const std::vector<glm::vec3>& positions) {
-        glm::vec3 low(positions.front()), high(low);
-        for (const glm::vec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
-        const glm::vec3 size = high - low;
-        const float tolerance = 1e-6f * std::max({size.x, size.y, size.z});
-        std::vector<std::pair<float, std::uint32_t>> order;
-        for (std::uint32_t v = 0; v < positions.size(); ++v)
-            order.emplace_back(glm::dot(positions[v] - low, glm::vec3(0.48f, 0.6f, 0.64f)), v);
-        std::sort(order.begin(), order.end());
-        DisjointSets sets(positions.size());
-        for (std::size_t i = 0; i < order.size(); ++i)
-            for (std::size_t k = i + 1; k < order.size() && order[k].first - order[i].first <= 2.0f * tolerance; ++k)
-                if (glm::distance(positions[order[i].second], positions[order[k].second]) <= tolerance)
-                    sets.join(order[k].second, order[i].second);
+        std::vector<std::uint32_t> all(positions.size());
+        std::iota(all.begin(), all.end(), 0u);
+        DisjointSets sets = near_vertices(positions, all, weld_tolerance(positions));
         for (std::uint32_t v = 0; v < positions.size(); ++v) weld_.push_back(sets.root(v));
     }
 
-    const Scene& scene_;
     std::vector<std::uint32_t> objects_, owner_, weld_;
     std::vector<HalfEdge> sides_;
 };
 
 /// Whether parts are the whole surface of something: sheets that lie on each other are not.
 bool bound_a_solid(const std::vector<Mesh>& parts) {
-    BodySurface surface;
-    for (const Mesh& part : parts) {
-        const auto first = std::uint32_t(surface.positions.size());
-        surface.positions.insert(surface.positions.end(), part.positions.begin(), part.positions.end());
-        for (const glm::uvec3 t : part.triangles) surface.triangles.push_back(t + first);
-    }
-    if (surface.triangles.empty()) return false;
-    surface.weld = weld_positions(surface.positions);
-    surface.shells = find_shells(surface.positions, surface.triangles, surface.weld);
-    return surface.shells.all_closed() && material_volume(surface) > 0.0;
+    std::vector<const Mesh*> meshes;
+    for (const Mesh& part : parts) meshes.push_back(&part);
+    const BodySurface surface = body_surface(meshes);
+    return !surface.triangles.empty() && surface.shells.all_closed() && surface.volume > 0.0;
 }
 
 void join(Scene& scene, const std::vector<std::uint32_t>& group, int body, Warnings& warnings) {

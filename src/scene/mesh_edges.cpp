@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace pellucid {
 
@@ -25,6 +26,32 @@ DisjointSets::DisjointSets(std::size_t count) : parent_(count) { std::iota(paren
 std::uint32_t DisjointSets::root(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
+}
+
+DisjointSets near_vertices(std::span<const glm::vec3> positions, std::span<const std::uint32_t> vertices,
+                           float tolerance) {
+    // Sorted along a line that no file's grid follows: those that are near are near in the list.
+    std::vector<std::pair<float, std::uint32_t>> order;
+    for (const std::uint32_t v : vertices)
+        order.emplace_back(glm::dot(positions[v] - positions[vertices[0]], glm::vec3(0.48f, 0.6f, 0.64f)), v);
+    std::sort(order.begin(), order.end());
+    DisjointSets sets(positions.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t k = i + 1; k < order.size() && order[k].first - order[i].first <= 2.0f * tolerance; ++k)
+            if (glm::distance(positions[order[i].second], positions[order[k].second]) <= tolerance)
+                sets.join(order[k].second, order[i].second);
+    return sets;
+}
+
+float weld_tolerance(std::span<const glm::vec3> positions) {
+    if (positions.empty()) return 0.0f;
+    glm::vec3 low(positions[0]), high(low);
+    for (const glm::vec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::vec3 size = high - low;
+    return 1e-6f * std::max({size.x, size.y, size.z});
 }
 
 }  // namespace pellucid

@@ -38,4 +38,11 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
+/// Sets of those `vertices` that lie within `tolerance` of each other, one after the other; all others stand alone.
+DisjointSets near_vertices(std::span<const glm::vec3> positions, std::span<const std::uint32_t> vertices,
+                           float tolerance);
+
+/// 1e-6 of the longest side of the positions' box: what is nearer is meant to be one place.
+float weld_tolerance(std::span<const glm::vec3> positions);
+
 }  // namespace pellucid

@@ -1,5 +1,4 @@
-// Inside and outside of a mesh with several shells. Winding numbers are sums of solid angles: van Oosterom & Strackee,
-// "The solid angle of a plane triangle", IEEE Transactions on Biomedical Engineering 30(2), 1983.
+// Inside and outside of a mesh with several shells.
 #include "scene/orient_shells.h"
 
 #include "scene/mesh_repair.h"
@@ -44,17 +43,12 @@ std::vector<Shell> list_shells(const Mesh& mesh, const Shells& found) {
 }
 
 /// How often the shell surrounds a point; the sign says which way round it is wound.
-double winding_number(const Mesh& mesh, const Shell& shell, const glm::dvec3& point) {
-    double angle = 0.0;
-    for (const glm::uvec3 t : shell.corners) {
-        const glm::dvec3 a = glm::dvec3(mesh.positions[t.x]) - point;
-        const glm::dvec3 b = glm::dvec3(mesh.positions[t.y]) - point;
-        const glm::dvec3 c = glm::dvec3(mesh.positions[t.z]) - point;
-        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                                  la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-    }
-    return angle / (4.0 * std::numbers::pi);
+double shell_winding(const Mesh& mesh, const Shell& shell, const glm::dvec3& point) {
+    double sum = 0.0;
+    for (const glm::uvec3 t : shell.corners)
+        sum += winding_number(glm::dvec3(mesh.positions[t.x]) - point, glm::dvec3(mesh.positions[t.y]) - point,
+                              glm::dvec3(mesh.positions[t.z]) - point);
+    return sum;
 }
 
 /// Whether the other shells enclose a point. How these are wound does not matter: they may need turning, too.
@@ -62,7 +56,7 @@ bool enclosed(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& o
     return std::any_of(shells.begin(), shells.end(), [&](const Shell& other) {
         if (&other == &own || !other.closed) return false;
         if (glm::any(glm::lessThan(point, other.low)) || glm::any(glm::greaterThan(point, other.high))) return false;
-        return std::abs(winding_number(mesh, other, point)) > 0.5;
+        return std::abs(shell_winding(mesh, other, point)) > 0.5;
     });
 }
 
@@ -135,6 +129,13 @@ void turn(Mesh& mesh, const std::vector<const Shell*>& turned) {
 }
 
 }  // namespace
+
+double winding_number(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    return std::atan2(glm::dot(a, glm::cross(b, c)),
+                      la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb) /
+           (2.0 * std::numbers::pi);
+}
 
 TurnedShells orient_shells(Mesh& mesh, const Shells& found) {
     std::vector<Shell> shells = list_shells(mesh, found);

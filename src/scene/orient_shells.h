@@ -22,4 +22,9 @@ struct TurnedShells {
 /// of other shells.
 TurnedShells orient_shells(Mesh& mesh, const Shells& shells);
 
+/// How often a triangle, seen from the origin, surrounds it: its solid angle over 4 pi, positive where it is
+/// counter-clockwise seen from outside. Van Oosterom & Strackee, "The solid angle of a plane triangle", IEEE Transactions
+/// on Biomedical Engineering 30(2), 1983.
+double winding_number(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
 }  // namespace pellucid

@@ -11,15 +11,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 
 namespace pellucid {
 namespace {
-
-/// Of the mesh's extent: vertices nearer than this are meant to be one.
-constexpr float kWeldTolerance = 1e-6f;
 
 const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
 
@@ -28,29 +24,16 @@ const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
 std::size_t join_near_vertices(Mesh& mesh, std::vector<std::uint32_t>& weld) {
     const std::uint64_t open = count_edges(mesh.triangles, weld).boundary;
     if (open == 0) return 0;
-    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
-    for (const glm::vec3& p : mesh.positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    const glm::vec3 size = high - low;
-    const float tolerance = kWeldTolerance * std::max({size.x, size.y, size.z});
+    const float tolerance = weld_tolerance(mesh.positions);
     if (!(tolerance > 0.0f)) return 0;
-    // Vertices of open edges, sorted along a line that no file's grid follows: those that are near are near in the list.
     std::vector<char> at_open_edge(weld.size(), 0);
     for_each_edge(sorted_half_edges(mesh.triangles, weld), [&](std::span<const HalfEdge> edge) {
         if (edge.size() == 1) at_open_edge[edge[0].ends >> 32] = at_open_edge[std::uint32_t(edge[0].ends)] = 1;
     });
-    std::vector<std::pair<float, std::uint32_t>> order;
+    std::vector<std::uint32_t> vertices;
     for (std::uint32_t v = 0; v < weld.size(); ++v)
-        if (at_open_edge[v] != 0)
-            order.emplace_back(glm::dot(mesh.positions[v] - low, glm::vec3(0.48f, 0.6f, 0.64f)), v);
-    std::sort(order.begin(), order.end());
-    DisjointSets sets(weld.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        for (std::size_t k = i + 1; k < order.size() && order[k].first - order[i].first <= 2.0f * tolerance; ++k)
-            if (glm::distance(mesh.positions[order[i].second], mesh.positions[order[k].second]) <= tolerance)
-                sets.join(order[k].second, order[i].second);
+        if (at_open_edge[v] != 0) vertices.push_back(v);
+    DisjointSets sets = near_vertices(mesh.positions, vertices, tolerance);
     std::vector<std::uint32_t> nearer = weld;
     for (std::uint32_t& v : nearer) v = sets.root(v);
     if (count_edges(mesh.triangles, nearer).boundary >= open) return 0;

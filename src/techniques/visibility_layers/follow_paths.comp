@@ -112,14 +112,13 @@ bool go_on(uint i, inout Path path) {
             return false;
         }
     }
-    bool found = hit.t < kFarthest;
-    if (!found) {
+    if (hit.t == kFarthest) {
         if (gave_up) path.status = kStatusStepLimit;
         else if (!kMapPerMesh && t_end < kFarthest && meets_boxes(path.position + t_end * path.direction, path.direction))
             path.status = kStatusLeftScreen;
         else if (body != kAir) path.status = kStatusMissingLayer;
+        return false;
     }
-    if (!found) return false;
     bool glass = refractive(hit.traits);
     uint object = object_of(hit.triangle);
     Surface surface = surface_at(hit.triangle, object, path.position, path.direction);

@@ -186,55 +186,34 @@ private:
                                    push_, layers_.covered);
     }
 
+    /// What passes that walk the maps have in common, and `own`.
+    static std::vector<Binding> walking(const PathPass& pass, std::initializer_list<Binding> own) {
+        std::vector<Binding> bindings = pass.scene;
+        for (const auto* more : {&pass.state, &pass.walk}) bindings.insert(bindings.end(), more->begin(), more->end());
+        bindings.insert(bindings.end(), own);
+        return bindings;
+    }
+    const Buffer& volume_records() const {
+        return volumes_ != nullptr ? volumes_->records() : *map_.maps;  // something has to be bound
+    }
+
     void begin_at_eye() {
-        const PathPass all = pass();
-        std::vector<Binding> bindings = all.scene;
-        for (const auto* more : {&all.state, &all.walk, &all.light})
-            bindings.insert(bindings.end(), more->begin(), more->end());
-        for (Binding& b : bindings)
-            if (b.name == "path_radiance" || b.name == "reflected_radiance") b.access = Access::kWrite;
-        const Binding own[] = {reads("layer_triangle", layers_.triangle), reads("opaque_depth", layers_.opaque.depth),
-                               reads("Volumes", volumes_ != nullptr ? volumes_->records() : *map_.maps),
-                               reads("EyeMedia", topology_.eye), updates("NextList", *next_)};
-        bindings.insert(bindings.end(), std::begin(own), std::end(own));
+        const std::vector<Binding> bindings = walking(
+            pass(), {reads("layer_triangle", layers_.triangle), reads("opaque_depth", layers_.opaque.depth),
+                     reads("Volumes", volume_records()), reads("EyeMedia", topology_.eye), updates("NextList", *next_),
+                     writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)});
         recorder_.compute(program({"begin_at_eye.comp", kBeginAtEye}), std::span<const Binding>(bindings), push_,
                           frame_.extent);
     }
 
     void follow(std::uint32_t pass, const Buffer& entering) {
-        const GpuScene& scene = frame_.scene;
         const Buffer& list = *next_;
         next_ = &start_pixel_list(recorder_, frame_, pass % 2 == 0 ? "paths 1" : "paths 0");
-        recorder_.compute_indirect(program({"follow_paths.comp", kFollowPaths}),
-                                   {reads("Frame", frame_.constants),
-                                    reads("Objects", scene.objects),
-                                    reads("Materials", scene.materials),
-                                    reads("Slots", topology_.slots),
-                                    reads("PixelList", list),
-                                    updates("NextList", *next_),
-                                    updates("EndedList", *ended_),
-                                    updates("PathPlaces", places_),
-                                    updates("PathWays", ways_buffer_),
-                                    updates("PathWeights", weights_),
-                                    updates("PathMedia", media_),
-                                    updates("Waiting", waiting_),
-                                    updates("Branches", *branches_),
-                                    reads("Maps", *map_.maps),
-                                    reads("map_triangles", *map_.triangles),
-                                    reads("map_normals", *map_.normals),
-                                    reads("texels", *map_.texels),
-                                    reads("ranges", *map_.ranges),
-                                    reads("records", *map_.records),
-                                    reads("pyramid", *map_.pyramid),
-                                    reads("Traits", topology_.traits),
-                                    reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
-                                    reads("Boxes", topology_.boxes),
-                                    reads("Indices", scene.indices),
-                                    reads("Appearance", scene.appearance),
-                                    reads("Textures", scene.textures),
-                                    reads("texture_pages", scene.texture_pages),
-                                    reads("Volumes", volumes_ != nullptr ? volumes_->records() : *map_.maps),
-                                    updates("EnteringList", entering)},
+        const std::vector<Binding> bindings =
+            walking(this->pass(), {reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
+                                   reads("Boxes", topology_.boxes), reads("Volumes", volume_records()),
+                                   updates("EnteringList", entering)});
+        recorder_.compute_indirect(program({"follow_paths.comp", kFollowPaths}), std::span<const Binding>(bindings),
                                    push_, list);
     }
 
