@@ -183,8 +183,6 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
         if (material.refractive()) {
             rough_glass = rough_glass || material.roughness > 0.0f;
             dispersive = dispersive || material.dispersion > 0.0f;
-            const bool textured = material.base_color_texture.image >= 0 || material.transmission_texture.image >= 0;
-            if (textured || !mesh.colors.empty()) textured_refractive.push_back(call);
         }
         object_records.push_back(record);
         triangle_count += mesh.triangles.size();

@@ -59,13 +59,12 @@ struct GpuScene {
     std::vector<GpuMesh> meshes;
     std::vector<std::uint32_t> first_triangles;  ///< per object; ascending
     std::vector<std::uint32_t> mesh_of_object;
-    std::vector<glm::mat4> world_from_object;   ///< per object
-    std::vector<DrawCall> refractive;           ///< solids of glass
-    std::vector<DrawCall> textured_refractive;  ///< those of them whose surface varies in colour or transmission
-    std::vector<DrawCall> thin_walled;          ///< transmissive surfaces that do not bend light
-    bool rough_glass = false;                   ///< some refracting object is rough
-    bool textured_glass = false;                ///< glass of any kind varies along its surface
-    bool dispersive = false;                    ///< some refracting object disperses
+    std::vector<glm::mat4> world_from_object;  ///< per object
+    std::vector<DrawCall> refractive;          ///< solids of glass
+    std::vector<DrawCall> thin_walled;         ///< transmissive surfaces that do not bend light
+    bool rough_glass = false;                  ///< some refracting object is rough
+    bool textured_glass = false;               ///< glass of any kind varies along its surface
+    bool dispersive = false;                   ///< some refracting object disperses
     std::vector<DrawCall> opaque;
     std::vector<DrawCall> translucent;  ///< those of them that let light of lights through
     bool rough = false;                 ///< something reflects or refracts a blurred environment

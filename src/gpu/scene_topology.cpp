@@ -1,6 +1,7 @@
 #include "gpu/scene_topology.h"
 
 #include "scene/orient_shells.h"
+#include "scene/shell_windings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +30,9 @@ struct SlotRecord {
 
 // Twins in object_traits.glsl.
 constexpr std::uint32_t kClosed = 4, kTouches = 8, kCutOut = 16, kReplaced = 32, kCavity = 64, kSingleSided = 128,
-                        kSlotShift = 8;
-constexpr std::uint32_t kReplacedSolid = 0x80000000, kCavitySlot = 0x80000000;
+                        kCrossesItself = 256, kSlotShift = 9;
+constexpr std::uint32_t kReplacedSolid = 0x80000000, kCavitySlot = 0x80000000, kReplacedMedium = 0x40000000,
+                        kSameShell = 0x20000000;
 
 constexpr float kContact = 1e-6f;  ///< of a body's extent
 
@@ -44,12 +46,21 @@ struct ShellBox {
     bool cavity = false;
 };
 
-/// Which shells of a surface share a slot, in numbers from 0; and which of these slots are of cavities.
+/// Which shells of a surface share slots, in numbers from 0. A colour has a slot for each step of its winding number.
 struct Coloring {
     std::vector<std::uint32_t> color;  ///< per shell; of open ones 0
-    std::vector<char> cavity;          ///< per colour
+    std::vector<WindingRange> range;   ///< per colour
     bool any_open = false;
+
+    std::uint32_t first_slot(std::uint32_t of_color) const {
+        std::uint32_t first = 0;
+        for (std::uint32_t c = 0; c < of_color; ++c) first += std::uint32_t(range[c].most - range[c].least);
+        return first;
+    }
+    std::uint32_t slot_count() const { return first_slot(std::uint32_t(range.size())); }
 };
+
+constexpr WindingRange kOutward{0, 1}, kInward{-1, 0};
 
 std::vector<ShellBox> shell_boxes(const BodySurface& surface) {
     std::vector<ShellBox> boxes(surface.shells.count());
@@ -99,27 +110,31 @@ Coloring color_shells(const BodySurface& surface) {
     Coloring coloring;
     coloring.color.assign(shells.count(), 0);
     coloring.any_open = !shells.all_closed();
+    std::vector<WindingRange> ranges = winding_ranges(surface.positions, surface.triangles, shells);
     if (shells.count() == 1) {
-        if (shells.all_closed()) coloring.cavity.push_back(0);
+        if (shells.all_closed()) coloring.range.push_back(ranges[0].crosses_itself() ? ranges[0] : kOutward);
         return coloring;
     }
     std::vector<ShellBox> boxes = shell_boxes(surface);
     const std::vector<std::vector<std::uint32_t>> meeting = meeting_shells(boxes, shells);
     std::vector<std::uint32_t> around(shells.count(), shells.count());  // of cavities that go with a shell
     for (std::uint32_t s = 0; s < shells.count(); ++s) {
-        if (boxes[s].cavity && meeting[s].size() == 1 && !boxes[meeting[s].front()].cavity)
-            around[s] = meeting[s].front();
+        if (ranges[s].crosses_itself()) continue;
+        ranges[s] = boxes[s].cavity ? kInward : kOutward;
+        if (!boxes[s].cavity || meeting[s].size() != 1) continue;
+        const std::uint32_t outer = meeting[s].front();
+        if (!boxes[outer].cavity && !ranges[outer].crosses_itself()) around[s] = outer;
     }
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> color(shells.count(), kNone);
     for (std::uint32_t s = 0; s < shells.count(); ++s) {
         if (shells.closed[s] == 0 || around[s] < shells.count()) continue;
-        std::vector<char> taken(coloring.cavity.size() + 1, 0);
+        std::vector<char> taken(coloring.range.size() + 1, 0);
         for (const std::uint32_t other : meeting[s])
             if (color[other] != kNone) taken[color[other]] = 1;
         std::uint32_t c = 0;
-        while (c < coloring.cavity.size() && (taken[c] != 0 || (coloring.cavity[c] != 0) != boxes[s].cavity)) ++c;
-        if (c == coloring.cavity.size()) coloring.cavity.push_back(boxes[s].cavity ? 1 : 0);
+        while (c < coloring.range.size() && (taken[c] != 0 || coloring.range[c] != ranges[s])) ++c;
+        if (c == coloring.range.size()) coloring.range.push_back(ranges[s]);
         color[s] = c;
     }
     for (std::uint32_t s = 0; s < shells.count(); ++s) {
@@ -156,24 +171,29 @@ void SceneTopology::number_slots(const Scene& scene) {
     std::map<std::tuple<float, float, float, float, float>, std::uint32_t> media;
     std::vector<SlotRecord> records;
     body_slots_.resize(bodies_.all.size());
-    const auto add = [&](const Body& body, std::uint32_t first, std::uint32_t count, bool cavity) {
+    const auto add = [&](const Body& body, std::uint32_t first, std::uint32_t count, std::uint32_t flags) {
         const Material& m = scene.materials[body.material];
         const glm::vec3 sigma = m.sigma_a();
         const auto next = std::uint32_t(media.size());
         const std::uint32_t medium =
             media.try_emplace({m.ior, m.dispersion, sigma.r, sigma.g, sigma.b}, next).first->second;
-        records.push_back({body.material, first, count, medium | (cavity ? kCavitySlot : 0u)});
+        records.push_back({body.material, first, count, medium | flags});
     };
     for (const std::uint32_t b : by_rank) {
         if (!colorings[bodies_.all[b].surface.get()].any_open) continue;
         body_slots_[b].open = std::uint32_t(records.size());
-        add(bodies_.all[b], body_slots_[b].open, 1, false);
+        add(bodies_.all[b], body_slots_[b].open, 1, 0);
     }
     for (const std::uint32_t b : by_rank) {
         const Coloring& coloring = colorings[bodies_.all[b].surface.get()];
-        const auto first = std::uint32_t(records.size()), count = std::uint32_t(coloring.cavity.size());
+        const auto first = std::uint32_t(records.size()), count = coloring.slot_count();
         body_slots_[b].closed = first;
-        for (const char cavity : coloring.cavity) add(bodies_.all[b], first, count, cavity != 0);
+        for (const WindingRange& range : coloring.range) {
+            crossing = crossing || range.crosses_itself();
+            for (int w = range.least; w < range.most; ++w)
+                add(bodies_.all[b], first, count, (w < 0 ? kCavitySlot : 0u) | (w + 1 < range.most ? kSameShell : 0u));
+        }
+        with_inner_walls += count > 1 ? 1 : 0;
         many_slots = many_slots || count + (coloring.any_open ? 1 : 0) > 1;
     }
     slot_count = std::uint32_t(records.size());
@@ -184,10 +204,12 @@ void SceneTopology::number_slots(const Scene& scene) {
         const Shells& shells = bodies_.all[b].surface->shells;
         const Coloring& coloring = colorings[bodies_.all[b].surface.get()];
         for (std::uint32_t s = 0; s < shells.count(); ++s) {
+            std::uint32_t& word = body_slots_[b].words.emplace_back(body_slots_[b].open << kSlotShift);
+            if (shells.closed[s] == 0) continue;
             const std::uint32_t c = coloring.color[s];
-            body_slots_[b].words.push_back(shells.closed[s] == 0 ? body_slots_[b].open << kSlotShift
-                                                                 : kClosed | (coloring.cavity[c] != 0 ? kCavity : 0u) |
-                                                                       (body_slots_[b].closed + c) << kSlotShift);
+            word = kClosed | (body_slots_[b].closed + coloring.first_slot(c)) << kSlotShift;
+            if (coloring.range[c] == kInward) word |= kCavity;
+            if (coloring.range[c].crosses_itself()) word |= kCrossesItself;
         }
     }
     if (!many_slots) return;
@@ -282,9 +304,11 @@ void SceneTopology::mark_replaced(const Device& device, const std::vector<int>& 
         if (body == kNoBody) continue;
         words[std::size_t(object)] |= kReplaced;
         for (const std::uint32_t word : body_slots_[body].words) {
-            const std::uint32_t slot = word >> kSlotShift;
-            records[4 * slot] |= kReplacedSolid;
-            records[4 * slot + 3] |= 0x40000000u | slot;  // a medium like no other
+            for (std::uint32_t slot = word >> kSlotShift;; ++slot) {
+                records[4 * slot] |= kReplacedSolid;
+                records[4 * slot + 3] |= kReplacedMedium | slot;  // a medium like no other
+                if ((slot_words_[4 * slot + 3] & kSameShell) == 0) break;
+            }
         }
     }
     upload(device, traits, std::as_bytes(std::span(words)));
@@ -337,10 +361,19 @@ void SceneTopology::look_from(const Device& device, const Scene& scene, const Ca
             }
         }
     }
+    const auto medium = [&](std::uint32_t slot) { return slot_words_[4 * slot + 3]; };
     for (std::uint32_t slot = 0; slot < slot_count; ++slot) {
-        if (std::abs(windings[slot]) < 0.5) continue;
-        bits[slot / 32] |= 1u << slot % 32;
-        eye_in_solid = true;
+        const std::uint32_t first = slot;  // of the shell's: its winding number is the same for all
+        while ((medium(slot) & kSameShell) != 0) ++slot;
+        std::uint32_t above = 0;  // slots that the winding number has passed
+        for (std::uint32_t s = first; s <= slot; ++s) above += (medium(s) & kCavitySlot) != 0 ? 1 : 0;
+        const std::int64_t passed = std::int64_t(above) + std::llround(windings[first]);
+        for (std::uint32_t s = first; s <= slot; ++s) {
+            const bool cavity = (medium(s) & kCavitySlot) != 0, up = std::int64_t(s - first) < passed;
+            if (up == cavity) continue;
+            bits[s / 32] |= 1u << s % 32;
+            eye_in_solid = true;
+        }
     }
     upload(device, eye, std::as_bytes(std::span(bits)));
 }

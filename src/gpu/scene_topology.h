@@ -13,7 +13,8 @@ namespace pellucid {
 /// What techniques that follow rays through a scene's triangles know of it besides GpuScene.
 ///
 /// A path keeps a bit for each slot: whether it is inside a shell of that slot. Closed shells of a body that may overlap
-/// have slots of their own, shells that never do share one; a body's winding number is the sum over its slots.
+/// have slots of their own, shells that never do share one; a body's winding number is the sum over its slots. A shell
+/// that crosses itself has a slot for each step of its winding number, one after the other.
 struct SceneTopology {
     Buffer traits;        ///< per object, see object_traits.glsl
     Buffer shell_traits;  ///< per triangle of every mesh, what is added to its object's; empty if !many_slots
@@ -21,13 +22,15 @@ struct SceneTopology {
     Buffer boxes;         ///< ObjectBox[], see follow_paths.comp
     Buffer eye;           ///< a bit per slot: what the eye is inside of, see look_from()
     std::uint32_t slot_count = 0;
-    bool many_slots = false;       ///< some body has several
-    bool all_alone = true;         ///< no two surfaces lie at one place
-    bool eye_in_solid = false;     ///< see look_from()
-    bool eye_differs = false;      ///< from ray to ray
-    float eye_depth = 0.0f;        ///< m, of the plane on which rays start
-    float largest_contact = 0.0f;  ///< of any ObjectBox, m
-    std::uint64_t moves = 0;       ///< GpuScene::moves that the traits are of
+    bool many_slots = false;           ///< some body has several
+    bool crossing = false;             ///< some shell crosses itself
+    std::size_t with_inner_walls = 0;  ///< bodies whose shells may overlap or cross themselves
+    bool all_alone = true;             ///< no two surfaces lie at one place
+    bool eye_in_solid = false;         ///< see look_from()
+    bool eye_differs = false;          ///< from ray to ray
+    float eye_depth = 0.0f;            ///< m, of the plane on which rays start
+    float largest_contact = 0.0f;      ///< of any ObjectBox, m
+    std::uint64_t moves = 0;           ///< GpuScene::moves that the traits are of
 
     SceneTopology(const Device& device, const Scene& scene);
     /// Where vertices have moved. Shells that are closed stay so, and so does who displaces whom.

@@ -7,9 +7,10 @@
 // coordinate. At a node of the pyramid none of whose depth ranges the ray passes, it skips the node and climbs;
 // otherwise it descends. In a texel the records whose ranges it passes are intersected exactly.
 //
-// Needs: maps, map_triangles, texels, ranges, records, pyramid (surface_map.glsl), and
+// Needs: maps, map_triangles, texels, ranges, records, pyramid (surface_map.glsl), kCrossing, and
 // bool can_meet(uint traits, bool leaving, uint triangle): whether a surface may be met in that sense.
 #include "layers/surface_map.glsl"
+#include "gpu/object_traits.glsl"
 
 const float kNudge = 0.002;      // texels, over an edge of a node; less than kTexelMargin
 const float kSlack = 1e-4;       // of a triangle's barycentric weights: rays through edges meet one of both sides
@@ -152,7 +153,8 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
             weights.x = 1.0 - weights.y - weights.z;
             float t = dot(c.xyz, q) / determinant;
             float least = min(weights.x, min(weights.y, weights.z));
-            bool inside = least >= -kSlack;
+            // A shell that counts what is met may not be met twice at an edge.
+            bool inside = least >= (kCrossing && (own_traits & kCrossesItself) != 0u ? 0.0 : -kSlack);
             bool leaving = determinant < 0.0;
             if (inside && t > t_min && t <= t_max && can_meet(own_traits, leaving, triangle))
                 take_nearer(hit, SurfaceHit(t, triangle, own_traits, leaving));

@@ -68,13 +68,28 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
     return lines;
 }
 
+std::vector<std::string> unknown_solids(const SceneTopology& topology, const TechniqueInfo& technique) {
+    std::vector<std::string> lines;
+    if (const std::size_t count = topology.with_inner_walls; count > 0) {
+        lines.push_back(
+            fmt::format("{}: {} of shells that may overlap or cross themselves, where a ray leaves at the "
+                        "first face that leads out",
+                        technique.name, count == 1 ? "a solid" : fmt::format("{} solids", count)));
+    }
+    if (topology.eye_in_solid || topology.eye_differs)
+        lines.push_back(
+            fmt::format("{}: the camera may be inside a solid, but is taken to be outside of all", technique.name));
+    return lines;
+}
+
 std::optional<std::string> bad_status_warning(const RenderResult& result, const TechniqueInfo& technique) {
     const std::uint64_t bad = result.covered - result.status[std::size_t(Status::kOk)];
     if (100 * bad <= result.covered) return std::nullopt;
     std::string causes;
     for (std::size_t status = 0; status < result.status.size(); ++status) {
         if (Status(status) == Status::kOk || result.status[status] == 0) continue;
-        causes += fmt::format("{}{} {}", causes.empty() ? "" : ", ", result.status[status], status_name(Status(status)));
+        causes +=
+            fmt::format("{}{} {}", causes.empty() ? "" : ", ", result.status[status], status_name(Status(status)));
     }
     return fmt::format("{}: {} of {} glass pixels may be wrong by their status: {}", technique.name, bad,
                        result.covered, causes);

@@ -9,8 +9,8 @@ FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSett
     transmitted.add(recorder, frame, opaque);
     const Layers layers = source.build(recorder, frame, opaque, {frame.scene.refractive, layer_count});
     const Refraction refraction = settings.technique.record(recorder, frame, layers, settings.parameters);
-    const SurfaceLook look = draw_surface_look(recorder, frame, opaque, layers);
-    const GpuImage& radiance = shade(recorder, frame, opaque, layers, look, refraction, settings.view);
+    const ThinWalls walls = draw_thin_walls(recorder, frame, opaque, layers);
+    const GpuImage& radiance = shade(recorder, frame, opaque, layers, walls, refraction, settings.view);
     return {layers, refraction, radiance};
 }
 

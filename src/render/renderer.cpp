@@ -210,6 +210,12 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
 
 void Renderer::Impl::prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
                              std::vector<std::string>& warnings) {
+    const TechniqueInfo& info = chosen.technique.info;
+    if (!info.whole_scene && !info.reference) {
+        if (!scene->topology) scene->prepare_topology(device, cpu.scene());
+        scene->topology->look_from(device, cpu.scene(), view);
+        for (std::string& line : unknown_solids(*scene->topology, info)) warnings.push_back(std::move(line));
+    }
     if (chosen.technique.prepare == nullptr) return;
     // Shapes that a deforming mesh passes through are not worth a file each.
     bake::BakeCache passing{std::filesystem::path()};

@@ -16,13 +16,19 @@ layout(std430, set = 0, binding = 5) readonly buffer Objects { ObjectRecord obje
 layout(std430, set = 0, binding = 6) readonly buffer Materials { MaterialRecord materials[]; };
 layout(set = 0, binding = 7, r32ui) readonly uniform uimage2DArray layer_triangle;
 layout(set = 0, binding = 8, r32ui) readonly uniform uimage2DArray layer_normal;
-layout(set = 0, binding = 9, rgba16f) readonly uniform image2DArray glass_tint;
+layout(set = 0, binding = 9) uniform texture2DArray texture_pages;
 layout(set = 0, binding = 10, rgba32f) readonly uniform image2DArray exit_direction;
 layout(set = 0, binding = 11, rgba32f) readonly uniform image2DArray transmittance;
 layout(set = 0, binding = 12, r32ui) readonly uniform uimage2DArray path_events;
 layout(set = 0, binding = 13, rgba32f) readonly uniform image2DArray path_radiance;
 layout(set = 0, binding = 14, rgba32f) readonly uniform image2DArray reflected_radiance;
 
+layout(std430, set = 0, binding = 15) readonly buffer Appearance { float appearance[]; };
+layout(std430, set = 0, binding = 16) readonly buffer Textures { TextureRecord textures[]; };
+
+#include "gpu/vertices.glsl"
+#include "gpu/texture.glsl"
+#include "layers/corner_weights.glsl"
 #include "layers/objects.glsl"
 #include "gpu/diffuse.glsl"
 #include "shade/analysis_color.glsl"
@@ -35,12 +41,36 @@ vec3 transmitted_radiance(ivec3 at) {
     return behind * (1.0 - picked_up.a) + picked_up.rgb;
 }
 
+// What the textures at the pixel's centre multiply base colour and transmission (a) with.
+vec4 texture_tint(ivec3 at, uint triangle, ObjectRecord object) {
+    uint corner = object.first_corner + 3u * (triangle - object.first_triangle);
+    Ray ray = camera_ray(vec2(at.xy) + 0.5);
+    vec3 v[3];
+    vec4 texcoords[3], colors[3];
+    for (uint k = 0u; k < 3u; ++k) {
+        uint vertex = indices[corner + k], look = 5u * vertex;
+        v[k] = (frame.view_from_world * (object.world_from_object * vec4(vertex_position(vertex), 1.0))).xyz;
+        texcoords[k] = vec4(appearance[look], appearance[look + 1u], appearance[look + 2u], appearance[look + 3u]);
+        colors[k] = unpackUnorm4x8(floatBitsToUint(appearance[look + 4u]));
+    }
+    vec3 w = corner_weights(ray.direction, v[0] - ray.origin, v[1] - v[0], v[2] - v[0]);
+    vec4 uv = w.x * texcoords[0] + w.y * texcoords[1] + w.z * texcoords[2];
+    vec4 color = w.x * colors[0] + w.y * colors[1] + w.z * colors[2];
+    MaterialRecord material = materials[object.material];
+    return vec4(color.rgb * sample_texture(material.base_color_texture, uv.xy, uv.zw).rgb,
+                sample_texture(material.transmission_texture, uv.xy, uv.zw).r);
+}
+
 vec3 glass_radiance(ivec3 at, vec3 view_direction, vec3 normal, uint triangle) {
-    MaterialRecord material = materials[objects[find_object(triangle_index(triangle))].material];
+    ObjectRecord object = objects[find_object(triangle_index(triangle))];
+    MaterialRecord material = materials[object.material];
     vec4 tint = vec4(material.base_color.rgb, material.transmission);
-    if (kTextured) tint *= imageLoad(glass_tint, at);
+    if (kTextured) tint *= texture_tint(at, triangle_index(triangle), object);
     vec3 transmitted = transmitted_radiance(at);
-    if (back_face(triangle)) return tint.rgb * transmitted;  // seen from inside: no outer reflection
+    if (back_face(triangle)) {  // seen from inside: no outer reflection but of paths that start at the eye
+        vec3 before = kReflected ? imageLoad(reflected_radiance, at).rgb : vec3(0.0);
+        return before + tint.rgb * transmitted;
+    }
     float reflectance = fresnel_dielectric(-dot(view_direction, normal), 1.0 / material.ior);
     vec3 reflected = kReflected ? imageLoad(reflected_radiance, at).rgb
                                 : reflectance * environment_radiance(reflect_direction(view_direction, normal));

@@ -11,9 +11,6 @@ constexpr std::uint32_t kSurfaceVertex[] = {
 constexpr std::uint32_t kOpaque[] = {
 #include "opaque.frag.inc"
 };
-constexpr std::uint32_t kGlassTint[] = {
-#include "glass_tint.frag.inc"
-};
 constexpr std::uint32_t kThinTint[] = {
 #include "thin_tint.frag.inc"
 };
@@ -81,21 +78,18 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     return {radiance, depth, object};
 }
 
-SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers) {
+ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers) {
     Workspace& workspace = frame.workspace;
-    const Program& glass =
-        workspace.graphics(surface_program({"glass_tint.frag", kGlassTint}, {kLookFormat}, Blend::kReplace, false));
     const Program& tint =
         workspace.graphics(surface_program({"thin_tint.frag", kThinTint}, {kLookFormat}, Blend::kMultiply, false));
     const Program& reflection = workspace.graphics(
         surface_program({"thin_reflection.frag", kThinReflection}, {kLookFormat}, Blend::kAdd, false));
     // What nothing in the scene draws into is not looked at either.
-    const auto look_image = [&](std::string_view name, const std::vector<DrawCall>& objects) -> const GpuImage& {
-        return workspace.image(name, kLookFormat, objects.empty() ? vk::Extent2D{1, 1} : frame.extent);
+    const auto look_image = [&](std::string_view name) -> const GpuImage& {
+        return workspace.image(name, kLookFormat, frame.scene.thin_walled.empty() ? vk::Extent2D{1, 1} : frame.extent);
     };
-    const GpuImage& glass_tint = look_image("glass tint", frame.scene.textured_refractive);
-    const GpuImage& thin_tint = look_image("thin tint", frame.scene.thin_walled);
-    const GpuImage& thin_reflection = look_image("thin reflection", frame.scene.thin_walled);
+    const GpuImage& thin_tint = look_image("thin tint");
+    const GpuImage& thin_reflection = look_image("thin reflection");
     const auto target = [&](const GpuImage& image, float clear) {
         return RenderTarget{
             .extent = frame.extent, .colors = {{&image, 0, clear_to(clear)}}, .depth = {}, .scissor = {}};
@@ -103,16 +97,7 @@ SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaq
     const GpuScene& scene = frame.scene;
 
     const Recorder::Scope scope(recorder, "surface look");
-    if (!scene.textured_refractive.empty()) {
-        recorder.draw(
-            glass,
-            {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-             reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
-             reads("Materials", scene.materials), reads("Textures", scene.textures),
-             reads("texture_pages", scene.texture_pages), reads("layer_triangle", layers.triangle)},
-            target(glass_tint, 1.0f), scene.textured_refractive);
-    }
-    if (scene.thin_walled.empty()) return {glass_tint, thin_tint, thin_reflection};
+    if (scene.thin_walled.empty()) return {thin_tint, thin_reflection};
     recorder.draw(
         tint,
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
@@ -127,11 +112,11 @@ SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaq
                    reads("texture_pages", scene.texture_pages), reads("opaque_depth", opaque.depth),
                    reads("layer_depth", layers.depth), reads_layer("environment_map", frame.environment, 0)},
                   target(thin_reflection, 0.0f), scene.thin_walled);
-    return {glass_tint, thin_tint, thin_reflection};
+    return {thin_tint, thin_reflection};
 }
 
 const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers,
-                      const SurfaceLook& look, const Refraction& refraction, View view) {
+                      const ThinWalls& walls, const Refraction& refraction, View view) {
     Workspace& workspace = frame.workspace;
     const GpuImage& radiance = workspace.image("radiance", kRadianceFormat, frame.extent);
     const std::uint32_t analysis = view == View::kAnalysis ? 1 : 0;
@@ -148,25 +133,38 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
         workspace.compute({"background.comp", kBackground},
                           {frame.environment_kind, analysis, thin_walls, any(frame.scene.opaque)}),
         {reads("Frame", frame.constants), reads_layer("environment_map", frame.environment, 0),
-         reads("thin_tint", look.thin_tint), reads("thin_reflection", look.thin_reflection),
+         reads("thin_tint", walls.thin_tint), reads("thin_reflection", walls.thin_reflection),
          reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth), writes("radiance", radiance)},
         frame.extent);
     recorder.compute_indirect(
         workspace.compute({"shade.comp", kShade},
-                          {frame.environment_kind, analysis, thin_walls, any(frame.scene.textured_refractive),
+                          {frame.environment_kind, analysis, thin_walls, frame.scene.textured_glass ? 1u : 0u,
                            refraction.radiance ? 1u : 0u, refraction.reflected ? 1u : 0u}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials), reads_layer("environment_map", frame.environment, 0),
-         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
-         reads("PixelList", layers.covered), reads("glass_tint", look.glass_tint), reads("thin_tint", look.thin_tint),
-         reads("thin_reflection", look.thin_reflection), reads("exit_direction", refraction.exit_direction),
-         reads("transmittance", refraction.transmittance), reads("path_events", refraction.events),
-         reads("path_radiance", path_radiance), reads("reflected_radiance", reflected), writes("radiance", radiance)},
+        {reads("Frame", frame.constants),
+         reads("Objects", frame.scene.objects),
+         reads("Materials", frame.scene.materials),
+         reads_layer("environment_map", frame.environment, 0),
+         reads("layer_triangle", layers.triangle),
+         reads("layer_normal", layers.normal),
+         reads("PixelList", layers.covered),
+         reads("thin_tint", walls.thin_tint),
+         reads("thin_reflection", walls.thin_reflection),
+         reads("exit_direction", refraction.exit_direction),
+         reads("transmittance", refraction.transmittance),
+         reads("path_events", refraction.events),
+         reads("path_radiance", path_radiance),
+         reads("reflected_radiance", reflected),
+         reads("texture_pages", frame.scene.texture_pages),
+         reads("Appearance", frame.scene.appearance),
+         reads("Textures", frame.scene.textures),
+         reads("Indices", frame.scene.indices),
+         reads("Vertices", frame.scene.vertices),
+         writes("radiance", radiance)},
         layers.covered);
     if (refraction.picture) {
         recorder.compute(workspace.compute({"compose_picture.comp", kComposePicture}, {analysis}),
-                         {reads("picture", *refraction.picture), reads("reflected_radiance", reflected), reads("path_events", refraction.events),
-                          writes("radiance", radiance)},
+                         {reads("picture", *refraction.picture), reads("reflected_radiance", reflected),
+                          reads("path_events", refraction.events), writes("radiance", radiance)},
                          frame.extent);
     }
     return radiance;

@@ -11,21 +11,20 @@ namespace pellucid {
 /// point of a surface saw all of it: no shadows, no light from other surfaces. Unlit materials as they are, emission added.
 Opaque draw_opaque(Recorder& recorder, const Frame& frame);
 
-/// What textures on the nearest refracting surface, and thin walls in front, do to light on its way.
-struct SurfaceLook {
-    const GpuImage& glass_tint;       ///< RGBA16F: factor on the base colour; a: on the transmission, 0..1
-    const GpuImage& thin_tint;        ///< RGBA16F: transmittance of all thin walls in front
+/// What thin walls in front do to light on its way.
+struct ThinWalls {
+    const GpuImage& thin_tint;        ///< RGBA16F: transmittance of all of them
     const GpuImage& thin_reflection;  ///< RGBA16F: environment that they reflect
 };
 
 /// Thin-walled glass does not bend light: its panes are multiplied together in any order. Their
 /// reflections are added, without the little that one pane takes from the reflection of another.
-SurfaceLook draw_surface_look(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers);
+ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers);
 
 /// Scene-linear radiance (RGBA32F): glass lit through its refraction, plus the first interface's
 /// reflection of the environment; opaque surfaces; the environment behind.
 const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers,
-                      const SurfaceLook& look, const Refraction& refraction, View view);
+                      const ThinWalls& walls, const Refraction& refraction, View view);
 
 /// Adds `radiance` to the sum of the samples before it; `sample` 0 starts a new sum.
 const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample);

@@ -66,6 +66,18 @@ bool volumes_decide(const std::vector<PlannedSolid>& solids, const PlannedSolid&
     });
 }
 
+/// Joins the first two shells of some solids whose file has nothing else to repair there.
+void bridge_some(Random& random, std::vector<PlannedSolid>& solids) {
+    for (PlannedSolid& solid : solids) {
+        if (solid.mesh_of >= 0 || solid.double_sided || solid.miswound || solid.shells.size() < 2) continue;
+        const PlannedShell &a = solid.shells[0], &b = solid.shells[1];
+        const auto plain = [](const PlannedShell& s) {
+            return s.shell.winding > 0 && !s.written_inside_out && !s.written_twice;
+        };
+        if (plain(a) && plain(b) && random.chance(0.5)) solid.bridged = bridged_shells(a.shell, b.shell).has_value();
+    }
+}
+
 Mesh written_shell(const PlannedShell& planned, const PlannedSolid& solid, int ball_levels) {
     Mesh mesh = shell_mesh(planned.shell, ball_levels);
     if (planned.written_inside_out) mesh = inside_out(std::move(mesh));
@@ -93,6 +105,8 @@ Arrangement make_arrangement(std::uint32_t seed) {
         if (solid && volumes_decide(result.solids, *solid)) result.solids.push_back(*solid);
     }
     result.view = random_view(random, closed_form_scene(result), tidy);
+    Random bridges(~std::uint64_t(seed));
+    bridge_some(bridges, result.solids);
     return result;
 }
 
@@ -118,7 +132,9 @@ SolidFile solid_file(const Arrangement& arrangement, int ball_levels) {
             meshes.push_back(meshes[std::size_t(solid.mesh_of)]);
         } else {
             Mesh mesh;
-            for (const PlannedShell& planned : solid.shells) append(mesh, written_shell(planned, solid, ball_levels));
+            if (solid.bridged) mesh = bridged_shells(solid.shells[0].shell, solid.shells[1].shell, ball_levels).value();
+            for (std::size_t k = solid.bridged ? 2 : 0; k < solid.shells.size(); ++k)
+                append(mesh, written_shell(solid.shells[k], solid, ball_levels));
             std::vector<int> materials;
             for (int k = 0; k < solid.primitives; ++k) materials.push_back(file.material(solid.medium));
             meshes.push_back(file.mesh(split(mesh, solid.primitives), materials));
@@ -132,7 +148,7 @@ SolidFile solid_file(const Arrangement& arrangement, int ball_levels) {
 Arrangement written_plainly(Arrangement arrangement) {
     for (PlannedSolid& solid : arrangement.solids) {
         solid.primitives = 1;
-        solid.double_sided = solid.miswound = false;
+        solid.double_sided = solid.miswound = solid.bridged = false;
         for (PlannedShell& shell : solid.shells) shell.written_inside_out = shell.written_twice = false;
     }
     return arrangement;
@@ -153,7 +169,10 @@ std::string describe(const Arrangement& arrangement) {
         text +=
             fmt::format("{}: {}; n {:.3f}, sigma {:.2f} {:.2f} {:.2f}, priority {}, {:.5f} m3, {} primitives{}{}{}{}\n",
                         i, s.story, s.medium.ior, sigma.r, sigma.g, sigma.b, s.priority, s.volume, s.primitives,
-                        s.double_sided ? ", double-sided" : "", s.miswound ? ", miswound" : "",
+                        s.double_sided ? ", double-sided" : "",
+                        s.miswound  ? ", miswound"
+                        : s.bridged ? ", the first two shells joined"
+                                    : "",
                         glm::determinant(glm::mat3(s.world_from_solid)) < 0.0f ? ", mirrored" : "",
                         s.mesh_of >= 0 ? fmt::format(", instance of {}", s.mesh_of) : "");
         for (std::size_t k = 0; k < s.shells.size(); ++k) {

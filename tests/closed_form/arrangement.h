@@ -1,7 +1,7 @@
 #pragma once
 
-// Random arrangements of balls and boxes: overlapping, nested, duplicated, touching, inside out, split over primitives,
-// mirrored, instanced. Each is both a closed-form scene and a GLB file that asks for the loader's repair.
+// Random arrangements of balls and boxes: overlapping, nested, duplicated, touching, inside out, joined to surfaces that
+// cross themselves, split over primitives, mirrored, instanced. Each is both a closed-form scene and a GLB file that asks for the loader's repair.
 #include "closed_form/closed_form_scene.h"
 #include "closed_form/solid_file.h"
 
@@ -32,6 +32,7 @@ struct PlannedSolid {
     int primitives = 1;
     bool double_sided = false;  ///< every triangle is written twice, wound either way
     bool miswound = false;      ///< a third of the faces are wound the other way
+    bool bridged = false;       ///< its first two shells are one surface, which crosses itself
 };
 
 struct Arrangement {

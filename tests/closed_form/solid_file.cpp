@@ -97,6 +97,31 @@ Mesh shell_mesh(const closed_form::Shell& shell, int ball_levels) {
     return shell.winding < 0 ? inside_out(std::move(mesh)) : mesh;
 }
 
+std::optional<Mesh> bridged_shells(const closed_form::Shell& a, const closed_form::Shell& b, int ball_levels) {
+    Mesh mesh = shell_mesh(a, ball_levels), other = shell_mesh(b, ball_levels);
+    const auto take = [](Mesh& from, const closed_form::Shell& inside) -> std::optional<glm::uvec3> {
+        const auto found = std::find_if(from.triangles.begin(), from.triangles.end(), [&](const glm::uvec3& t) {
+            return closed_form::contains(inside, from.positions[t.x]) &&
+                   closed_form::contains(inside, from.positions[t.y]) &&
+                   closed_form::contains(inside, from.positions[t.z]);
+        });
+        if (found == from.triangles.end()) return std::nullopt;
+        const glm::uvec3 taken = *found;
+        from.triangles.erase(found);
+        return taken;
+    };
+    const std::optional<glm::uvec3> hole = take(mesh, b), other_hole = take(other, a);
+    if (!hole || !other_hole) return std::nullopt;
+    const glm::uvec3 end = glm::uvec3(other_hole->x, other_hole->z, other_hole->y) + unsigned(mesh.positions.size());
+    append(mesh, other);
+    for (int k = 0; k < 3; ++k) {
+        const int next = (k + 1) % 3;
+        mesh.triangles.emplace_back((*hole)[k], (*hole)[next], end[next]);
+        mesh.triangles.emplace_back((*hole)[k], end[next], end[k]);
+    }
+    return mesh;
+}
+
 void append(Mesh& mesh, const Mesh& more) {
     const auto first = unsigned(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());

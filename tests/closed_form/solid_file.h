@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ Mesh box_mesh();
 Mesh moved(const Mesh& mesh, const glm::dmat4& to_from);
 /// A shell as triangles, in the frame that its matrix leads to; outward, or inward for a cavity.
 Mesh shell_mesh(const closed_form::Shell& shell, int ball_levels = 5);
+/// Two convex shells as one surface that crosses itself: a triangle of each goes, and a tube inside both joins the holes.
+/// So what it encloses is the union of both. Nothing where no triangle of the one is inside the other.
+std::optional<Mesh> bridged_shells(const closed_form::Shell& a, const closed_form::Shell& b, int ball_levels = 5);
 /// `more` after the triangles of `mesh`.
 void append(Mesh& mesh, const Mesh& more);
 /// Every triangle once more, wound the other way, with normals of its own.

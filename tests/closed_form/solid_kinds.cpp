@@ -46,6 +46,10 @@ std::vector<Kind> kinds() {
     std::vector<Kind> all;
     all.push_back(
         {"overlapping balls", {solid({ball({-0.3, 0, 0}, 0.6), ball({0.35, 0.1, 0}, 0.55)}, kGlass)}, {0.05, 0, 0.1}});
+    PlannedSolid joined =
+        solid({ball({-0.3, 0, 0}, 0.6), ball({0.35, 0.1, 0}, 0.55), box({0, 0.5, 0}, {0.2, 0.4, 0.2})}, kGlass);
+    joined.bridged = true;
+    all.push_back({"crossing itself", {joined, solid({ball({-0.4, 0, 0}, 0.2)}, kFlint)}, {0.05, 0, 0.1}});
     all.push_back({"touching boxes",
                    {solid({box({-0.5, 0, 0}, {0.5, 0.4, 0.5}), box({0.4, 0.1, 0.05}, {0.4, 0.5, 0.45})}, kGlass, 0, 2)},
                    {-0.3, 0.05, 0.1}});

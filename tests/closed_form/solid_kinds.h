@@ -13,7 +13,7 @@ struct SolidKind {
     Arrangement arrangement;
 };
 
-/// Nine kinds: overlapping, touching, nested, hollow, duplicated, inside out, by priority, air in glass, many shells;
+/// Ten kinds: overlapping, crossing itself, touching, nested, hollow, duplicated, inside out, by priority, air in glass, many shells;
 /// and of each eight views: plain, rotated, large, small, mirrored, twice in the scene, orthographic straight on, and with
 /// the eye inside.
 std::vector<SolidKind> solid_kinds();

@@ -1,5 +1,6 @@
 // The renderer as a whole: sizes, repetition, samples, names, recovery.
 #include "gpu/gpu_test.h"
+#include "unit/built_scenes.h"
 #include "unit/test_files.h"
 
 #include <gmock/gmock.h>
@@ -325,6 +326,28 @@ TEST_F(RendererSuite, ApproximationsAreSaid) {
     }
     settings.technique = "path";
     EXPECT_THAT(renderer().render(settings).warnings, ::testing::IsEmpty());
+}
+
+// Techniques that do not count what a ray is inside of say so where it matters.
+TEST_F(RendererSuite, SolidsThatAreNotCountedAreSaid) {
+    Mesh mesh = cube();
+    const Mesh other = cube(1.0f, {0.5f, 0.5f, 0.5f});
+    for (const glm::uvec3 t : other.triangles) mesh.triangles.push_back(t + unsigned(mesh.positions.size()));
+    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+    renderer().set_scene(scene_of(with_flat_normals(mesh)));
+    RenderSettings settings = sized(8, 8);
+    for (const char* technique : {"wang-2014", "wyman-2005"}) {
+        settings.technique = technique;
+        EXPECT_THAT(renderer().render(settings).warnings, ::testing::Contains(HasSubstr("a solid of shells")));
+    }
+    settings.technique = "visibility-layers";
+    EXPECT_THAT(renderer().render(settings).warnings, ::testing::IsEmpty());
+    Camera inside;
+    inside.world_from_view[3] = glm::vec4(0.25f, 0.25f, 0.25f, 1.0f);
+    renderer().set_camera(inside);
+    EXPECT_THAT(renderer().render(settings).warnings, ::testing::IsEmpty());
+    settings.technique = "wang-2014";
+    EXPECT_THAT(renderer().render(settings).warnings, ::testing::Contains(HasSubstr("may be inside a solid")));
 }
 
 long resident_kilobytes() {

@@ -324,6 +324,23 @@ TEST_F(WholeScenes, SurfacesPerPassChangeTheTimeOnly) {
     }
 }
 
+/// Pictures of the same light, with noise: how far apart they are in the mean, in standard deviations of that, and per
+/// pixel, as a share of the noise of both.
+struct Estimates {
+    double deviations = 0.0, noise = 0.0;
+};
+Estimates apart(const Image& drawn, const RenderResult& truth) {
+    double difference = 0.0, variance = 0.0, noise = 0.0;
+    for (std::size_t i = 0; i < drawn.pixels.size(); ++i) {
+        const double d = double(drawn.pixels[i]) - double(truth.radiance.pixels[i]);
+        difference += d;
+        noise += d * d;
+        variance += 2.0 * std::pow(double(truth.standard_error.pixels[i]), 2.0);  // of both, which are as noisy
+    }
+    // Channels go together: three times the variance.
+    return {difference / std::sqrt(3.0 * variance), std::sqrt(noise / variance)};
+}
+
 // Both estimate the same light, from rays spread over the pixel: per pixel they differ by their noise, and in the mean
 // by so much less. Choices that go together at two interfaces of a path show in the noise: it then falls more slowly
 // than the samples grow (1.1 to 1.2 here, 1.9 to 2.0 with 1024).
@@ -337,23 +354,53 @@ TEST_F(WholeScenes, OneBranchPerSampleEstimatesAllLight) {
         set(test.scene, checker);
         const RenderResult truth = draw("path", kSamples);
         const Image drawn = draw("visibility-layers", kSamples, {{"one-branch", 1}}).radiance;
-        double difference = 0.0, variance = 0.0, noise = 0.0, light = 0.0;
-        for (std::size_t i = 0; i < drawn.pixels.size(); ++i) {
-            const double d = double(drawn.pixels[i]) - double(truth.radiance.pixels[i]);
-            difference += d;
-            noise += d * d;
-            light += double(truth.radiance.pixels[i]);
-            variance += 2.0 * std::pow(double(truth.standard_error.pixels[i]), 2.0);  // of both, which are as noisy
+        const Estimates estimates = apart(drawn, truth);
+        EXPECT_LT(std::abs(estimates.deviations), 4.0) << test.name;  // chance is out of the question beyond
+        EXPECT_LT(estimates.noise, 1.05) << test.name;
+        EXPECT_GT(estimates.noise, 0.5) << test.name;
+        RecordProperty(test.name,
+                       fmt::format("{:+.2f} deviations, noise {:.3f}", estimates.deviations, estimates.noise));
+    }
+}
+
+// The same of rough glass: light between the facets, and from one to the next, is the path tracer's. Either way of
+// following paths, as branches and as one.
+TEST_F(WholeScenes, RoughGlassConvergesToThePathTracer) {
+    Environment checker;
+    checker.kind = Environment::Kind::kChecker;
+    constexpr std::uint32_t kSamples = 256;
+    for (const float roughness : {0.3f, 0.6f, 1.0f}) {
+        Scene scene = two_balls();
+        for (Material& material : scene.materials) material.roughness = roughness;
+        scene.materials[1].attenuation_color = {0.5f, 0.8f, 0.9f};
+        scene.materials[1].attenuation_distance = 2.0f;
+        set(scene, checker);
+        const RenderResult truth = draw("path", kSamples);
+        for (const ParameterMap& way : {ParameterMap{{"one-branch", 1}}, ParameterMap{{"threshold", 0.0}}}) {
+            const Estimates estimates = apart(draw("visibility-layers", kSamples, way).radiance, truth);
+            const std::string name = fmt::format("roughness {}, {}", roughness, way.begin()->first);
+            EXPECT_LT(std::abs(estimates.deviations), 4.0) << name;
+            EXPECT_LT(estimates.noise, 1.1) << name;  // choices at one surface go together a little
+            RecordProperty(name,
+                           fmt::format("{:+.2f} deviations, noise {:.3f}", estimates.deviations, estimates.noise));
         }
-        // Channels go together: three times the variance. Beyond 4 deviations chance is out of the question.
-        EXPECT_LT(std::abs(difference), 4.0 * std::sqrt(3.0 * variance)) << test.name;
-        EXPECT_LT(std::sqrt(noise / variance), 1.05) << test.name;
-        EXPECT_GT(std::sqrt(noise / variance), 0.5) << test.name;
-        RecordProperty(
-            test.name,
-            fmt::format("mean {:+.5f} of {:.5f} (+-{:.5f}), noise {:.3f}", difference / double(drawn.pixels.size()),
-                        light / double(drawn.pixels.size()), std::sqrt(3.0 * variance) / double(drawn.pixels.size()),
-                        std::sqrt(noise / variance)));
+    }
+}
+
+// Where light is the same from everywhere, rough glass shows it, too: no facet swallows light. 1e-3 as above.
+TEST_F(WholeScenes, WhiteFurnaceOfRoughGlass) {
+    for (const float roughness : {0.2f, 0.6f, 1.0f}) {
+        for (const float ior : {1.2f, 2.42f}) {
+            Scene scene = scene_of(shape("sphere,segments=64"), glass(ior));
+            scene.materials[0].roughness = roughness;
+            set(scene, uniform_environment());
+            for (const double one_branch : {0.0, 1.0}) {
+                const Image image = draw("visibility-layers", 4, {{"one-branch", one_branch}}).radiance;
+                const auto [least, most] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+                EXPECT_NEAR(*least, 1.0f, 1e-3f) << roughness << ", " << ior << ", " << one_branch;
+                EXPECT_NEAR(*most, 1.0f, 1e-3f) << roughness << ", " << ior << ", " << one_branch;
+            }
+        }
     }
 }
 

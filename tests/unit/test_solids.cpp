@@ -1,10 +1,12 @@
 // What a solid is: shells, their repair, bodies and who displaces whom.
 #include "built_scenes.h"
+#include "closed_form/solid_file.h"
 #include "core/math.h"
 #include "scene/bodies.h"
 #include "scene/join_open_objects.h"
 #include "scene/mesh_repair.h"
 #include "scene/repair_solid.h"
+#include "scene/shell_windings.h"
 #include "scene/shells.h"
 #include "test_files.h"
 #include "traced_scenes.h"
@@ -59,6 +61,35 @@ TEST(Shells, AreOpenOneByOne) {
     ASSERT_EQ(shells.count(), 2u);
     EXPECT_EQ(shells.closed[0], 1);
     EXPECT_EQ(shells.closed[1], 0);
+}
+
+std::vector<WindingRange> windings_of(const Mesh& mesh) {
+    return winding_ranges(mesh.positions, mesh.triangles, shells_of(mesh));
+}
+
+closed_form::Shell ball_at(double x, double radius = 1.0) {
+    closed_form::Shell shell;
+    shell.world_from_shell = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(x, 0.1, 0.0)), glm::dvec3(radius));
+    return shell;
+}
+
+TEST(ShellWindings, OfSimpleShells) {
+    EXPECT_EQ(windings_of(cube()), std::vector<WindingRange>({{0, 1}}));
+    EXPECT_EQ(windings_of(inside_out(cube())), std::vector<WindingRange>({{-1, 0}}));
+    EXPECT_EQ(windings_of(ball_mesh(4)), std::vector<WindingRange>({{0, 1}}));
+    EXPECT_EQ(windings_of(joined(cube(), cube(1.0f, {0.5f, 0.5f, 0.5f}))), std::vector<WindingRange>({{0, 1}, {0, 1}}))
+        << "two shells cross each other, none itself";
+}
+
+TEST(ShellWindings, OfShellsThatCrossThemselves) {
+    const Mesh overlap = bridged_shells(ball_at(-0.5), ball_at(0.5), 4).value();
+    ASSERT_EQ(shells_of(overlap).count(), 1u);
+    ASSERT_TRUE(shells_of(overlap).all_closed());
+    EXPECT_EQ(windings_of(overlap), std::vector<WindingRange>({{0, 2}}));
+    EXPECT_EQ(windings_of(inside_out(overlap)), std::vector<WindingRange>({{-2, 0}}));
+    // Small against the ball that it reaches into, but with a few triangles in there.
+    const Mesh bump = bridged_shells(ball_at(0.0), ball_at(1.0, 0.15), 4).value();
+    EXPECT_EQ(windings_of(bump), std::vector<WindingRange>({{0, 2}}));
 }
 
 TEST(RepairSolid, TrianglesDrawnTwiceGo) {

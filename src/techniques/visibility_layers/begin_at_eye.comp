@@ -41,7 +41,7 @@ void main() {
         begins = begins || (next_volume(path.position, path.direction, straight) != kNoVolume && straight * along_axis < opaque);
     }
     bool shades = whole_picture != 0u && begins;
-    imageStore(path_radiance, at, vec4(0.0, 0.0, 0.0, shades || (kStochastic && begins) ? 1.0 : 0.0));
+    imageStore(path_radiance, at, vec4(0.0, 0.0, 0.0, shades || ((kStochastic || kTree) && begins) ? 1.0 : 0.0));
     imageStore(reflected_radiance, at, vec4(0.0));
     if (!begins) return;
     mark = kMainPath;

@@ -25,7 +25,7 @@ void main() {
     uint i = uint(texel.y) * frame.width + uint(texel.x);
     seed = hash(uvec3(texel, 1u)).x;
     waiting[i] = uvec2(0u);
-    imageStore(path_radiance, ivec3(texel, 0), vec4(0.0, 0.0, 0.0, kStochastic ? 1.0 : 0.0));
+    imageStore(path_radiance, ivec3(texel, 0), vec4(0.0, 0.0, 0.0, kStochastic || kTree ? 1.0 : 0.0));
     imageStore(reflected_radiance, ivec3(texel, 0), vec4(0.0));
     Ray view = camera_ray(vec2(texel) + 0.5);
     Path path = camera_path(vec2(texel) + 0.5);

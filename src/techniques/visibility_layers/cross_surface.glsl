@@ -20,9 +20,8 @@ struct Surface {
     vec3 normal;      // unit, interpolated, outward
     vec3 geometric;   // of the triangle itself, outward, any length
     uint material;
-    vec3 tint;        // base colour times transmission
-    float roughness;
-    float coverage;   // alpha, where that is one; otherwise 1
+    uint corner;      // first of the triangle's three, in `indices`
+    vec3 weights;     // of the three corners
 };
 
 vec3 map_vector(utextureBuffer vectors, int number) { return uintBitsToFloat(texelFetch(vectors, number)).xyz; }
@@ -45,25 +44,43 @@ Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
         normal = mat3(o.world_from_object_normal) * normal;
         geometric *= o.mirrored != 0u ? -1.0 : 1.0;
     }
-    MaterialRecord material = materials[o.material];
-    vec4 base = material.base_color;
-    float transmission = material.transmission, roughness = material.roughness;
-    if (kTexturedGlass) {
-        uint corner = o.first_corner + 3u * (triangle - o.first_triangle);
-        vec4 texcoords = vec4(0.0), color = vec4(0.0);
-        for (uint k = 0u; k < 3u; ++k) {
-            uint look = 5u * indices[corner + k];
-            texcoords += weights[k] * vec4(appearance[look], appearance[look + 1u], appearance[look + 2u], appearance[look + 3u]);
-            color += weights[k] * unpackUnorm4x8(floatBitsToUint(appearance[look + 4u]));
-        }
-        base *= color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
-        transmission *= sample_texture(material.transmission_texture, texcoords.xy, texcoords.zw).r;
-        roughness *= sample_texture(material.metallic_roughness_texture, texcoords.xy, texcoords.zw).g;
-    }
-    float coverage = (material.flags & PELLUCID_MATERIAL_COVERAGE) != 0u ? base.a : 1.0;
     return Surface(a + weights.y * edge_b + weights.z * edge_c,
                    normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material,
-                   base.rgb * transmission, roughness, coverage);
+                   o.first_corner + 3u * (triangle - o.first_triangle), weights);
+}
+
+// Texture coordinates, both sets.
+vec4 texcoords_at(Surface surface) {
+    vec4 texcoords = vec4(0.0);
+    for (uint k = 0u; k < 3u; ++k) {
+        uint look = 5u * indices[surface.corner + k];
+        texcoords += surface.weights[k] *
+                     vec4(appearance[look], appearance[look + 1u], appearance[look + 2u], appearance[look + 3u]);
+    }
+    return texcoords;
+}
+
+// What the surface leaves of light that passes it: base colour times transmission. w: its alpha, where that is coverage,
+// otherwise 1.
+vec4 surface_tint(Surface surface) {
+    MaterialRecord material = materials[surface.material];
+    vec4 base = material.base_color;
+    float transmission = material.transmission;
+    if (kTexturedGlass) {
+        vec4 texcoords = texcoords_at(surface), color = vec4(0.0);
+        for (uint k = 0u; k < 3u; ++k)
+            color += surface.weights[k] * unpackUnorm4x8(floatBitsToUint(appearance[5u * indices[surface.corner + k] + 4u]));
+        base *= color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
+        transmission *= sample_texture(material.transmission_texture, texcoords.xy, texcoords.zw).r;
+    }
+    return vec4(base.rgb * transmission, (material.flags & PELLUCID_MATERIAL_COVERAGE) != 0u ? base.a : 1.0);
+}
+
+float surface_roughness(Surface surface) {
+    MaterialRecord material = materials[surface.material];
+    if (!kTexturedGlass || material.roughness == 0.0) return material.roughness;
+    vec4 texcoords = texcoords_at(surface);
+    return material.roughness * sample_texture(material.metallic_roughness_texture, texcoords.xy, texcoords.zw).g;
 }
 
 bool refracts_apart(vec3 iors) { return kDispersive && (iors.r != iors.g || iors.b != iors.g); }
@@ -100,26 +117,33 @@ void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, vec3 
     uint channel = mark & kChannelMask;
     uint c = channel == 0u ? 1u : channel - 1u;  // the direction is green's, unless the path has another channel
     float eta = n_i[c] / n_t[c];
-    bool facets = kRough && (kStochastic || kTree);  // of rough glass, one per sample
-    if (facets && surface.roughness > 0.0) n = sampled_normal(n, path, surface.roughness);
+    bool by_facets = kRough && (kStochastic || kTree);  // of rough glass, one way between them per sample
+    Facets facets;
+    float roughness = kRough ? surface_roughness(surface) : 0.0;
+    bool rough = by_facets && roughness > 0.0 && first_facet(n, path, roughness, facets, n);
     float cos_theta_i = -dot(path.direction, n);
     path.side_conflict = path.side_conflict || cos_theta_i < 0.0;
     ++path.events;
     vec3 incident = path.direction, carried = path.transmittance, refracted;
     bool total = !refract_direction(incident, n, eta, refracted);
     float reflectance = total ? 1.0 : fresnel_dielectric(cos_theta_i, eta);
-    float alpha = kRough && !facets ? surface.roughness * surface.roughness : 0.0;
+    float alpha = by_facets ? 0.0 : roughness * roughness;
     float bending = 0.5 * (max(n_i[c], n_t[c]) / min(n_i[c], n_t[c]) - 1.0);  // of a facet's tilt, beside reflection
     if (total) ++path.reflections;
     path.direction = refracted;  // under total reflection that is the reflected direction
-    vec3 tint = leaving || first ? vec3(1.0) : surface.tint;
+    vec3 tint = leaving || first ? vec3(1.0) : surface_tint(surface).rgb;
 
     if (kStochastic) {
-        bool reflects = !total && random_number(path.events) < reflectance;
-        if (reflects) path.direction = reflect_direction(incident, n);
-        else if (!total) path.transmittance *= tint;
-        if (reflects && first) mark |= kOuterBranch;
-    } else if (!total) {
+        bool beyond = !total && random_number(path.events) >= reflectance;
+        if (!total && !beyond) path.direction = reflect_direction(incident, n);
+        if (rough) path.direction = leave_facets(path.direction, eta, facets, beyond);
+        if (beyond) path.transmittance *= tint;
+        else if (first) mark |= kOuterBranch;
+    } else if (total) {
+        bool beyond = false;
+        if (rough) path.direction = leave_facets(path.direction, eta, facets, beyond);
+        if (beyond) path.transmittance *= tint;
+    } else {
         if (kTree) {
             bool apart = channel == 0u && refracts_apart(n_i) || refracts_apart(n_t) && channel == 0u;
             if (apart && may_branch(i, carried)) {
@@ -129,8 +153,11 @@ void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, vec3 
                     if (!refract_direction(incident, n, other_eta, way)) continue;  // the reflection below has it all
                     vec3 only = vec3(other == 0u, 0.0, other == 2u);
                     uint own = (mark & ~(kChannelMask | kMainPath)) | (other + 1u);
-                    branch_off(i, path, way, carried * tint * only * (1.0 - fresnel_dielectric(cosine, other_eta)), own, surface,
-                               leaving);
+                    bool beyond = true;
+                    if (rough) way = leave_facets(way, other_eta, facets, beyond);
+                    if (!beyond && first) own |= kOuterBranch;
+                    vec3 weight = carried * only * (1.0 - fresnel_dielectric(cosine, other_eta));
+                    branch_off(i, path, way, weight * (beyond ? tint : vec3(1.0)), own, surface, leaving);
                 }
                 mark |= 2u;
             }
@@ -140,28 +167,49 @@ void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, vec3 
                                            fresnel_dielectric(cos_theta_i, n_i.b / n_t.b));
             }
             if (may_branch(i, reflected)) {
-                uint own = (mark & ~(kChannelMask | kMainPath)) | channel | (first ? kOuterBranch : 0u);
+                vec3 way = reflect_direction(incident, n);
+                bool beyond = false;
+                if (rough) way = leave_facets(way, eta, facets, beyond);
+                if (beyond) reflected *= tint;
+                uint own = (mark & ~(kChannelMask | kMainPath)) | channel | (first && !beyond ? kOuterBranch : 0u);
                 uint kept = mark;
                 mark = own;
                 widen(alpha);
                 own = mark;
                 mark = kept;
-                branch_off(i, path, reflect_direction(incident, n), reflected, own, surface, leaving);
+                branch_off(i, path, way, reflected, own, surface, leaving);
                 path.transmittance *= 1.0 - reflectance;
             }
             if ((mark & kChannelMask) != channel) path.transmittance *= vec3(0.0, 1.0, 0.0);
         } else {
             path.transmittance *= 1.0 - reflectance;
         }
-        path.transmittance *= tint;
+        bool beyond = true;
+        if (rough) path.direction = leave_facets(path.direction, eta, facets, beyond);
+        if (beyond) path.transmittance *= tint;
+        else if (first) mark |= kOuterBranch;
     }
     if (alpha > 0.0) widen(total ? alpha : alpha * bending);
     settle(path.direction, surface, leaving);
 }
 
+const uint kNoSlot = 0xffffffffu;
+
 // Takes the path to the other side of a shell. Of one that is not closed its normal alone says where the path is.
 void step_across(uint traits, bool leaving) {
-    set_inside(slot_of(traits), leaving == ((traits & kCavity) != 0u));
+    if (!kCrossing || (traits & kCrossesItself) == 0u) {
+        set_inside(slot_of(traits), leaving == ((traits & kCavity) != 0u));
+        return;
+    }
+    // The shell's slots are the steps of its winding number, from the least: those are passed that lie below it.
+    uint changed = kNoSlot, slot = slot_of(traits);
+    for (bool more = true; more; ++slot) {
+        uint medium = slots[slot].medium;
+        bool passed = inside_slot(slot) != ((medium & kCavitySlot) != 0u);
+        if (leaving ? passed : (!passed && changed == kNoSlot)) changed = slot;
+        more = (medium & kSameShell) != 0u;
+    }
+    if (changed != kNoSlot) set_inside(changed, leaving == ((slots[changed].medium & kCavitySlot) != 0u));
 }
 void note_here() {
     for (uint w = 0u; w < kMediumWords; ++w) media_here[w] = media[w];

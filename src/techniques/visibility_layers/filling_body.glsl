@@ -32,7 +32,7 @@ uint body_of(uint traits) {
 bool is_interface(uint before, uint beyond) {
     if (before == beyond) return false;
     if (before == kAir || beyond == kAir) return true;
-    return ((slots[before].medium ^ slots[beyond].medium) & ~kCavitySlot) != 0u;
+    return ((slots[before].medium ^ slots[beyond].medium) & ~(kCavitySlot | kSameShell)) != 0u;
 }
 
 MaterialRecord filling_material(uint body) {

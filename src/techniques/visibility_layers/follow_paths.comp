@@ -27,7 +27,8 @@ layout(constant_id = 7) const bool kOpaqueObjects = false;  // there are some
 // A pane that bends no light: its two faces and the reflections between them are one factor.
 void pass_pane(inout Path path, Surface surface) {
     float once = fresnel_dielectric(abs(dot(path.direction, surface.normal)), 1.0 / materials[surface.material].ior);
-    path.transmittance *= mix(vec3(1.0), (1.0 - 2.0 * once / (1.0 + once)) * surface.tint, surface.coverage);
+    vec4 tint = surface_tint(surface);
+    path.transmittance *= mix(vec3(1.0), (1.0 - 2.0 * once / (1.0 + once)) * tint.rgb, tint.a);
 }
 
 // Whether the way goes on through an object's box, and the ball around it, beyond the edge of the view's map.
@@ -99,8 +100,11 @@ bool go_on(uint i, inout Path path) {
     float t_min = -coincidence;
     for (int attempt = 0; attempt < 2; ++attempt) {
         hit = find_next(path.position, path.direction, t_min, t_end, gave_up, visits);
-        // Reflected where its solid touches something opaque, which the path then has behind it.
-        if (body == kAir || hit.t > coincidence || (hit.traits & kKindMask) != kOpaqueKind) break;
+        // Reflected where its solid touches something opaque, which the path then has behind it. And of a shell that
+        // crosses itself, neighbours of the triangle that the path stands on are that surface still.
+        bool behind = body != kAir && (hit.traits & kKindMask) == kOpaqueKind;
+        bool crossed = kCrossing && (hit.traits & kCrossesItself) != 0u && standing != PELLUCID_NO_TRIANGLE;
+        if (hit.t > coincidence || !(behind || crossed)) break;
         t_min = coincidence;
     }
     // A path in the open enters the volume that it meets first. One that stands at a surface crosses that before.
@@ -143,6 +147,7 @@ bool go_on(uint i, inout Path path) {
         before = filling_body();
         note_here();
         step_across(hit.traits, hit.leaving);
+        note_crossed(hit.traits);
         // Where boundaries lie at one place, the order in which they are found is chance: all are crossed at once.
         if (kTouching && may_touch) {
             const int kMostTouching = 16;
@@ -156,6 +161,7 @@ bool go_on(uint i, inout Path path) {
                 Surface other_surface;
                 if (!find_touching(at_object, place, path.direction, other, other_surface)) break;
                 step_across(other.traits, other.leaving);
+                note_crossed(other.traits);
                 beyond = filling_body();
                 leaves = leaves || other.leaving;
                 if (has_boundary(body_of(other.traits), body_of(hit.traits), before, beyond)) {
@@ -174,6 +180,7 @@ bool go_on(uint i, inout Path path) {
             }
             looks_for = kFindAll;
         }
+        forget_crossed();
         note_there();
         beyond = filling_body();
     }
@@ -202,6 +209,7 @@ void main() {
     seed = hash(uvec3(texel, 1u)).x;
     Path path = load_path(i);
     bool goes_on = true;
+    forget_crossed();
     for (uint k = 0u; k < kSurfacesPerPass && goes_on; ++k) goes_on = go_on(i, path);
     save_path(i, path);
     if (goes_on) append_next(texel);

@@ -2,7 +2,7 @@
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_MICROFACETS_GLSL
 
 // Random choices of a path, and the facets of rough glass: Heitz, "Sampling the GGX distribution of visible normals",
-// JCGT 2018. Needs: frame, seed (of the sample and pixel).
+// JCGT 2018. Needs: frame, seed (of the sample and pixel), optics/interface.glsl.
 
 uint seed;
 
@@ -27,16 +27,26 @@ float random_number(uint event) {
     return float(hash(uvec3(seed, event, 2u * frame.sample_index + 1u)).z >> 8u) / 16777216.0;
 }
 
-// A facet's normal that is visible from where the path comes from, on the side of `n`; what other facets hide of the
-// light that it sends on is taken from the path.
-vec3 sampled_normal(vec3 n, inout Path path, float roughness) {
-    float alpha = max(roughness * roughness, 1e-4);
-    vec3 across = normalize(abs(n.z) < 0.9 ? cross(n, vec3(0.0, 0.0, 1.0)) : cross(n, vec3(1.0, 0.0, 0.0)));
-    vec3 along = cross(n, across);
-    vec3 wo = -vec3(dot(path.direction, across), dot(path.direction, along), dot(path.direction, n));
-    if (wo.z <= 0.0) return n;
-    vec2 u = random_numbers(path.events);
-    vec3 stretched = normalize(vec3(alpha * wo.xy, wo.z));
+// Where light is between the facets of a rough boundary (Heitz, Hanika, d'Eon & Dachsbacher, "Multiple-scattering
+// microfacet BSDFs with the Smith model", 2016). Twin of Ray in src/reference/rough_interface.h.
+struct Facets {
+    mat3 world_from_surface;  // z: the macroscopic normal on the side that the path comes from
+    float alpha;
+    float level;              // share of the surface that lies lower, 0..1, seen from the side that the light is on
+    uint event;               // of the path; and how many random numbers it has taken
+    uint draws;
+};
+const int kMostFacets = 64;
+const float kLowestLevel = 1e-7;  // about the distance from 1 to the float below
+
+float next_random(inout Facets facets) {
+    ++facets.draws;
+    return float(hash(uvec3(seed ^ facets.draws * 0x9e3779b9u, facets.event, 2u * frame.sample_index)).z >> 8u) / 16777216.0;
+}
+
+// A facet's normal that is visible along w, whose z may have either sign; in the surface's frame.
+vec3 visible_normal(vec3 w, float alpha, vec2 u) {
+    vec3 stretched = normalize(vec3(alpha * w.xy, w.z));
     float squared = dot(stretched.xy, stretched.xy);
     vec3 t1 = squared > 0.0 ? vec3(-stretched.y, stretched.x, 0.0) * inversesqrt(squared) : vec3(1.0, 0.0, 0.0);
     vec3 t2 = cross(stretched, t1);
@@ -44,8 +54,68 @@ vec3 sampled_normal(vec3 n, inout Path path, float roughness) {
     float x = radius * cos(angle), y = radius * sin(angle);
     y = (1.0 - share) * sqrt(max(1.0 - x * x, 0.0)) + share * y;
     vec3 m = x * t1 + y * t2 + sqrt(max(1.0 - x * x - y * y, 0.0)) * stretched;
-    m = normalize(vec3(alpha * m.xy, max(m.z, 1e-6)));
-    return normalize(m.x * across + m.y * along + m.z * n);
+    return normalize(vec3(alpha * m.xy, max(m.z, 1e-6)));
+}
+
+// Smith's auxiliary function for GGX.
+float smith_lambda(vec3 w, float alpha) {
+    float cos2 = max(w.z * w.z, 1e-20);
+    float t = alpha * alpha * max(1.0 - cos2, 0.0) / cos2;
+    return 0.5 * t / (sqrt(1.0 + t) + 1.0);  // (sqrt(1 + t) - 1) / 2 without the cancellation
+}
+
+// Moves light to the next facet on its way. False: it leaves the surface.
+bool reaches_facet(vec3 way, inout Facets facets) {
+    float clear = 1.0 - next_random(facets);
+    float lambda = smith_lambda(way, facets.alpha);
+    if (way.z > 0.0) {
+        if (clear <= pow(facets.level, lambda)) return false;
+        facets.level *= pow(clear, -1.0 / lambda);
+    } else {
+        facets.level *= pow(clear, 1.0 / (1.0 + lambda));
+    }
+    facets.level = clamp(facets.level, kLowestLevel, 1.0);
+    return true;
+}
+
+// Takes a path to the first facet that it meets; its normal, in the world. False: it comes from below the surface, which
+// the interpolated normal may say.
+bool first_facet(vec3 normal, Path path, float roughness, out Facets facets, out vec3 facet_normal) {
+    vec3 across = normalize(abs(normal.z) < 0.9 ? cross(normal, vec3(0.0, 0.0, 1.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
+    facets = Facets(mat3(across, cross(normal, across), normal), max(roughness * roughness, 1e-4), 1.0, path.events, 0u);
+    vec3 way = path.direction * facets.world_from_surface;
+    facet_normal = normal;
+    if (way.z >= 0.0) return false;
+    reaches_facet(way, facets);
+    facet_normal = normalize(facets.world_from_surface * visible_normal(-way, facets.alpha, random_numbers(path.events)));
+    return true;
+}
+
+// The direction in which light leaves the surface that a facet has sent on in `direction`. `beyond`: it is on the other
+// side of the surface. eta = n_incident / n_transmitted on the side that the path comes from.
+vec3 leave_facets(vec3 direction, float eta, Facets facets, inout bool beyond) {
+    vec3 way = direction * facets.world_from_surface;
+    // Beyond, the frame is turned over, so that z always points away from the surface.
+    if (beyond) {
+        way.z = -way.z;
+        facets.level = max(1.0 - facets.level, kLowestLevel);
+        eta = 1.0 / eta;
+    }
+    for (int n = 0; n < kMostFacets && reaches_facet(way, facets); ++n) {
+        vec2 u = vec2(next_random(facets), next_random(facets));
+        vec3 m = visible_normal(-way, facets.alpha, u), refracted;
+        if (next_random(facets) < fresnel_dielectric(-dot(way, m), eta)) {
+            way = reflect_direction(way, m);
+            continue;
+        }
+        refract_direction(way, m, eta, refracted);
+        way = vec3(refracted.xy, -refracted.z);
+        facets.level = max(1.0 - facets.level, kLowestLevel);
+        eta = 1.0 / eta;
+        beyond = !beyond;
+    }
+    way.z = abs(way.z);  // a walk that reached the bound may point at the surface
+    return normalize(facets.world_from_surface * vec3(way.xy, beyond ? -way.z : way.z));
 }
 
 #endif

@@ -29,15 +29,33 @@ uint looks_for = kFindAll;
 // While what a path is inside of is not known yet: the slots for which it is.
 bool deciding = false;
 uint decided[kMediumWords];
+uint decided_shell = kNoSlot;  // or this shell alone, which crosses itself: all its surfaces
+// Shells that cross themselves which the path has crossed here, by their first slots: their surfaces at this place are
+// one, and are not met again.
+uint crossed_here[kMediumWords];
+
+void forget_crossed() {
+    for (uint w = 0u; w < kMediumWords; ++w) crossed_here[w] = 0u;
+}
+void note_crossed(uint traits) {
+    if (kCrossing && (traits & kCrossesItself) != 0u) crossed_here[slot_of(traits) / 32u] |= 1u << slot_of(traits) % 32u;
+}
+
+bool is_in(uint slots_in[kMediumWords], uint slot) { return (slots_in[slot / 32u] >> slot % 32u & 1u) != 0u; }
 
 // Rays enter and leave a shell in turn, so a surface that the path stands on is never met again.
 bool can_meet(uint traits, bool leaving, uint triangle) {
     bool closed_shell = (traits & (kKindMask | kClosed)) == (kRefractiveKind | kClosed);
-    if (deciding) return closed_shell && (decided[slot_of(traits) / 32u] >> slot_of(traits) % 32u & 1u) == 0u;
+    bool crosses_itself = kCrossing && closed_shell && (traits & kCrossesItself) != 0u;
+    if (deciding) {
+        if (crosses_itself) return slot_of(traits) == decided_shell;
+        return decided_shell == kNoSlot && closed_shell && !is_in(decided, slot_of(traits));
+    }
     if (kTouching && looks_for == kFindShells && !closed_shell) return false;
     if (kTouching && looks_for == kFindOpaque && (traits & kKindMask) != kOpaqueKind) return false;
     if (kVolumes && (traits & kReplaced) != 0u)
         return meets_replaced == kMeetAll || (meets_replaced == kMeetEntering && !leaving && triangle != standing);
+    if (crosses_itself) return triangle != standing && !is_in(crossed_here, slot_of(traits));
     if (!closed_shell) return triangle != standing && !(leaving && (traits & kSingleSided) != 0u);
     return inside_slot(slot_of(traits)) == (leaving != ((traits & kCavity) != 0u));
 }
@@ -55,9 +73,28 @@ SurfaceHit find_next(vec3 origin, vec3 direction, float t_min, out float t_end, 
                        : find_surface(maps[0], origin, direction, t_min, t_end, gave_up, visits);
 }
 
+// What a shell that crosses itself winds around the start of a ray: all its surfaces on the way are counted.
+void find_winding(uint shell, vec3 origin, vec3 direction) {
+    decided_shell = shell;
+    int winding = 0;
+    float t = 0.0, t_end;
+    uint visits = 0u;
+    for (bool more = true; more;) {
+        bool gave_up;
+        SurfaceHit hit = find_next(origin, direction, t, t_end, gave_up, visits);
+        more = hit.t < kFarthest && hit.t > t;
+        if (more) winding += hit.leaving ? 1 : -1;
+        t = hit.t;
+    }
+    for (; winding > 0; --winding) step_across(kCrossesItself | shell << kSlotShift, false);
+    for (; winding < 0; ++winding) step_across(kCrossesItself | shell << kSlotShift, true);
+    decided_shell = kNoSlot;
+}
+
 // Finds what a ray is inside of where it starts: of each slot, the first surface on its way says it.
 void find_media(vec3 origin, vec3 direction) {
     for (uint w = 0u; w < kMediumWords; ++w) media[w] = decided[w] = 0u;
+    forget_crossed();
     deciding = true;
     uint visits = 0u;
     for (uint n = 0u; n < 32u * kMediumWords; ++n) {
@@ -68,6 +105,13 @@ void find_media(vec3 origin, vec3 direction) {
         uint slot = slot_of(hit.traits);
         decided[slot / 32u] |= 1u << slot % 32u;
         set_inside(slot, hit.leaving != ((hit.traits & kCavity) != 0u));
+    }
+    if (kCrossing) {
+        for (uint slot = 0u; slot < slots.length(); ++slot) {
+            bool more = (slots[slot].medium & kSameShell) != 0u;
+            if (more) find_winding(slot, origin, direction);
+            while (more) more = (slots[++slot].medium & kSameShell) != 0u;
+        }
     }
     deciding = false;
 }

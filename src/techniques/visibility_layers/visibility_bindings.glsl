@@ -14,6 +14,7 @@ layout(constant_id = 5) const bool kRough = false;        // some glass is rough
 
 layout(constant_id = 13) const bool kTexturedGlass = false;  // some glass varies along its surface
 layout(constant_id = 12) const bool kManySlots = false;   // some body has several
+layout(constant_id = 14) const bool kCrossing = false;    // some shell crosses itself
 layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is one map of all the scene
 layout(constant_id = 9) const bool kTouching = false;     // surfaces of two shells may lie at one place
 layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend

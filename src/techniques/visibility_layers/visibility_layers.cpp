@@ -108,7 +108,7 @@ public:
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::array<std::uint32_t, 14> constants() const {
+    std::array<std::uint32_t, 15> constants() const {
         const GpuScene& scene = frame_.scene;
         return {words_,
                 scene.object_count == 1 ? 1u : 0u,
@@ -123,12 +123,13 @@ private:
                 surfaces_per_pass_,
                 volumes_ != nullptr ? 1u : 0u,
                 topology_.many_slots ? 1u : 0u,
-                scene.textured_glass ? 1u : 0u};
+                scene.textured_glass ? 1u : 0u,
+                topology_.crossing ? 1u : 0u};
     }
     const Program& program(ShaderCode shader) {
         const auto c = constants();
         return frame_.workspace.compute(
-            shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10], c[11], c[12], c[13]});
+            shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10], c[11], c[12], c[13], c[14]});
     }
 
     PathPass pass() const {
