@@ -83,10 +83,20 @@ RenderSettings settings_for(const Comparison& comparison, const NamedTechnique& 
     return settings;
 }
 
-RenderSettings settings_of_truth(const Comparison& comparison) {
-    RenderSettings settings = settings_for(comparison, comparison.truth);
-    if (comparison.truth.info().all_light) settings.samples = comparison.arguments.truth_samples;
+RenderSettings settings_of_truth(const Comparison& comparison, const NamedTechnique& truth) {
+    RenderSettings settings = settings_for(comparison, truth);
+    if (truth.info().all_light) settings.samples = comparison.arguments.truth_samples;
     return settings;
+}
+
+NamedTechnique truth_named(const std::string& name) { return {name, {&find_technique(name), {}}}; }
+
+/// What draws the picture that the others are held against: `reference` traces volumes, but draws none.
+NamedTechnique truth_for(Comparison& comparison, const std::string& name, const Scene& scene) {
+    if (scene.volume_objects.empty() || comparison.truth.info().volumes) return comparison.truth;
+    comparison.warnings.insert(fmt::format("{}: pictures are held against those of path, as {} draws no volumes", name,
+                                           comparison.truth.name));
+    return truth_named("path");
 }
 
 nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedView& view,
@@ -148,9 +158,11 @@ ComparedView exact_view(Comparison& comparison, const std::string& name, const S
                       trace_exact_view(comparison.renderer.tracer(), camera, settings.width, settings.height,
                                        arguments.exact_events, bar.progress()),
                       {}};
-    settings = settings_of_truth(comparison);
+    settings = settings_of_truth(comparison, truth_for(comparison, name, scene));
     settings.progress = bar.progress();
     view.truth = comparison.renderer.render(settings);
+    for (const std::string& warning : view.truth.warnings)
+        comparison.warnings.insert(fmt::format("{}: {}: {}", name, settings.technique, warning));
     if (comparison.report) comparison.report->add_picture({name, index, ""}, PictureKind::kImage, view.truth.display);
     return view;
 }
@@ -235,7 +247,7 @@ void check_settings(const Comparison& comparison) {
     std::vector<NamedTechnique> with_truth = comparison.techniques;
     with_truth.push_back(comparison.truth);
     check_parameters(with_truth, comparison.parameters);
-    comparison.renderer.check(settings_of_truth(comparison));
+    comparison.renderer.check(settings_of_truth(comparison, comparison.truth));
     for (const NamedTechnique& technique : comparison.techniques)
         comparison.renderer.check(settings_for(comparison, technique));
 }
@@ -249,7 +261,7 @@ void compare(const CompareArguments& arguments) {
                           .techniques = {},
                           .parameters = given_parameters(arguments.parameters),
                           .settings = settings_of(arguments),
-                          .truth = {arguments.truth, {&find_technique(arguments.truth), {}}},
+                          .truth = truth_named(arguments.truth),
                           .report = {},
                           .json = {},
                           .warnings = {}};
@@ -258,16 +270,17 @@ void compare(const CompareArguments& arguments) {
     check_settings(comparison);
     comparison.renderer.set_environment(environment);
     const DeviceInfo& device = comparison.renderer.device();
-    comparison.json = {{"device", device.name},
-                       {"driver", device.driver},
-                       {"version", version()},
-                       {"environment", arguments.environment},
-                       {"exact_events", arguments.exact_events},
-                       {"image_truth", describe_truth(arguments)},
-                       {"image_truth_parameters",
-                        describe_parameters(comparison.truth.info(), settings_of_truth(comparison).parameters)},
-                       {"warnings", nlohmann::ordered_json::array()},
-                       {"runs", nlohmann::ordered_json::array()}};
+    comparison.json = {
+        {"device", device.name},
+        {"driver", device.driver},
+        {"version", version()},
+        {"environment", arguments.environment},
+        {"exact_events", arguments.exact_events},
+        {"image_truth", describe_truth(arguments)},
+        {"image_truth_parameters",
+         describe_parameters(comparison.truth.info(), settings_of_truth(comparison, comparison.truth).parameters)},
+        {"warnings", nlohmann::ordered_json::array()},
+        {"runs", nlohmann::ordered_json::array()}};
 
     for (const std::string& scene : arguments.scenes) compare_scene(comparison, scene);
     if (comparison.report) {

@@ -91,11 +91,24 @@ void add_errors(nlohmann::ordered_json& json, const std::string& prefix, const s
     json[prefix + "within_5deg"] = within_5 / count;
 }
 
+struct Integrator {
+    const char* label;
+    const char* key;    ///< in JSON
+    double least_step;  ///< voxels, that is measured
+};
+/// By the technique's parameter `integrator`.
+constexpr Integrator kIntegrators[] = {{"Euler", "euler", 0.015625},
+                                       {"RK4", "rk4", 0.125},
+                                       {"leapfrog", "leapfrog", 0.0625},
+                                       {"Nystrom", "nystrom", 0.125}};
+constexpr int kEuler = 0, kRk4 = 1;
+
 struct RayRun {
     int resolution;    ///< voxels along a side of the box
     double smoothing;  ///< voxels
-    bool rk4;
-    double step;  ///< voxels
+    int integrator;    ///< kIntegrators
+    double step;       ///< voxels
+    std::string variant() const { return fmt::format("{}, step {}", kIntegrators[integrator].label, step); }
 };
 
 /// The ball, and what its rays are held against.
@@ -126,7 +139,7 @@ RenderResult draw(ExperimentRun& run, const RayRun& how, std::uint32_t samples) 
     settings.width = run.width;
     settings.height = run.height;
     settings.technique = kTechnique;
-    settings.parameters = {{"integrator", how.rk4 ? 1.0 : 0.0}, {"step", how.step}, {"max-steps", max_steps}};
+    settings.parameters = {{"integrator", double(how.integrator)}, {"step", how.step}, {"max-steps", max_steps}};
     settings.samples = samples;
     settings.still = false;
     settings.aovs = {"exit-direction"};
@@ -166,13 +179,13 @@ std::optional<Cost> at_error(const std::vector<Cost>& costs, double error_deg) {
 nlohmann::ordered_json run_of(const ExperimentRun& run, const std::string& scene, const RayRun& how, const Ball& ball) {
     const auto covered = std::count_if(ball.exact.begin(), ball.exact.end(), [](const auto& d) { return bool(d); });
     return {{"scene", scene},
-            {"variant", how.rk4 ? fmt::format("RK4, step {}", how.step) : fmt::format("Euler, step {}", how.step)},
+            {"variant", how.variant()},
             {"technique", kTechnique},
             {"width", run.width},
             {"height", run.height},
             {"resolution", how.resolution},
             {"smoothing", how.smoothing},
-            {"integrator", how.rk4 ? "rk4" : "euler"},
+            {"integrator", kIntegrators[how.integrator].key},
             {"step", how.step},
             {"covered", covered}};
 }
@@ -196,7 +209,7 @@ std::string label_of(int resolution, double smoothing) {
 void measure_surface(ExperimentRun& run, ExperimentPage& page) {
     for (const int resolution : {64, 128, 256}) {
         for (const double smoothing : {0.5, 0.75, 1.0}) {
-            const RayRun how{resolution, smoothing, true, 0.5};
+            const RayRun how{resolution, smoothing, kRk4, 0.5};
             const Ball ball = prepare_ball(run, resolution, smoothing);
             const std::string scene = label_of(resolution, smoothing);
             const RenderResult result = draw(run, how, 1);
@@ -210,17 +223,17 @@ void measure_surface(ExperimentRun& run, ExperimentPage& page) {
     }
 }
 
-/// Steps of both integrators in one volume, against the surface and against steps that are much shorter.
+/// Steps of the integrators in one volume, against the surface and against steps that are much shorter.
 void measure_steps(ExperimentRun& run, const ExperimentSpec& spec) {
     const Ball ball = prepare_ball(run, kStepResolution, kStepSmoothing);
     const std::string scene = "steps, " + label_of(kStepResolution, kStepSmoothing);
-    const RenderResult finest = draw(run, {kStepResolution, kStepSmoothing, true, kFinestStep}, 1);
+    const RenderResult finest = draw(run, {kStepResolution, kStepSmoothing, kRk4, kFinestStep}, 1);
     const Directions converged = shown_directions(finest.aovs.at("exit-direction"), ball.exact);
     std::vector<Cost> euler;
-    for (const bool rk4 : {false, true}) {
-        for (double step = 2.0; step >= (rk4 ? 0.125 : 0.015625); step /= 2.0) {
-            const RayRun how{kStepResolution, kStepSmoothing, rk4, step};
-            ProgressBar bar(fmt::format("{}: {}, step {}", spec.name, rk4 ? "RK4" : "Euler", step));
+    for (int integrator = 0; integrator < int(std::size(kIntegrators)); ++integrator) {
+        for (double step = 2.0; step >= kIntegrators[integrator].least_step; step /= 2.0) {
+            const RayRun how{kStepResolution, kStepSmoothing, integrator, step};
+            ProgressBar bar(fmt::format("{}: {}", spec.name, how.variant()));
             const RenderResult result = draw(run, how, std::uint32_t(std::max(2, run.frames)));
             bar.clear();
             const Directions shown = shown_directions(result.aovs.at("exit-direction"), ball.exact);
@@ -233,7 +246,7 @@ void measure_steps(ExperimentRun& run, const ExperimentSpec& spec) {
             }
             if (!json["converged_mean_deg"].is_null() && json.contains("frame_ms")) {
                 const Cost cost{json["converged_mean_deg"], step, json["frame_ms"]};
-                if (!rk4)
+                if (integrator == kEuler)
                     euler.push_back(cost);
                 else if (const std::optional<Cost> equal = at_error(euler, cost.error_deg))
                     json["euler_at_equal_error"] = {{"step", equal->step},

@@ -56,8 +56,9 @@ struct PathTracedImage {
 /// optics code with the renderer.
 ///
 /// A ray refracts at every interface by the interpolated normal; which side of a solid it is on
-/// follows from the triangles it crossed. Where solids overlap, the smaller one (by its bounding box)
-/// displaces the larger one: liquid displaces the goblet, a bubble the block around it.
+/// follows from the triangles it crossed. Where solids overlap, the one of the highest priority fills the
+/// place, then the one of less volume: liquid displaces the goblet, a bubble the block around it. Around all
+/// solids rays bend in the scene's volumes.
 class Tracer {
 public:
     /// Builds the hierarchy. `scene` must be checked (load_scene does it) and outlive the tracer.

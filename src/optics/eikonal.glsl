@@ -42,4 +42,35 @@ CurvedRay advanced(CurvedRay ray, float h, CurvedRay slope) {
 PELLUCID_RAY_STEPS(euler_space_step, rk4_space_step, space_slope)
 PELLUCID_RAY_STEPS(euler_time_step, rk4_time_step, time_slope)
 
+vec3 ray_force(vec3 x) {
+    vec4 field = index_field(x);
+    return field.w * field.xyz;
+}
+
+// Second order, one look at the field.
+CurvedRay leapfrog_step(CurvedRay ray, float distance_along) {
+    float h = distance_along / length(ray.v);
+    vec3 middle = ray.x + 0.5 * h * ray.v;
+    vec3 v = ray.v + h * ray_force(middle);
+    return CurvedRay(middle + 0.5 * h * v, v);
+}
+
+// Fourth order, three looks.
+CurvedRay nystrom_step(CurvedRay ray, float distance_along) {
+    float h = distance_along / length(ray.v);
+    vec3 a = ray_force(ray.x);
+    vec3 b = ray_force(ray.x + 0.5 * h * ray.v + 0.125 * h * h * a);
+    vec3 c = ray_force(ray.x + h * ray.v + 0.5 * h * h * b);
+    return CurvedRay(ray.x + h * ray.v + h * h / 6.0 * (a + 2.0 * b), ray.v + h / 6.0 * (a + 4.0 * b + c));
+}
+
+const uint kEuler = 0u, kRungeKutta = 1u, kLeapfrog = 2u, kNystrom = 3u;
+
+CurvedRay space_step(uint integrator, CurvedRay ray, float distance_along) {
+    if (integrator == kEuler) return euler_space_step(ray, distance_along);
+    if (integrator == kLeapfrog) return leapfrog_step(ray, distance_along);
+    if (integrator == kNystrom) return nystrom_step(ray, distance_along);
+    return rk4_space_step(ray, distance_along);
+}
+
 #endif

@@ -66,4 +66,32 @@ CurvedRay<Real> rk4_step(const Field& field, const CurvedRay<Real>& ray, std::ty
     return {ray.x + sixth * (a.x + d.x) + third * (b.x + c.x), ray.v + sixth * (a.v + d.v) + third * (b.v + c.v)};
 }
 
+/// dv by one unit of sigma, where ds = n dsigma: with it dx/dsigma = v and dv/dsigma = grad(n^2) / 2. That is a particle
+/// in a force field, on which v has no influence (Sharma, Kumar & Ghatak, "Tracing rays through graded-index media: a
+/// new method", Applied Optics 21(6), 1982).
+template <class Real, class Field>
+Vec3<Real> ray_force(const Field& field, const Vec3<Real>& x) {
+    const IndexSample<Real> at = field(x);
+    return at.n * at.gradient;
+}
+
+/// Drift, kick, drift: of second order, with one look at the field. `length` in space.
+template <class Real, class Field>
+CurvedRay<Real> leapfrog_step(const Field& field, const CurvedRay<Real>& ray, std::type_identity_t<Real> length) {
+    const Real step = length / glm::length(ray.v);
+    const Vec3<Real> middle = ray.x + step / 2 * ray.v;
+    const Vec3<Real> v = ray.v + step * ray_force<Real>(field, middle);
+    return {middle + step / 2 * v, v};
+}
+
+/// Nystrom's method for second derivatives: of fourth order, with three looks. `length` in space.
+template <class Real, class Field>
+CurvedRay<Real> nystrom_step(const Field& field, const CurvedRay<Real>& ray, std::type_identity_t<Real> length) {
+    const Real step = length / glm::length(ray.v), half = step / 2;
+    const Vec3<Real> a = ray_force<Real>(field, ray.x);
+    const Vec3<Real> b = ray_force<Real>(field, ray.x + half * ray.v + half * half / 2 * a);
+    const Vec3<Real> c = ray_force<Real>(field, ray.x + step * ray.v + step * half * b);
+    return {ray.x + step * ray.v + step * step / 6 * (a + Real(2) * b), ray.v + step / 6 * (a + Real(4) * b + c)};
+}
+
 }  // namespace pellucid

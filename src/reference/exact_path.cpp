@@ -3,6 +3,7 @@
 #include "reference/boundaries.h"
 #include "reference/dielectric.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pellucid::reference {
@@ -27,6 +28,8 @@ void ExactPath::start(const CameraRay& ray, const MediumStack& inside) {
     transmittance_ = glm::dvec3(1.0);
     length_ = ray.before;
     length_inside_ = 0.0;
+    open_ior_ = 1.0;
+    crossed_volume_ = false;
     result_ = {};
     result_.direction = glm::vec3(ray_.direction);
     result_.position = glm::vec3(ray_.origin - ray.before * ray_.direction);
@@ -37,7 +40,29 @@ bool ExactPath::finish(Status status) {
     result_.direction = glm::vec3(ray_.direction);
     result_.transmittance = glm::vec3(transmittance_);
     result_.length_inside = float(length_inside_);
+    if (crossed_volume_) result_.events = std::max<std::uint16_t>(result_.events, 1);
     return false;
+}
+
+double ExactPath::ior(const MediumStack& at) const {
+    return at.solid() == kAir ? open_ior_ : at.medium().ior[channel_];
+}
+
+bool ExactPath::fly(const CurvedVolumes& volumes) {
+    if (inside_.solid() != kAir) return advance(geometry_.intersect(ray_));
+    const CurvedVolumes::Flight flight = volumes.fly(geometry_, ray_, channel_);
+    if (flight.met) {
+        standing_.clear();
+        ray_.standing = standing_;
+        crossed_volume_ = true;
+        result_.position = glm::vec3(flight.left_at);
+        result_.length = float(length_ + flight.left_after);
+    }
+    length_ += flight.length;
+    length_inside_ += flight.length_inside;
+    transmittance_ *= flight.transmittance;
+    open_ior_ = flight.ior;
+    return flight.stuck ? finish(Status::kStepLimit) : advance(flight.hit);
 }
 
 /// Goes straight on to what was met.
@@ -57,7 +82,7 @@ void ExactPath::travel(const Hit& hit) {
 /// path through the triangle (1 to 4 in 100 reflections in scanned or modelled animals): it leaks out,
 /// and cross() puts it on the far side.
 void ExactPath::bend(const Hit& hit) {
-    const double n_i = inside_.medium().ior[channel_], n_t = beyond_.medium().ior[channel_];
+    const double n_i = ior(inside_), n_t = ior(beyond_);
     const glm::dvec3 outward = geometry_.shading_normal(hit);
     const glm::dvec3 normal = hit.crossing.sense == Sense::kEntering ? outward : -outward;
     const Incidence in = incidence(ray_.direction, normal, n_i, n_t);

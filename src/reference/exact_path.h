@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/camera_rays.h"
+#include "reference/curved_volumes.h"
 #include "reference/geometry.h"
 
 #include <pellucid/refracted_path.h>
@@ -22,12 +23,15 @@ public:
     const Query& query() const { return ray_; }
     /// Goes on to what was found. Returns false at the end of the path.
     bool advance(const Hit& hit);
+    /// The same, where there are volumes: finds what comes next as well.
+    bool fly(const CurvedVolumes& volumes);
     const RefractedPath& result() const { return result_; }
 
 private:
     void travel(const Hit& hit);
     bool cross(const Hit& hit);
     void bend(const Hit& hit);
+    double ior(const MediumStack& at) const;
     bool finish(Status status);
 
     const Geometry& geometry_;
@@ -39,6 +43,8 @@ private:
     std::vector<Crossing> standing_;  ///< triangles that the origin lies on
     glm::dvec3 transmittance_{1.0};
     double length_ = 0.0, length_inside_ = 0.0;
+    double open_ior_ = 1.0;  ///< of what is around all solids, at the origin
+    bool crossed_volume_ = false;
     RefractedPath result_;
 };
 

@@ -18,8 +18,8 @@ namespace {
 /// Paths of neighbouring pixels, traced in step.
 class Block {
 public:
-    Block(const Geometry& geometry, const ExactSettings& settings)
-        : geometry_(geometry), settings_(settings), size_(block_size(settings.packet)),
+    Block(const Geometry& geometry, const CurvedVolumes& volumes, const ExactSettings& settings)
+        : geometry_(geometry), volumes_(volumes), settings_(settings), size_(block_size(settings.packet)),
           paths_(settings.packet, ExactPath(geometry, settings.max_events, int(settings.channel))),
           queries_(settings.packet), active_(settings.packet), hits_(settings.packet) {}
 
@@ -46,6 +46,7 @@ public:
 private:
     /// Takes every path on to its next surface; returns how many ended.
     std::uint32_t step() {
+        if (!volumes_.empty()) return fly();
         if (settings_.packet == 1) return paths_[0].advance(geometry_.intersect(paths_[0].query())) ? 0 : 1;
         for (std::uint32_t i = 0; i < settings_.packet; ++i) {
             if (active_[i] != 0) queries_[i] = paths_[i].query();
@@ -60,7 +61,19 @@ private:
         return ended;
     }
 
+    /// The same through volumes, each path by itself.
+    std::uint32_t fly() {
+        std::uint32_t ended = 0;
+        for (std::uint32_t i = 0; i < settings_.packet; ++i) {
+            if (active_[i] == 0 || paths_[i].fly(volumes_)) continue;
+            active_[i] = 0;
+            ++ended;
+        }
+        return ended;
+    }
+
     const Geometry& geometry_;
+    const CurvedVolumes& volumes_;
     const ExactSettings& settings_;
     glm::uvec2 size_;
     std::vector<ExactPath> paths_;
@@ -86,8 +99,8 @@ void check_exact_settings(const ExactSettings& s) {
     }
 }
 
-std::vector<RefractedPath> trace_exact(const Geometry& geometry, const Camera& camera, const ExactSettings& settings,
-                                       std::uint32_t threads, const Progress& progress) {
+std::vector<RefractedPath> trace_exact(const Geometry& geometry, const CurvedVolumes& volumes, const Camera& camera,
+                                       const ExactSettings& settings, std::uint32_t threads, const Progress& progress) {
     check_exact_settings(settings);
     check_camera(camera);
     const CameraRays rays(camera, settings.width, settings.height);
@@ -98,7 +111,7 @@ std::vector<RefractedPath> trace_exact(const Geometry& geometry, const Camera& c
     std::mutex mutex;
     std::uint32_t done = 0;
     for_each_tile(size, threads, [&](glm::uvec2 first, glm::uvec2 end) {
-        Block block(geometry, settings);
+        Block block(geometry, volumes, settings);
         for (std::uint32_t y = first.y; y < end.y; y += block.size().y) {
             for (std::uint32_t x = first.x; x < end.x; x += block.size().x) block.trace({x, y}, rays, media, picture);
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reference/curved_volumes.h"
 #include "reference/geometry.h"
 
 #include <pellucid/reference.h>
@@ -26,8 +27,10 @@ void check_exact_settings(const ExactSettings& settings);
 /// - Indices of refraction, and the Fresnel share of all of `transmittance`, are those of settings.channel.
 /// - Without any interface `position` is the eye (orthographic: its point in the camera's plane) and
 ///   `length` 0.
+/// - Around all solids a path bends in volumes (curved_volumes.h). One that has crossed some, but no interface, has one
+///   event; its `position` is where it left the last volume. One that a volume has caught has Status::kStepLimit.
 /// Throws Error for settings or a camera out of range. `threads` 0: all cores.
-std::vector<RefractedPath> trace_exact(const Geometry& geometry, const Camera& camera, const ExactSettings& settings,
-                                       std::uint32_t threads, const Progress& progress);
+std::vector<RefractedPath> trace_exact(const Geometry& geometry, const CurvedVolumes& volumes, const Camera& camera,
+                                       const ExactSettings& settings, std::uint32_t threads, const Progress& progress);
 
 }  // namespace pellucid::reference

@@ -102,9 +102,9 @@ bool has_panes(const Geometry& geometry) {
 
 }  // namespace
 
-PathTracedImage trace_paths(const Geometry& geometry, const Scene& scene, const Camera& camera,
-                            const Environment& environment, const PathTraceSettings& settings, std::uint32_t threads,
-                            const Progress& progress) {
+PathTracedImage trace_paths(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene,
+                            const Camera& camera, const Environment& environment, const PathTraceSettings& settings,
+                            std::uint32_t threads, const Progress& progress) {
     check(settings);
     check_camera(camera);
     check_environment(environment);
@@ -114,7 +114,7 @@ PathTracedImage trace_paths(const Geometry& geometry, const Scene& scene, const 
     image.standard_error = image.radiance;
 
     const EnvironmentSampler sampler(environment);
-    const PathWorld world{geometry, scene, environment, sampler, settings.max_vertices, has_panes(geometry)};
+    const PathWorld world{geometry, volumes, scene, environment, sampler, settings.max_vertices, has_panes(geometry)};
     const CameraRays rays(camera, settings.width, settings.height);
     const Painter painter(world, rays, settings);
     const std::uint32_t columns = (settings.width + kTile - 1) / kTile;

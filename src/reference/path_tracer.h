@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reference/curved_volumes.h"
 #include "reference/geometry.h"
 
 #include <pellucid/environment.h>
@@ -13,8 +14,8 @@ namespace pellucid::reference {
 
 /// See Tracer::path_trace. `scene` is the one that `geometry` was built from; `threads` 0: all cores.
 /// Throws Error for a camera, an environment or settings that do not hold what they promise.
-PathTracedImage trace_paths(const Geometry& geometry, const Scene& scene, const Camera& camera,
-                            const Environment& environment, const PathTraceSettings& settings, std::uint32_t threads,
-                            const Progress& progress);
+PathTracedImage trace_paths(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene,
+                            const Camera& camera, const Environment& environment, const PathTraceSettings& settings,
+                            std::uint32_t threads, const Progress& progress);
 
 }  // namespace pellucid::reference

@@ -37,7 +37,9 @@ glm::dmat3 world_from_local(const glm::dvec3& n) {
 PathWalk::Result PathWalk::walk(const CameraRay& ray, const MediumStack& inside, Random& random) {
     start(ray, inside);
     for (std::uint32_t vertices = 0;; ++vertices) {
-        const Hit hit = world_.geometry.intersect(ray_);
+        bool caught = false;
+        const Hit hit = next_surface(random, caught);
+        if (caught) return {radiance_, true};
         if (!hit.found) {
             see_environment();
             return {radiance_, false};
@@ -56,10 +58,31 @@ void PathWalk::start(const CameraRay& ray, const MediumStack& inside) {
     ray_.t_max = ray.t_max;
     standing_.clear();
     inside_ = inside;
+    open_ior_ = open_share_ = 1.0;
     throughput_ = glm::dvec3(1.0);
     radiance_ = glm::dvec3(0.0);
     channel_.reset();
     pdf_ = 0.0;
+}
+
+/// `caught`: a volume has kept the path.
+Hit PathWalk::next_surface(Random& random, bool& caught) {
+    if (world_.volumes.empty() || inside_.solid() != kAir) return world_.geometry.intersect(ray_);
+    if (!channel_ && world_.volumes.disperses() &&
+        world_.volumes.meets(ray_.origin, ray_.direction, std::numeric_limits<double>::infinity()))
+        choose_channel(random);
+    const CurvedVolumes::Flight flight = world_.volumes.fly(world_.geometry, ray_, channel_.value_or(kGreen));
+    radiance_ += throughput_ * flight.emission;
+    throughput_ *= flight.transmittance;
+    open_ior_ = flight.ior;
+    open_share_ = flight.basic;
+    caught = flight.stuck;
+    if (flight.met) {
+        standing_.clear();
+        ray_.standing = standing_;
+        pdf_ = 0.0;
+    }
+    return flight.hit;
 }
 
 /// Goes straight on to what was met.
@@ -123,6 +146,7 @@ bool PathWalk::meet_opaque(const Vertex& vertex, Random& random) {
 
 /// Paths carry radiance over n^2, so what is emitted into a medium is divided by that.
 double PathWalk::emitted_share() const {
+    if (inside_.solid() == kAir) return open_share_;
     const double ior = inside_.medium().ior[channel_.value_or(kGreen)];
     return 1.0 / (ior * ior);
 }
@@ -167,7 +191,9 @@ bool PathWalk::meet_solid(const Hit& hit, Random& random) {
     const Medium here = inside_.medium(), there = beyond_.medium();
     if (!channel_ && (here.disperses() || there.disperses())) choose_channel(random);
     const int channel = channel_.value_or(kGreen);  // without dispersion all are alike
-    return scatter(vertex, InterfaceBsdf(here.ior[channel], there.ior[channel], roughness_at(vertex), tint), random);
+    const double n_here = inside_.solid() == kAir ? open_ior_ : here.ior[channel];
+    const double n_there = beyond_.solid() == kAir ? open_ior_ : there.ior[channel];
+    return scatter(vertex, InterfaceBsdf(n_here, n_there, roughness_at(vertex), tint), random);
 }
 
 bool PathWalk::meet_pane(const Vertex& vertex, Random& random) {
@@ -273,6 +299,7 @@ glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, do
     query.standing = shadow_standing_;
     query.kinds = only(SurfaceKind::kOpaque) | only(SurfaceKind::kRefractive);
     if (world_.geometry.occluded(query)) return glm::dvec3(0.0);
+    if (inside.solid() == kAir && world_.volumes.meets(query.origin, direction, distance)) return glm::dvec3(0.0);
     glm::dvec3 share(1.0);
     // To infinity there is no glass on the way but that of open meshes; see see_environment().
     if (inside.solid() != kAir && std::isfinite(distance)) share = beer_lambert(inside.medium().sigma_a, distance);

@@ -2,6 +2,7 @@
 
 #include "reference/bsdf.h"
 #include "reference/camera_rays.h"
+#include "reference/curved_volumes.h"
 #include "reference/environment_sampler.h"
 #include "reference/geometry.h"
 #include "reference/random.h"
@@ -21,6 +22,7 @@ namespace pellucid::reference {
 /// What all paths of a picture share.
 struct PathWorld {
     const Geometry& geometry;
+    const CurvedVolumes& volumes;
     const Scene& scene;
     const Environment& environment;
     const EnvironmentSampler& sampler;
@@ -37,7 +39,10 @@ struct PathWorld {
 /// panes, but not through refracting glass, so what a path finds behind such glass, or in any perfect
 /// mirror, counts in full.
 ///
-/// Colours part at the first boundary of a dispersive medium: the path goes on with one channel, at whose
+/// Around all solids a path bends in volumes (curved_volumes.h). As behind refracting glass, light behind a volume is found
+/// by chance alone: lights that are points do not shine through volumes.
+///
+/// Colours part at the first boundary of a dispersive medium, or volume: the path goes on with one channel, at whose
 /// indices it is refracted from there on.
 class PathWalk {
 public:
@@ -67,6 +72,7 @@ private:
     };
 
     void start(const CameraRay& ray, const MediumStack& inside);
+    Hit next_surface(Random& random, bool& caught);
     void travel(const Hit& hit);
     void turn_to(const glm::dvec3& direction);
     Vertex vertex_at(const Hit& hit, const glm::dvec3& direction) const;
@@ -102,6 +108,9 @@ private:
     /// Density, per steradian, with which the last surface that scattered chose the ray's direction; 0 if
     /// no source can choose this path.
     double pdf_ = 0.0;
+    double open_ior_ = 1.0;  ///< of what is around all solids, at the ray's origin
+    double open_share_ =
+        1.0;  ///< and of what is emitted there, the share that arrives where the path entered the volume
 };
 
 }  // namespace pellucid::reference

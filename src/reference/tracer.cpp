@@ -15,6 +15,7 @@ struct Tracer::Impl {
     const Scene& scene;
     std::uint32_t threads;
     reference::Geometry geometry;
+    reference::CurvedVolumes volumes;
 };
 
 namespace {
@@ -29,7 +30,8 @@ TracerOptions within_cores(TracerOptions options) {
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, const TracerOptions& options)
-    : impl_(new Impl{scene, within_cores(options).threads, reference::Geometry(scene, within_cores(options))}) {}
+    : impl_(new Impl{scene, within_cores(options).threads, reference::Geometry(scene, within_cores(options)),
+                     reference::CurvedVolumes(scene)}) {}
 Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
@@ -39,13 +41,13 @@ std::uint32_t Tracer::threads() const { return impl_->threads; }
 
 std::vector<RefractedPath> Tracer::exact(const Camera& camera, const ExactSettings& settings,
                                          const Progress& progress) const {
-    return reference::trace_exact(impl_->geometry, camera, settings, impl_->threads, progress);
+    return reference::trace_exact(impl_->geometry, impl_->volumes, camera, settings, impl_->threads, progress);
 }
 
 PathTracedImage Tracer::path_trace(const Camera& camera, const Environment& environment,
                                    const PathTraceSettings& settings, const Progress& progress) const {
-    return reference::trace_paths(impl_->geometry, impl_->scene, camera, environment, settings, impl_->threads,
-                                  progress);
+    return reference::trace_paths(impl_->geometry, impl_->volumes, impl_->scene, camera, environment, settings,
+                                  impl_->threads, progress);
 }
 
 void Tracer::trace_fast(const Camera& camera, const ExactSettings& settings, std::span<glm::vec3> directions) const {

@@ -14,6 +14,22 @@ std::size_t translucent_objects(const Scene& scene) {
     }));
 }
 
+/// What the path tracer leaves out of volumes.
+std::vector<std::string> volumes_of_truth(const Scene& scene) {
+    std::vector<std::string> lines;
+    const auto any = [&](auto has) {
+        return std::any_of(scene.volume_objects.begin(), scene.volume_objects.end(),
+                           [&](const VolumeObject& object) { return has(*scene.volumes[std::size_t(object.volume)]); });
+    };
+    if (any([](const Volume& volume) { return !volume.sigma_s.empty(); }))
+        lines.emplace_back("light that volumes scatter is lost");
+    if (any([](const Volume& volume) { return !volume.boundary.empty(); }))
+        lines.emplace_back("surfaces of volumes reflect nothing but what they reflect totally");
+    if (!scene.volume_objects.empty() && !scene.lights.empty())
+        lines.emplace_back("lights do not shine through volumes");
+    return lines;
+}
+
 }  // namespace
 
 std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique) {
@@ -23,7 +39,11 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
         lines.push_back(
             fmt::format("{} volume{} not drawn (ihrke-2007 draws volumes)", count, count == 1 ? " is" : "s are"));
     }
-    if (technique.all_light) return lines;
+    if (technique.all_light) {
+        const std::vector<std::string> left_out = volumes_of_truth(scene);
+        lines.insert(lines.end(), left_out.begin(), left_out.end());
+        return lines;
+    }
     std::set<int> used;
     std::size_t refractive = 0, thin = 0, opaque = 0;
     for (const Object& object : scene.objects) {

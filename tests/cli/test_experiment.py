@@ -206,13 +206,13 @@ class RayExperiments(CliTest):
                 self.assertEqual(errors, sorted(errors, reverse=True), (smoothing, measure))
         self.assertGreater(surface[256, 0.75]["within_5deg"], 0.9)
         steps = {(r["integrator"], r["step"]): r for r in runs if "converged_mean_deg" in r}
-        self.assertEqual(len(steps), 8 + 5)
+        self.assertEqual(len(steps), 8 + 5 + 6 + 5)
         for (integrator, step), run in steps.items():
             self.assertGreater(run["covered"], 300)
             self.assertGreater(run["converged_mean_deg"], 0)
             if "frame_ms" in run:
                 self.assertGreater(run["frame_ms"], 0)
-        for integrator in ("euler", "rk4"):
+        for integrator in ("euler", "rk4", "leapfrog", "nystrom"):
             self.assertLess(steps[integrator, 0.125]["converged_mean_deg"], steps[integrator, 2.0]["converged_mean_deg"])
         for step in (0.125, 0.25, 0.5):
             self.assertLess(steps["rk4", step]["converged_mean_deg"], steps["euler", step]["converged_mean_deg"])

@@ -17,8 +17,8 @@ struct Case {
 };
 struct Answer {
     vec4 field;
-    vec4 x[4];  // Euler and RK4 in steps of space, then of time
-    vec4 v[4];  // w: Henyey-Greenstein with the direction's x as cosine and its y as g
+    vec4 x[6];  // Euler and RK4 in steps of space, then of time; leapfrog and Nystrom
+    vec4 v[6];  // w: Henyey-Greenstein with the direction's x as cosine and its y as g
 };
 layout(std430, set = 0, binding = 2) readonly buffer Cases { Case cases[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Answers { Answer answers[]; };
@@ -30,16 +30,18 @@ void main() {
     enter_volume(volumes[0], 0u);
     vec4 field = index_field(own.position.xyz);
     answers[i].field = field;
-    CurvedRay rays[4];
-    for (int k = 0; k < 4; ++k) rays[k] = CurvedRay(own.position.xyz, field.w * own.direction.xyz);
+    CurvedRay rays[6];
+    for (int k = 0; k < 6; ++k) rays[k] = CurvedRay(own.position.xyz, field.w * own.direction.xyz);
     float h = own.position.w;
     for (float step = 0.0; step < own.direction.w; step += 1.0) {
         rays[0] = euler_space_step(rays[0], h);
         rays[1] = rk4_space_step(rays[1], h);
         rays[2] = euler_time_step(rays[2], h);
         rays[3] = rk4_time_step(rays[3], h);
+        rays[4] = leapfrog_step(rays[4], h);
+        rays[5] = nystrom_step(rays[5], h);
     }
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 6; ++k) {
         answers[i].x[k] = vec4(rays[k].x, 0.0);
         answers[i].v[k] = vec4(rays[k].v, henyey_greenstein(own.direction.x, own.direction.y));
     }

@@ -22,7 +22,7 @@ struct Case {
 };
 struct Answer {
     glm::vec4 field;
-    glm::vec4 x[4], v[4];
+    glm::vec4 x[6], v[6];
 };
 
 Scene scene_of(const std::vector<std::string>& specs) {
@@ -106,15 +106,17 @@ TEST_F(EikonalTwin, ShaderAgreesWithCpp) {
         EXPECT_NEAR(double(answers[i].field.w), sample.n, 1e-5);
         EXPECT_LT(glm::distance(glm::dvec3(answers[i].field), sample.gradient), 1e-5);
         const double h = double(cases[i].position.w);
-        CurvedRay<double> rays[4];
-        std::fill_n(rays, 4, start_ray<double>(field, x, d));
+        CurvedRay<double> rays[6];
+        std::fill_n(rays, 6, start_ray<double>(field, x, d));
         for (int step = 0; step < 24; ++step) {
             rays[0] = euler_step(field, rays[0], h);
             rays[1] = rk4_step(field, rays[1], h);
             rays[2] = euler_step<RayStep::kTime>(field, rays[2], h);
             rays[3] = rk4_step<RayStep::kTime>(field, rays[3], h);
+            rays[4] = leapfrog_step(field, rays[4], h);
+            rays[5] = nystrom_step(field, rays[5], h);
         }
-        for (int k = 0; k < 4; ++k) {
+        for (int k = 0; k < 6; ++k) {
             EXPECT_LT(glm::distance(glm::dvec3(answers[i].x[k]), rays[k].x), 1e-3) << i << " " << k;
             EXPECT_LT(glm::distance(glm::dvec3(answers[i].v[k]), rays[k].v), 1e-3) << i << " " << k;
         }

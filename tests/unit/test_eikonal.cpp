@@ -15,11 +15,21 @@ using Real = double;
 using Ray = CurvedRay<Real>;
 using V = Vec3<Real>;
 
-enum class Method { kEuler, kRk4 };
+enum class Method { kEuler, kRk4, kLeapfrog, kNystrom };
 
 template <RayStep kStep = RayStep::kSpace, class Field>
 Ray advance(Method method, const Field& field, const Ray& ray, Real step) {
-    return method == Method::kEuler ? euler_step<kStep>(field, ray, step) : rk4_step<kStep>(field, ray, step);
+    switch (method) {
+        case Method::kEuler:
+            return euler_step<kStep>(field, ray, step);
+        case Method::kRk4:
+            return rk4_step<kStep>(field, ray, step);
+        case Method::kLeapfrog:
+            return leapfrog_step(field, ray, step);
+        case Method::kNystrom:
+            return nystrom_step(field, ray, step);
+    }
+    return ray;
 }
 
 /// Where the ray crosses the plane through the origin across `axis`, to the order of the method: the last step is made
@@ -73,6 +83,39 @@ TEST(Eikonal, OrdersOfTheIntegrators) {
     for (const Real order : measured_orders<RayStep::kTime>(Method::kEuler, field, start, 2.0, 800))
         EXPECT_NEAR(order, 1.0, 0.1);
     for (const Real order : measured_orders<RayStep::kTime>(Method::kRk4, field, start, 2.0, 20))
+        EXPECT_NEAR(order, 4.0, 0.3);
+}
+
+/// The same for methods whose steps are of sigma, ds = n dsigma: of these all are equal here.
+template <class Field>
+std::vector<Real> measured_sigma_orders(Method method, const Field& field, const Ray& start, Real sigma,
+                                        int first_steps) {
+    const auto end = [&](int steps) {
+        Ray ray = start;
+        for (int i = 0; i < steps; ++i) ray = advance(method, field, ray, sigma / steps * glm::length(ray.v));
+        return ray;
+    };
+    const auto slope = [&](const Ray& ray) { return Ray{ray.v, field(ray.x).n * field(ray.x).gradient}; };
+    Ray exact = start;
+    const Real h = sigma / 40'000;
+    for (int i = 0; i < 40'000; ++i) {  // Runge and Kutta's method on both first derivatives
+        const Ray a = slope(exact), b = slope(advanced(exact, h / 2, a)), c = slope(advanced(exact, h / 2, b)),
+                  d = slope(advanced(exact, h, c));
+        exact = {exact.x + h / 6 * (a.x + 2.0 * b.x + 2.0 * c.x + d.x),
+                 exact.v + h / 6 * (a.v + 2.0 * b.v + 2.0 * c.v + d.v)};
+    }
+    std::vector<Real> orders;
+    for (int steps = first_steps; steps <= 4 * first_steps; steps *= 2)
+        orders.push_back(std::log2(glm::distance(end(steps).x, exact.x) / glm::distance(end(2 * steps).x, exact.x)));
+    return orders;
+}
+
+TEST(Eikonal, OrdersOfTheIntegratorsOfForces) {
+    const MaxwellFisheyeField<Real> field;
+    const Ray start = start_ray<Real>(field, {-0.8, 0.2, 0.1}, glm::normalize(V(1.0, 0.4, -0.2)));
+    for (const Real order : measured_sigma_orders(Method::kLeapfrog, field, start, 1.0, 40))
+        EXPECT_NEAR(order, 2.0, 0.1);
+    for (const Real order : measured_sigma_orders(Method::kNystrom, field, start, 1.0, 20))
         EXPECT_NEAR(order, 4.0, 0.3);
 }
 

@@ -21,7 +21,8 @@ constexpr std::uint32_t kEndLitPaths[] = {
 };
 
 constexpr std::array kOwnParameters = {
-    ParameterInfo{"integrator", "", 1, 0, 1, true, "0 Euler, 1 Runge-Kutta of fourth order"},
+    ParameterInfo{"integrator", "", 1, 0, 3, true,
+                  "0 Euler, 1 Runge-Kutta of fourth order, 2 leapfrog of second, 3 Nystrom of fourth"},
     ParameterInfo{"step", "voxels", 0.5, 0.01, 8, false, "length of a step along view rays"},
     ParameterInfo{"max-steps", "", 8192, 1, 60000, true, "steps of a view ray from one box or surface to the next"},
     ParameterInfo{

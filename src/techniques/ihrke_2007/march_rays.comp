@@ -7,8 +7,8 @@
 #include "techniques/visibility_layers/path_walk.glsl"
 #include "techniques/visibility_layers/path_light.glsl"
 
-// Those of visibility_bindings.glsl go up to 13.
-layout(constant_id = 15) const bool kRk4 = true;
+// Those of visibility_bindings.glsl go up to 14.
+layout(constant_id = 15) const uint kIntegrator = 1u;  // of optics/eikonal.glsl
 layout(constant_id = 16) const bool kAbsorbs = false;
 layout(constant_id = 17) const bool kBoundaries = false;      // some volume has surfaces, which reflect
 layout(constant_id = 18) const bool kScatters = false;
@@ -159,7 +159,7 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
             if (until_surface <= kStep) inside = false;
             until_surface -= kStep;
         }
-        if (inside) next = kRk4 ? rk4_space_step(ray, kStep) : euler_space_step(ray, kStep);
+        if (inside) next = space_step(kIntegrator, ray, kStep);
         vec3 way = next.x - ray.x;
         clip_to_box(volume, ray.x, way, near, share);
         if (share < 1.0) {

@@ -1,0 +1,176 @@
+// Exact paths and path-traced pictures through volumes, against rays and integrals that are known.
+#include "built_scenes.h"
+#include "traced_scenes.h"
+
+#include <pellucid/reference.h>
+#include <pellucid/volume.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace pellucid::test {
+namespace {
+
+void add_volume(Scene& scene, Volume volume, const glm::mat4& world_from_volume = glm::mat4(1.0f)) {
+    VolumeObject object;
+    object.name = "volume";
+    object.volume = int(scene.volumes.size());
+    object.world_from_volume = world_from_volume;
+    scene.volumes.push_back(std::make_shared<const Volume>(std::move(volume)));
+    scene.volume_objects.push_back(object);
+}
+
+/// A cube of 2 m around the origin of what is the same everywhere.
+Volume even(glm::vec3 sigma_a, glm::vec3 emission, float n = 1.0f) {
+    Volume volume;
+    volume.size = glm::uvec3(8);
+    volume.low = glm::vec3(-1.0f);
+    volume.voxel = 0.25f;
+    volume.n.assign(volume.voxel_count(), n);
+    volume.sigma_a.assign(volume.voxel_count(), sigma_a);
+    volume.emission.assign(volume.voxel_count(), emission);
+    return volume;
+}
+
+std::vector<RefractedPath> exact(const Scene& scene, const Camera& camera, std::uint32_t size) {
+    return Tracer(scene, {}).exact(camera, {.width = size, .height = size});
+}
+
+glm::vec3 pixel(const Scene& scene, const Camera& camera, const Environment& environment, std::uint32_t samples) {
+    const Tracer tracer(scene, {});
+    const PathTracedImage image = tracer.path_trace(camera, environment, {.width = 1, .height = 1, .samples = samples});
+    return {image.radiance.pixels[0], image.radiance.pixels[1], image.radiance.pixels[2]};
+}
+
+/// Distance between a point and the line of a path's last piece.
+double distance_to_line(const RefractedPath& path, const glm::dvec3& point) {
+    return glm::length(glm::cross(point - glm::dvec3(path.position), glm::dvec3(path.direction)));
+}
+
+// Luneburg's lens of a radius of 60 voxels. Beyond the ball rays are straight, and the box is left after it, so the line
+// of the last piece passes the focus. The kink of the index at r = R is what cubics cannot follow.
+TEST(CurvedVolumes, LuneburgFocusesParallelRays) {
+    Scene scene;
+    add_volume(scene, make_volume("luneburg,resolution=120"));
+    const double voxel = double(scene.volumes[0]->voxel);
+    constexpr std::uint32_t kSize = 40;
+    const Camera camera = parallel_camera({0, 0, 0}, {0.0f, 0.0f, -1.0f}, 1.8f);
+    double squares = 0.0, largest = 0.0;
+    int counted = 0;
+    const std::vector<RefractedPath> paths = exact(scene, camera, kSize);
+    for (std::uint32_t i = 0; i < kSize * kSize; ++i) {
+        const glm::dvec2 film = (glm::dvec2(i % kSize, i / kSize) + 0.5) / double(kSize) * 1.8 - 0.9;
+        if (glm::length(film) > 0.9) continue;
+        const double miss = distance_to_line(paths[i], {0.0, 0.0, -1.0}) / voxel;
+        squares += miss * miss;
+        largest = std::max(largest, miss);
+        ++counted;
+        EXPECT_EQ(paths[i].events, 1);
+        EXPECT_EQ(paths[i].status, Status::kOk);
+    }
+    EXPECT_LT(std::sqrt(squares / counted), 0.05);
+    EXPECT_LT(largest, 0.2);
+    RecordProperty("rms_voxels", std::to_string(std::sqrt(squares / counted)));
+}
+
+// n = n0 + a y: v along x stays, and the ray is a catenary. Cubics are exact there.
+TEST(CurvedVolumes, LinearIndexBendsAlongACatenary) {
+    Scene scene;
+    add_volume(scene, make_volume("linear,size=2,n0=1.5,slope=0.3"),
+               glm::translate(glm::mat4(1.0f), glm::vec3(5.0f, 0.0f, 0.0f)));
+    const Camera camera = parallel_camera({0, 0, 0}, {1.0f, 0.0f, 0.0f}, 1.0f);
+    constexpr std::uint32_t kSize = 8;
+    const std::vector<RefractedPath> paths = exact(scene, camera, kSize);
+    for (std::uint32_t row = 0; row < kSize; ++row) {
+        const RefractedPath& path = paths[row * kSize + 3];
+        const double y = 0.5 - (row + 0.5) / kSize, n = 1.5 + 0.3 * y;
+        EXPECT_NEAR(double(path.direction.y / path.direction.x), std::sinh(0.6 / n), 1e-5);
+        EXPECT_NEAR(double(path.position.y), y + (n * std::cosh(0.6 / n) - n) / 0.3, 1e-5);
+        EXPECT_NEAR(double(path.position.x), 6.0, 1e-5);
+        EXPECT_NEAR(double(path.length), 14.0 + n / 0.3 * std::sinh(0.6 / n), 1e-5);  // arc of the catenary
+    }
+}
+
+TEST(CurvedVolumes, OneChannelForEachColour) {
+    Volume volume = make_volume("linear,size=2,n0=1.5,slope=0.3");
+    volume.n_red = volume.n_blue = volume.n;
+    for (float& n : volume.n_blue) n = 1.5f + 2.0f * (n - 1.5f);
+    Scene scene;
+    add_volume(scene, std::move(volume));
+    const Camera camera = parallel_camera({0, 0, 0}, {1.0f, 0.0f, 0.0f}, 1e-3f);
+    const Tracer tracer(scene, {});
+    for (const auto& [channel, slope] : {std::pair{0u, 0.3}, std::pair{2u, 0.6}}) {
+        const RefractedPath path = tracer.exact(camera, {.width = 1, .height = 1, .channel = channel}).front();
+        EXPECT_NEAR(double(path.direction.y / path.direction.x), std::sinh(2.0 * slope / 1.5), 1e-5);
+    }
+}
+
+TEST(CurvedVolumes, AbsorbAndEmit) {
+    const glm::vec3 sigma_a(0.5f, 1.0f, 0.0f), emission(0.0f, 2.0f, 3.0f);
+    const Camera camera = parallel_camera({0.01f, 0.02f, 0.0f}, {0.0f, 0.0f, -1.0f}, 1e-3f);
+    for (const float scale : {1.0f, 4.0f}) {  // a scale leaves what a ray loses and picks up
+        Scene scene;
+        add_volume(scene, even(sigma_a, emission, 1.3f), glm::scale(glm::mat4(1.0f), glm::vec3(scale)));
+        const RefractedPath path = exact(scene, camera, 1).front();
+        EXPECT_NEAR(path.length_inside, 2.0f * scale, 1e-5f);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(path.transmittance[c], std::exp(-2.0f * sigma_a[c]), 1e-6f);
+        const glm::vec3 seen = pixel(scene, camera, uniform(0.25f), 4);
+        for (int c = 0; c < 3; ++c) {
+            const float left = std::exp(-2.0f * sigma_a[c]);
+            const float added = sigma_a[c] > 0.0f ? emission[c] * (1.0f - left) / sigma_a[c] : 2.0f * emission[c];
+            EXPECT_NEAR(seen[c], 0.25f * left + added, 1e-5f) << scale << ", " << c;
+        }
+    }
+    Scene half;  // a wall in the middle
+    add_volume(half, even(sigma_a, emission));
+    Material paint;
+    paint.unlit = true;
+    add(half, square(), paint);
+    const RefractedPath path = exact(half, camera, 1).front();
+    EXPECT_EQ(path.object, 0);
+    EXPECT_NEAR(path.position.z, 0.0f, 1e-6f);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(path.transmittance[c], std::exp(-sigma_a[c]), 1e-6f);
+}
+
+// Glass of the volume's own index is not to be seen in it; a wall is met where the bent ray meets it.
+TEST(CurvedVolumes, SurfacesInVolumes) {
+    Scene scene;
+    add_volume(scene, even(glm::vec3(0.0f), glm::vec3(0.0f), 1.5f));
+    add(scene, with_flat_normals(cube(0.5f, {-0.2f, -0.3f, -0.1f})), glass(1.5f));
+    const Camera camera = parallel_camera({0.01f, 0.02f, 0.0f}, glm::normalize(glm::vec3(0.03f, 0.02f, -1.0f)), 0.3f);
+    for (const RefractedPath& path : exact(scene, camera, 8)) {
+        EXPECT_LT(glm::distance(path.direction, exact(scene, camera, 1).front().direction), 1e-6f);
+        EXPECT_EQ(path.status, Status::kOk);
+    }
+    Scene bent;
+    add_volume(bent, make_volume("linear,size=2,n0=1.5,slope=0.3"));
+    Material paint;
+    paint.unlit = true;
+    paint.double_sided = true;
+    add(bent, square(), paint, glm::rotate(glm::mat4(1.0f), 1.5707963f, glm::vec3(0, 1, 0)));  // in the plane x = 0
+    const Camera along = parallel_camera({0.0f, 0.1f, 0.01f}, {1.0f, 0.0f, 0.0f}, 1e-3f);
+    const RefractedPath path = exact(bent, along, 1).front();
+    const double n = 1.5 + 0.03;
+    EXPECT_EQ(path.object, 0);
+    EXPECT_NEAR(double(path.position.y), 0.1 + (n * std::cosh(0.3 / n) - n) / 0.3, 1e-4);
+}
+
+// The smaller of two boxes counts where they overlap: rays bend in it alone.
+TEST(CurvedVolumes, SmallerBoxesCount) {
+    Scene scene;
+    add_volume(scene, even(glm::vec3(1.0f), glm::vec3(0.0f)));
+    add_volume(scene, even(glm::vec3(0.0f), glm::vec3(0.0f)), glm::scale(glm::mat4(1.0f), glm::vec3(0.5f)));
+    const RefractedPath path =
+        exact(scene, parallel_camera({0.01f, 0.02f, 0.0f}, {0.0f, 0.0f, -1.0f}, 1e-3f), 1).front();
+    EXPECT_NEAR(path.transmittance.g, std::exp(-1.0f), 1e-5f);
+}
+
+}  // namespace
+}  // namespace pellucid::test
