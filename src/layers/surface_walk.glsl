@@ -17,7 +17,9 @@ const float kSlack = 1e-4;       // of a triangle's barycentric weights: rays th
 const float kFarthest = 1e30;
 // Nodes and records that a ray may look at in one pass: the software driver ends all loops of an invocation, without a
 // word, after 65,535 turns, and eight invocations at a time take the turns of each in step.
+const uint kMostTurns = 65535u, kTogether = 8u, kTurnsPerVisit = 2u;
 const uint kMostVisits = 8000u;
+uint most_visits = kMostVisits;
 
 struct MapRay {
     vec3 a, way;          // map space; from a on all of the way
@@ -98,11 +100,11 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
     float s = 0.0;
     ivec2 texel = ivec2(clamp(ray.a.xy, vec2(0.0), last_texel));
     int order = texel_order(map, texel);
-    while (s < 1.0 && visits < kMostVisits) {
+    while (s < 1.0 && visits < most_visits) {
         int low, high;
         float s_out;
         bool at_leaf = false;
-        while (s < 1.0 && !at_leaf && visits < kMostVisits) {
+        while (s < 1.0 && !at_leaf && visits < most_visits) {
             ++visits;
             int side = 1 << level;
             vec2 to_edge = (vec2((texel & -side) + (ahead & side)) - ray.a.xy) * inverse;
@@ -131,7 +133,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         uvec2 own = texelFetch(texels, int(map.first_head) + order).xy;
         uint block = own.x / kRangeBlock, end = (own.x + own.y + kRangeBlock - 1u) / kRangeBlock;
         visits += own.y;
-        if (visits > kMostVisits) break;
+        if (visits > most_visits) break;
         uint passed = 0u;  // of a block, those whose ranges the ray passes: a bit each
         for (;;) {
             while (passed == 0u && block < end) {
@@ -164,7 +166,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         texel = ivec2(clamp(ray.a.xy + s * ray.way.xy, vec2(0.0), last_texel));
         order = texel_order(map, texel);
     }
-    gave_up = hit.t == kFarthest && visits >= kMostVisits;
+    gave_up = hit.t == kFarthest && visits >= most_visits;
     return hit;
 }
 

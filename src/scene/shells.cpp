@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace pellucid {
@@ -38,6 +39,16 @@ std::vector<Leaf> leaves_at(std::span<const glm::vec3> positions, std::span<cons
         leaves.push_back({std::atan2(glm::dot(way, y), glm::dot(way, x)), side.forward, side.triangle});
     }
     std::sort(leaves.begin(), leaves.end(), [](const Leaf& l, const Leaf& m) { return l.angle < m.angle; });
+    // Counted from where no leaf is near: directions around half a turn may be rounded to either sign.
+    std::size_t first_leaf = 0;
+    double widest = leaves.front().angle + 2.0 * std::numbers::pi - leaves.back().angle;
+    for (std::size_t i = 1; i < leaves.size(); ++i) {
+        if (leaves[i].angle - leaves[i - 1].angle <= widest) continue;
+        widest = leaves[i].angle - leaves[i - 1].angle;
+        first_leaf = i;
+    }
+    for (std::size_t i = 0; i < first_leaf; ++i) leaves[i].angle += 2.0 * std::numbers::pi;
+    std::rotate(leaves.begin(), leaves.begin() + std::ptrdiff_t(first_leaf), leaves.end());
     // Of leaves in one direction those that end material come first: what touches is not one.
     for (std::size_t begin = 0, end; begin < leaves.size(); begin = end) {
         for (end = begin + 1; end < leaves.size() && leaves[end].angle - leaves[end - 1].angle < kSameAngle;) ++end;

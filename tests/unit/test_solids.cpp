@@ -54,6 +54,30 @@ TEST(Shells, WhatOnlyTouchesIsApart) {
     EXPECT_EQ(shells_of(joined(cube(), cube(1.0f, {1, 1, 1}))).count(), 2u) << "a corner in common";
 }
 
+// Whichever way the wall between two cubes lies, and however it is rounded.
+TEST(Shells, CubesFaceToFaceAreTwoHoweverTheyAreTurned) {
+    const Mesh pair = joined(cube(), recut(cube(1.0f, {1, 0, 0})));
+    for (int turn = 0; turn < 500; ++turn) {
+        const glm::vec3 axis(std::sin(1.3f * turn), std::cos(2.1f * turn), std::sin(0.7f * turn + 1.0f));
+        const glm::mat4 way =
+            glm::rotate(glm::mat4(1.0f), turn % 4 == 0 ? 1.5707964f * float(turn / 4) : 0.37f * float(turn),
+                        turn % 4 == 0 ? glm::vec3(turn % 3 == 0, turn % 3 == 1, turn % 3 == 2) : glm::normalize(axis));
+        Mesh turned = pair;
+        for (glm::vec3& p : turned.positions) p = glm::vec3(way * glm::vec4(p, 1.0f));
+        turned.positions = [&] {  // vertices of the wall are those of both
+            std::vector<glm::vec3> shared = turned.positions;
+            for (glm::vec3& p : shared)
+                for (const glm::vec3& q : turned.positions)
+                    if (glm::distance(p, q) < 1e-5f) {
+                        p = q;
+                        break;
+                    }
+            return shared;
+        }();
+        EXPECT_EQ(shells_of(turned).count(), 2u) << turn;
+    }
+}
+
 TEST(Shells, AreOpenOneByOne) {
     Mesh mesh = joined(cube(), cube(1.0f, {3, 0, 0}));
     mesh.triangles.pop_back();

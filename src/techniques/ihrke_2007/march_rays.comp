@@ -33,6 +33,7 @@ PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, 
 const float kBoundaryEnds = 0.02;    // of the boundary field: below it a ray is in no surface
 const float kLeastTurn = 1e-3;       // change of v in a surface that is none, or lies along the ray
 const float kAirIndex = 1.01;        // up to it a ray has left the glass
+const float kReachGrows = 4.0;       // how far surfaces are looked for, in the way since the last time
 const float kStraight = 1.0 - 1e-6;  // cosine up to which a ray still goes the way in which it has looked for surfaces
 
 // A surface in a volume is as thick as its index is smoothed. What it does is known once it lies behind: its normal is
@@ -119,11 +120,13 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
     ray.v *= n_entry;
     Boundary boundary = Boundary(false, vec3(0.0), vec3(0.0), 0.0, 0.0);
 
-    // Surfaces of objects are looked for along the ray as it goes, straight on, and again once it has turned.
-    float until_surface = kFarthest;  // voxels
+    // Surfaces of objects are looked for along the ray as it goes, straight on, and again once it has turned: the sooner
+    // that was, the less far.
+    float until_surface = kFarthest, since_look = 0.0, reach = kFarthest;  // voxels
     vec3 looked_along = vec3(0.0);
     float t_min = -coincidence, short_of = 0.5 * kApart * coincidence / volume.voxel;
     uint visits = 0u, steps = 0u;
+    most_visits = min(kMostVisits, (kMostTurns - min(kMostSteps, 60000u)) / (kTogether * kTurnsPerVisit));
     bool inside = true;
     bool in_air = has_mesh && !from_mesh;  // where a mesh says what the ray meets next
     for (; inside && steps < kMostSteps; ++steps) {
@@ -132,14 +135,19 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
         if (kSurfacesInside) {
             vec3 direction = normalize(ray.v);
             bool turned = dot(direction, looked_along) < kStraight || (until_surface < kStep && direction != looked_along);
-            if (in_air || turned) {
+            if (in_air || turned || since_look + kStep > reach) {
+                if (in_air) reach = kFarthest;
+                else if (looked_along != vec3(0.0)) reach = kReachGrows * max(since_look, max(kStep, 1.0));
+                walk_limit = min(reach * volume.voxel, kFarthest);
                 meets_replaced = in_air ? kMeetAll : has_mesh || proxy == 0u ? kMeetNone : kMeetEntering;
                 bool gave_up;
                 SurfaceHit hit = find_surface_among_objects((volume.world_from_voxel * vec4(ray.x, 1.0)).xyz,
                                                             world_from_voxel * direction, t_min, gave_up, visits);
+                walk_limit = kFarthest;
                 if (gave_up) steps = kMostSteps;
                 t_min = 0.0;
-                until_surface = max(hit.t, 0.0) / volume.voxel;
+                since_look = 0.0;
+                until_surface = hit.t < kFarthest ? max(hit.t, 0.0) / volume.voxel : kFarthest;
                 looked_along = direction;
                 // A surface that would be left is that of a hollow: its other side bends the ray by its voxels.
                 if (in_air && hit.t < kFarthest && hit.leaving && (hit.traits & kReplaced) != 0u) {
@@ -158,6 +166,7 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
             }
             if (until_surface <= kStep) inside = false;
             until_surface -= kStep;
+            since_look += kStep;
         }
         if (inside) next = space_step(kIntegrator, ray, kStep);
         vec3 way = next.x - ray.x;
