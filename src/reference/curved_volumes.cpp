@@ -167,9 +167,8 @@ struct CurvedVolumes::Placed {
     }
 };
 
-CurvedVolumes::CurvedVolumes(const Scene& scene) {
+CurvedVolumes::CurvedVolumes(const Scene& scene, const Geometry& geometry) {
     for (const VolumeObject& object : scene.volume_objects) {
-        if (!object.objects.empty()) continue;
         const std::shared_ptr<const Volume>& volume = scene.volumes[std::size_t(object.volume)];
         auto placed = std::make_shared<Placed>();
         placed->volume = volume;
@@ -180,16 +179,42 @@ CurvedVolumes::CurvedVolumes(const Scene& scene) {
         placed->voxel_from_world = glm::inverse(placed->world_from_voxel);
         placed->voxel = glm::length(glm::dvec3(placed->world_from_voxel[0]));
         placed->find_even_bricks();
-        placed_.push_back(std::move(placed));
+        if (object.objects.empty())
+            open_.push_back(std::move(placed));
+        else
+            held_[std::int32_t(geometry.solid_of(geometry.shell(std::uint32_t(object.objects.front()), 0)))].push_back(
+                std::move(placed));
     }
     const auto content = [](const Placed& p) { return p.size.x * p.size.y * p.size.z * p.voxel * p.voxel * p.voxel; };
-    std::stable_sort(placed_.begin(), placed_.end(),
-                     [&](const auto& a, const auto& b) { return content(*a) < content(*b); });
+    const auto sort = [&](List& list) {
+        std::stable_sort(list.begin(), list.end(),
+                         [&](const auto& a, const auto& b) { return content(*a) < content(*b); });
+    };
+    sort(open_);
+    for (auto& [solid, list] : held_) sort(list);
 }
 
-CurvedVolumes::Span CurvedVolumes::crossing(std::size_t volume, const glm::dvec3& origin,
-                                            const glm::dvec3& direction) const {
-    const Placed& placed = *placed_[volume];
+const CurvedVolumes::List& CurvedVolumes::volumes_of(std::int32_t solid) const {
+    static const List kNoVolumes;
+    if (solid == kAir) return open_;
+    const auto found = held_.find(solid);
+    return found == held_.end() ? kNoVolumes : found->second;
+}
+
+std::optional<double> CurvedVolumes::index_at(std::int32_t solid, const glm::dvec3& position, int channel) const {
+    if (solid == kAir) return std::nullopt;
+    for (const auto& placed : volumes_of(solid)) {
+        const glm::dvec3 x(placed->voxel_from_world * glm::dvec4(position, 1.0));
+        if (glm::any(glm::lessThan(x, glm::dvec3(-kLeastCrossing))) ||
+            glm::any(glm::greaterThan(x, placed->size + kLeastCrossing)))
+            continue;
+        return placed->index(x, channel).n;
+    }
+    return std::nullopt;
+}
+
+CurvedVolumes::Span CurvedVolumes::crossing(const Placed& placed, const glm::dvec3& origin,
+                                            const glm::dvec3& direction) {
     const glm::dvec3 x(placed.voxel_from_world * glm::dvec4(origin, 1.0));
     const glm::dvec3 d = glm::dmat3(placed.voxel_from_world) * direction;
     Span span{0.0, std::numeric_limits<double>::infinity()};
@@ -205,11 +230,12 @@ CurvedVolumes::Span CurvedVolumes::crossing(std::size_t volume, const glm::dvec3
     return span.far - span.near > kLeastCrossing * placed.voxel ? span : Span{};
 }
 
-std::size_t CurvedVolumes::next_volume(const glm::dvec3& origin, const glm::dvec3& direction, double& distance) const {
+std::size_t CurvedVolumes::next_volume(const List& volumes, const glm::dvec3& origin, const glm::dvec3& direction,
+                                       double& distance) {
     std::size_t found = kNone;
     distance = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
-        const Span span = crossing(i, origin, direction);
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        const Span span = crossing(*volumes[i], origin, direction);
         if (span.far > span.near && span.near < distance) {
             distance = span.near;
             found = i;
@@ -219,19 +245,25 @@ std::size_t CurvedVolumes::next_volume(const glm::dvec3& origin, const glm::dvec
 }
 
 bool CurvedVolumes::disperses() const {
-    return std::any_of(placed_.begin(), placed_.end(), [](const auto& p) { return !p->volume->n_red.empty(); });
+    const auto parts = [](const List& list) {
+        return std::any_of(list.begin(), list.end(), [](const auto& p) { return !p->volume->n_red.empty(); });
+    };
+    return parts(open_) ||
+           std::any_of(held_.begin(), held_.end(), [&](const auto& held) { return parts(held.second); });
 }
 
 bool CurvedVolumes::meets(const glm::dvec3& origin, const glm::dvec3& direction, double distance) const {
     double to_box = 0.0;
-    return next_volume(origin, direction, to_box) != kNone && to_box < distance;
+    return next_volume(open_, origin, direction, to_box) != kNone && to_box < distance;
 }
 
-CurvedVolumes::Flight CurvedVolumes::fly(const Geometry& geometry, Query& query, int channel) const {
+CurvedVolumes::Flight CurvedVolumes::fly(std::int32_t solid, const Geometry& geometry, Query& query,
+                                         int channel) const {
+    const List& volumes = volumes_of(solid);
     Flight flight;
     for (;;) {
         double to_box = 0.0;
-        const std::size_t volume = next_volume(query.origin, query.direction, to_box);
+        const std::size_t volume = next_volume(volumes, query.origin, query.direction, to_box);
         const double t_max = query.t_max;
         query.t_max = std::min(to_box, t_max);
         flight.hit = geometry.intersect(query);
@@ -242,13 +274,15 @@ CurvedVolumes::Flight CurvedVolumes::fly(const Geometry& geometry, Query& query,
         query.t_max -= to_box;
         flight.length += to_box;
         flight.met = true;
-        if (bend(volume, geometry, query, channel, flight)) return flight;
+        flight.ior = flight.basic = 1.0;
+        if (bend(volumes, volume, geometry, query, channel, flight)) return flight;
     }
 }
 
 /// From where a ray is in a box, to a surface (true), or to where it leaves the box.
-bool CurvedVolumes::bend(std::size_t own, const Geometry& geometry, Query& query, int channel, Flight& flight) const {
-    const Placed& placed = *placed_[own];
+bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& geometry, Query& query, int channel,
+                         Flight& flight) {
+    const Placed& placed = *volumes[own];
     const auto world = [&](const Values& s) {
         return glm::dvec3(placed.world_from_voxel * glm::dvec4(position_of(s), 1.0));
     };
@@ -275,7 +309,7 @@ bool CurvedVolumes::bend(std::size_t own, const Geometry& geometry, Query& query
         const glm::dvec3 origin = world(from);
         const double length = glm::length(way) * placed.voxel;
         for (std::size_t i = 0; i < own && length > 0.0; ++i) {
-            const Span span = crossing(i, origin, (world(to) - origin) / length);
+            const Span span = crossing(*volumes[i], origin, (world(to) - origin) / length);
             if (span.far > span.near) share = std::min(share, span.near / length);
         }
         leaves = share < 1.0;
@@ -318,6 +352,7 @@ bool CurvedVolumes::bend(std::size_t own, const Geometry& geometry, Query& query
                 flight.ior = placed.index(position_of(at), channel).n;
                 flight.basic = n * n / (flight.ior * flight.ior);
                 flight.length_inside += flight.hit.t;
+                flight.ends_inside = true;
                 add(at);
                 return true;
             }

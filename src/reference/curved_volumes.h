@@ -8,7 +8,10 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pellucid::reference {
@@ -22,16 +25,22 @@ namespace pellucid::reference {
 /// - Light crosses the faces of boxes straight on. Where boxes overlap the smaller counts.
 /// - What is scattered out of the way is lost; what is scattered into it is left out, and so is what surfaces of a
 ///   volume (Volume::boundary) reflect: a smooth index reflects nothing.
-/// - A volume that stands for objects is left out: they are there.
+/// - A volume that stands for objects of a solid is held by it: rays bend in it inside the solid, whose surfaces are sharp,
+///   and nowhere else.
 class CurvedVolumes {
 public:
     /// The scene's volumes must outlive this.
-    explicit CurvedVolumes(const Scene& scene);
+    CurvedVolumes(const Scene& scene, const Geometry& geometry);
 
-    bool empty() const { return placed_.empty(); }
+    bool empty() const { return open_.empty() && held_.empty(); }
+    /// Whether rays can bend there; `solid`: Geometry::solids(), or kAir.
+    bool bends_in(std::int32_t solid) const { return !volumes_of(solid).empty(); }
     bool disperses() const;  ///< some volume has an index per colour
 
-    /// A way in the open, from where a ray starts to the next surface.
+    /// Index of a solid that holds a volume; nothing where there is none.
+    std::optional<double> index_at(std::int32_t solid, const glm::dvec3& position, int channel) const;
+
+    /// A way in one medium, from where a ray starts to the next surface.
     struct Flight {
         Hit hit;                        ///< on the last, straight piece: from Query::origin along Query::direction
         double length = 0.0;            ///< m, before that piece
@@ -42,13 +51,14 @@ public:
         double basic = 1.0;             ///< n^2 at the face of the volume in which it ends, over n^2 where it ends
         bool met = false;               ///< some of it was in a volume
         bool stuck = false;             ///< a volume has caught the ray
+        bool ends_inside = false;       ///< the last piece is in a volume
         glm::dvec3 left_at{0.0};        ///< world, where the last volume was left
         double left_after = 0.0;        ///< m from the start to there
     };
     /// `channel`: kRed to kBlue. Leaves in `query` the last piece.
-    Flight fly(const Geometry& geometry, Query& query, int channel) const;
+    Flight fly(std::int32_t solid, const Geometry& geometry, Query& query, int channel) const;
 
-    /// Whether a straight way meets a box.
+    /// Whether a straight way in the open meets a box.
     bool meets(const glm::dvec3& origin, const glm::dvec3& direction, double distance) const;
 
 private:
@@ -56,12 +66,16 @@ private:
     struct Span {
         double near = 0.0, far = -1.0;  ///< m along a ray, from 0; none if far <= near
     };
-    struct State;
-    Span crossing(std::size_t volume, const glm::dvec3& origin, const glm::dvec3& direction) const;
-    std::size_t next_volume(const glm::dvec3& origin, const glm::dvec3& direction, double& distance) const;
-    bool bend(std::size_t own, const Geometry& geometry, Query& query, int channel, Flight& flight) const;
+    using List = std::vector<std::shared_ptr<const Placed>>;  ///< the smallest box first
+    const List& volumes_of(std::int32_t solid) const;
+    static Span crossing(const Placed& placed, const glm::dvec3& origin, const glm::dvec3& direction);
+    static std::size_t next_volume(const List& volumes, const glm::dvec3& origin, const glm::dvec3& direction,
+                                   double& distance);
+    static bool bend(const List& volumes, std::size_t own, const Geometry& geometry, Query& query, int channel,
+                     Flight& flight);
 
-    std::vector<std::shared_ptr<const Placed>> placed_;  ///< the smallest box first
+    List open_;
+    std::map<std::int32_t, List> held_;  ///< by solid
 };
 
 }  // namespace pellucid::reference

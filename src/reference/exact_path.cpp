@@ -4,6 +4,7 @@
 #include "reference/dielectric.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace pellucid::reference {
@@ -44,16 +45,23 @@ bool ExactPath::finish(Status status) {
     return false;
 }
 
-double ExactPath::ior(const MediumStack& at) const {
-    return at.solid() == kAir ? open_ior_ : at.medium().ior[channel_];
+double ExactPath::ior(const MediumStack& at, const glm::dvec3& position) const {
+    if (at.solid() == kAir) return open_ior_;
+    const std::optional<double> held =
+        volumes_ != nullptr ? volumes_->index_at(at.solid(), position, channel_) : std::nullopt;
+    return held.value_or(at.medium().ior[channel_]);
 }
 
 bool ExactPath::fly(const CurvedVolumes& volumes) {
-    if (inside_.solid() != kAir) return advance(geometry_.intersect(ray_));
-    const CurvedVolumes::Flight flight = volumes.fly(geometry_, ray_, channel_);
+    volumes_ = &volumes;
+    const std::int32_t solid = inside_.solid();
+    if (!volumes.bends_in(solid)) return advance(geometry_.intersect(ray_));
+    const CurvedVolumes::Flight flight = volumes.fly(solid, geometry_, ray_, channel_);
     if (flight.met) {
         standing_.clear();
         ray_.standing = standing_;
+    }
+    if (flight.met && solid == kAir) {
         crossed_volume_ = true;
         result_.position = glm::vec3(flight.left_at);
         result_.length = float(length_ + flight.left_after);
@@ -61,14 +69,15 @@ bool ExactPath::fly(const CurvedVolumes& volumes) {
     length_ += flight.length;
     length_inside_ += flight.length_inside;
     transmittance_ *= flight.transmittance;
-    open_ior_ = flight.ior;
+    if (solid == kAir) open_ior_ = flight.ior;
+    in_held_volume_ = solid != kAir && flight.ends_inside;
     return flight.stuck ? finish(Status::kStepLimit) : advance(flight.hit);
 }
 
 /// Goes straight on to what was met.
 void ExactPath::travel(const Hit& hit) {
     length_ += hit.t;
-    if (inside_.solid() != kAir) {
+    if (inside_.solid() != kAir && !std::exchange(in_held_volume_, false)) {
         length_inside_ += hit.t;
         transmittance_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
     }
@@ -82,7 +91,7 @@ void ExactPath::travel(const Hit& hit) {
 /// path through the triangle (1 to 4 in 100 reflections in scanned or modelled animals): it leaks out,
 /// and cross() puts it on the far side.
 void ExactPath::bend(const Hit& hit) {
-    const double n_i = ior(inside_), n_t = ior(beyond_);
+    const double n_i = ior(inside_, hit.position), n_t = ior(beyond_, hit.position);
     const glm::dvec3 outward = geometry_.shading_normal(hit);
     const glm::dvec3 normal = hit.crossing.sense == Sense::kEntering ? outward : -outward;
     const Incidence in = incidence(ray_.direction, normal, n_i, n_t);

@@ -31,7 +31,7 @@ private:
     void travel(const Hit& hit);
     bool cross(const Hit& hit);
     void bend(const Hit& hit);
-    double ior(const MediumStack& at) const;
+    double ior(const MediumStack& at, const glm::dvec3& position) const;
     bool finish(Status status);
 
     const Geometry& geometry_;
@@ -45,6 +45,8 @@ private:
     double length_ = 0.0, length_inside_ = 0.0;
     double open_ior_ = 1.0;  ///< of what is around all solids, at the origin
     bool crossed_volume_ = false;
+    bool in_held_volume_ = false;  ///< the last piece of the way was in the volume of a solid
+    const CurvedVolumes* volumes_ = nullptr;
     RefractedPath result_;
 };
 

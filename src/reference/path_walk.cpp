@@ -67,15 +67,20 @@ void PathWalk::start(const CameraRay& ray, const MediumStack& inside) {
 
 /// `caught`: a volume has kept the path.
 Hit PathWalk::next_surface(Random& random, bool& caught) {
-    if (world_.volumes.empty() || inside_.solid() != kAir) return world_.geometry.intersect(ray_);
+    const std::int32_t solid = inside_.solid();
+    in_held_volume_ = false;
+    if (!world_.volumes.bends_in(solid)) return world_.geometry.intersect(ray_);
     if (!channel_ && world_.volumes.disperses() &&
-        world_.volumes.meets(ray_.origin, ray_.direction, std::numeric_limits<double>::infinity()))
+        (solid != kAir || world_.volumes.meets(ray_.origin, ray_.direction, std::numeric_limits<double>::infinity())))
         choose_channel(random);
-    const CurvedVolumes::Flight flight = world_.volumes.fly(world_.geometry, ray_, channel_.value_or(kGreen));
+    const CurvedVolumes::Flight flight = world_.volumes.fly(solid, world_.geometry, ray_, channel_.value_or(kGreen));
     radiance_ += throughput_ * flight.emission;
     throughput_ *= flight.transmittance;
-    open_ior_ = flight.ior;
-    open_share_ = flight.basic;
+    if (solid == kAir) {
+        open_ior_ = flight.ior;
+        open_share_ = flight.basic;
+    }
+    in_held_volume_ = solid != kAir && flight.ends_inside;
     caught = flight.stuck;
     if (flight.met) {
         standing_.clear();
@@ -87,7 +92,7 @@ Hit PathWalk::next_surface(Random& random, bool& caught) {
 
 /// Goes straight on to what was met.
 void PathWalk::travel(const Hit& hit) {
-    if (inside_.solid() != kAir) throughput_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
+    if (inside_.solid() != kAir && !in_held_volume_) throughput_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
     ray_.origin = hit.position;
     ray_.t_max = std::numeric_limits<double>::infinity();  // the camera's planes cut off what it sees first
     world_.geometry.step_onto(hit, standing_);
@@ -191,8 +196,11 @@ bool PathWalk::meet_solid(const Hit& hit, Random& random) {
     const Medium here = inside_.medium(), there = beyond_.medium();
     if (!channel_ && (here.disperses() || there.disperses())) choose_channel(random);
     const int channel = channel_.value_or(kGreen);  // without dispersion all are alike
-    const double n_here = inside_.solid() == kAir ? open_ior_ : here.ior[channel];
-    const double n_there = beyond_.solid() == kAir ? open_ior_ : there.ior[channel];
+    const auto ior = [&](const MediumStack& at) {
+        if (at.solid() == kAir) return open_ior_;
+        return world_.volumes.index_at(at.solid(), interface.position, channel).value_or(at.medium().ior[channel]);
+    };
+    const double n_here = ior(inside_), n_there = ior(beyond_);
     return scatter(vertex, InterfaceBsdf(n_here, n_there, roughness_at(vertex), tint), random);
 }
 

@@ -108,7 +108,8 @@ private:
     /// Density, per steradian, with which the last surface that scattered chose the ray's direction; 0 if
     /// no source can choose this path.
     double pdf_ = 0.0;
-    double open_ior_ = 1.0;  ///< of what is around all solids, at the ray's origin
+    bool in_held_volume_ = false;  ///< the last piece of the way was in the volume of a solid
+    double open_ior_ = 1.0;        ///< of what is around all solids, at the ray's origin
     double open_share_ =
         1.0;  ///< and of what is emitted there, the share that arrives where the path entered the volume
 };

@@ -8,6 +8,7 @@
 #include <tbb/info.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace pellucid {
 
@@ -15,7 +16,7 @@ struct Tracer::Impl {
     const Scene& scene;
     std::uint32_t threads;
     reference::Geometry geometry;
-    reference::CurvedVolumes volumes;
+    std::optional<reference::CurvedVolumes> volumes;
 };
 
 namespace {
@@ -30,8 +31,9 @@ TracerOptions within_cores(TracerOptions options) {
 }  // namespace
 
 Tracer::Tracer(const Scene& scene, const TracerOptions& options)
-    : impl_(new Impl{scene, within_cores(options).threads, reference::Geometry(scene, within_cores(options)),
-                     reference::CurvedVolumes(scene)}) {}
+    : impl_(new Impl{scene, within_cores(options).threads, reference::Geometry(scene, within_cores(options)), {}}) {
+    impl_->volumes.emplace(scene, impl_->geometry);
+}
 Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
@@ -41,12 +43,12 @@ std::uint32_t Tracer::threads() const { return impl_->threads; }
 
 std::vector<RefractedPath> Tracer::exact(const Camera& camera, const ExactSettings& settings,
                                          const Progress& progress) const {
-    return reference::trace_exact(impl_->geometry, impl_->volumes, camera, settings, impl_->threads, progress);
+    return reference::trace_exact(impl_->geometry, *impl_->volumes, camera, settings, impl_->threads, progress);
 }
 
 PathTracedImage Tracer::path_trace(const Camera& camera, const Environment& environment,
                                    const PathTraceSettings& settings, const Progress& progress) const {
-    return reference::trace_paths(impl_->geometry, impl_->volumes, impl_->scene, camera, environment, settings,
+    return reference::trace_paths(impl_->geometry, *impl_->volumes, impl_->scene, camera, environment, settings,
                                   impl_->threads, progress);
 }
 

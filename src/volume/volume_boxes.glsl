@@ -1,7 +1,8 @@
 #ifndef PELLUCID_VOLUME_VOLUME_BOXES_GLSL
 #define PELLUCID_VOLUME_VOLUME_BOXES_GLSL
 
-// Where the boxes of placed volumes lie. Needs: volumes (VolumeRecord[], boxes of less content first), volume_count.
+// Where the boxes of placed volumes lie. Needs: volumes (VolumeRecord[], boxes of less content first), volume_count,
+// kSharpInterfaces.
 
 #include "volume/box.glsl"
 
@@ -11,11 +12,18 @@ vec3 voxel_position(VolumeRecord volume, vec3 world) { return (volume.voxel_from
 // Of a unit direction, a unit direction.
 vec3 voxel_direction(VolumeRecord volume, vec3 world) { return mat3(volume.voxel_from_world) * world * volume.voxel; }
 
+// Which volumes a ray can meet: where solids hold some, those in these solids, and elsewhere the others.
+const uint kAnyVolume = 0u, kFreeVolume = 1u, kHeldVolume = 2u;
+uint volumes_of(bool in_holder, uint proxy_mode) {
+    return proxy_mode != kSharpInterfaces ? kAnyVolume : in_holder ? kHeldVolume : kFreeVolume;
+}
+
 // The volume that a straight ray meets next, the smallest of those that it is in, and how far away it is, m.
-uint next_volume(vec3 position, vec3 direction, out float distance_m) {
+uint next_volume(vec3 position, vec3 direction, uint of_kind, out float distance_m) {
     uint found = kNoVolume;
     distance_m = 1e30;
     for (uint i = 0u; i < volume_count; ++i) {
+        if (of_kind != kAnyVolume && ((volumes[i].flags & kMeshVolume) != 0u) != (of_kind == kHeldVolume)) continue;
         float near, far;
         clip_to_box(volumes[i], voxel_position(volumes[i], position), voxel_direction(volumes[i], direction), near, far);
         if (far - near > kLeastCrossing && near * volumes[i].voxel < distance_m) {

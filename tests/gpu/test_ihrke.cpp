@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <tuple>
 
 namespace pellucid::test {
 namespace {
@@ -91,7 +92,8 @@ double share_that_differs(const Image& a, const Image& b, float least) {
 // Without volumes the technique is visibility-cube, from the eye on instead of from the first layer.
 TEST_F(Ihrke, WithoutVolumesSurfacesAreThoseOfVisibilityCube) {
     set(glass_among_things(), Environment{});
-    const RenderResult without = draw("visibility-cube", {{"branches", 4}}), with = draw("ihrke-2007", {{"voxelize", 0}});
+    const RenderResult without = draw("visibility-cube", {{"branches", 4}}),
+                       with = draw("ihrke-2007", {{"voxelize", 0}});
     int differ = 0, glass_pixels = 0;
     for (std::size_t i = 0; i < with.paths.size(); ++i) {
         if (without.paths[i].events == 0) continue;
@@ -233,6 +235,53 @@ TEST_F(Ihrke, RaysEnterSharperAtTheMesh) {
     EXPECT_GT(covered[0], 1500);
     EXPECT_LT(mean[1], 0.75 * mean[0]);  // the way out is as smooth as before
     RecordProperty("mean error, degrees", fmt::format("{:.3f} without, {:.3f} with the mesh", mean[0], mean[1]));
+}
+
+/// An index that falls from the middle of a ball to its surface, and on beyond it.
+Volume graded(float middle, float fall, unsigned resolution = 64) {
+    Volume volume = even_cube(1.1f, resolution);
+    for (unsigned z = 0; z < resolution; ++z)
+        for (unsigned y = 0; y < resolution; ++y)
+            for (unsigned x = 0; x < resolution; ++x) {
+                const glm::vec3 at = volume.low + volume.voxel * (glm::vec3(x, y, z) + 0.5f);
+                volume.n.push_back(middle - fall * glm::dot(at, at));
+            }
+    return volume;
+}
+
+// Sharp interfaces: light crosses the mesh by Snell's law, with the index that the volume has there, and bends inside.
+TEST_F(Ihrke, SharpInterfacesHoldVolumes) {
+    for (const auto& [name, middle, fall] :
+         {std::tuple{"even", 1.5f, 0.0f}, std::tuple{"graded", 1.8f, 0.3f}, std::tuple{"hollowed", 1.2f, -0.5f}}) {
+        Scene scene;
+        add(scene, shape("sphere,segments=128"), glass(1.5f));
+        add(scene, shape("cube"), painted({0.1f, 0.8f, 0.2f}), at({0.3f, -0.2f, 0.1f}, 0.15f));
+        place(scene, graded(middle, fall));
+        scene.volume_objects.back().objects = {0};
+        set(scene);
+        const auto exact = [&](glm::dvec2 shift) {
+            return renderer().tracer().exact(camera_, {.width = kSize, .height = kSize, .shift_px = shift});
+        };
+        const std::vector<RefractedPath> truth = exact({0, 0}), right = exact({0.1, 0}), down = exact({0, 0.1});
+        const RenderResult found = draw("ihrke-2007", {{"interfaces", 1}});
+        int stable = 0, same = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            const auto near = [&](const RefractedPath& path) {
+                return path.object == truth[i].object && angle_deg(path.direction, truth[i].direction) < 1.0;
+            };
+            if (truth[i].events == 0 || !near(right[i]) || !near(down[i])) continue;
+            ++stable;
+            same += near(found.paths[i]) ? 1 : 0;
+        }
+        EXPECT_GT(stable, 2000) << name;
+        EXPECT_GE(same, 0.995 * stable) << name;  // what float cannot tell from another path
+        RecordProperty(name, fmt::format("{} of {} stable pixels", same, stable));
+        // Nothing absorbs, so the ball is invisible; the cube is not lit and shows its colour.
+        const Image image = draw("ihrke-2007", {{"interfaces", 1}, {"branches", 4}}).radiance;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            if (truth[i].object < 0 && found.paths[i].object < 0) EXPECT_LT(image.pixels[3 * i], 1.001f) << name;
+        }
+    }
 }
 
 // Nothing absorbs: where light is the same from everywhere, a volume with surfaces is invisible.

@@ -1,5 +1,6 @@
 // Exact paths and path-traced pictures through volumes, against rays and integrals that are known.
 #include "built_scenes.h"
+#include "closed_form/solid_file.h"
 #include "traced_scenes.h"
 
 #include <pellucid/reference.h>
@@ -170,6 +171,79 @@ TEST(CurvedVolumes, SmallerBoxesCount) {
     const RefractedPath path =
         exact(scene, parallel_camera({0.01f, 0.02f, 0.0f}, {0.0f, 0.0f, -1.0f}, 1e-3f), 1).front();
     EXPECT_NEAR(path.transmittance.g, std::exp(-1.0f), 1e-5f);
+}
+
+/// An index that falls from the middle of a ball to its surface, on beyond it.
+Volume graded(float middle, float fall, unsigned resolution = 64) {
+    Volume volume;
+    volume.size = glm::uvec3(resolution);
+    volume.low = glm::vec3(-1.1f);
+    volume.voxel = 2.2f / float(resolution);
+    for (unsigned z = 0; z < resolution; ++z)
+        for (unsigned y = 0; y < resolution; ++y)
+            for (unsigned x = 0; x < resolution; ++x) {
+                const glm::vec3 at = volume.low + volume.voxel * (glm::vec3(x, y, z) + 0.5f);
+                volume.n.push_back(middle - fall * glm::dot(at, at));
+            }
+    return volume;
+}
+
+/// A solid of glass that holds a volume.
+Scene holding(Volume volume, const Material& material = glass()) {
+    Scene scene = scene_of(ball_mesh(5), material);
+    add_volume(scene, std::move(volume));
+    scene.volume_objects.back().objects = {0};
+    return scene;
+}
+
+// Of the glass's own index, the volume changes nothing; its absorption takes the place of the glass's.
+TEST(CurvedVolumes, SolidsHoldVolumes) {
+    const Camera camera = parallel_camera({0, 0, 0}, {0.0f, 0.1f, -1.0f}, 2.1f);
+    const std::vector<RefractedPath> plain = exact(scene_of(ball_mesh(5)), camera, 24);
+    const std::vector<RefractedPath> held = exact(holding(graded(1.5f, 0.0f)), camera, 24);
+    int through = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        EXPECT_EQ(plain[i].events, held[i].events) << i;
+        EXPECT_LT(glm::distance(plain[i].direction, held[i].direction), 1e-5f) << i;
+        EXPECT_NEAR(plain[i].length_inside, held[i].length_inside, 1e-4f) << i;
+        through += plain[i].events > 0 ? 1 : 0;
+    }
+    EXPECT_GT(through, 300);
+
+    Volume dark = graded(1.5f, 0.0f);
+    dark.sigma_a.assign(dark.voxel_count(), glm::vec3(0.0f, 0.7f, 0.0f));
+    Material absorbing = glass();
+    absorbing.attenuation_color = glm::vec3(0.5f);
+    absorbing.attenuation_distance = 0.1f;
+    const std::vector<RefractedPath> absorbed = exact(holding(std::move(dark), absorbing), camera, 24);
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        if (plain[i].events == 0) continue;
+        EXPECT_NEAR(absorbed[i].transmittance.r, plain[i].transmittance.r, 1e-4f) << i;
+        EXPECT_NEAR(absorbed[i].transmittance.g, plain[i].transmittance.g * std::exp(-0.7f * plain[i].length_inside),
+                    1e-4f)
+            << i;
+    }
+}
+
+// In a field of which the centre is that of the ball, n r sin(angle) stays (Bouguer): what enters leaves at the same angle.
+TEST(CurvedVolumes, GradedBallsBendAsBouguerSays) {
+    const Scene scene = holding(graded(1.8f, 0.3f));
+    constexpr std::uint32_t kSize = 24;
+    const Camera camera = parallel_camera({0, 0, 0}, {0.0f, 0.0f, -1.0f}, 2.1f);
+    const std::vector<RefractedPath> paths = exact(scene, camera, kSize);
+    int through = 0;
+    for (const RefractedPath& path : paths) {
+        if (path.events != 2 || path.reflections != 0) continue;
+        const glm::dvec2 film =
+            (glm::dvec2((&path - paths.data()) % kSize, (&path - paths.data()) / kSize) + 0.5) / double(kSize) * 2.1 -
+            1.05;
+        const double impact = glm::length(film);
+        if (impact > 0.95) continue;
+        ++through;
+        const double out = glm::length(glm::cross(glm::dvec3(path.position), glm::dvec3(path.direction)));
+        EXPECT_NEAR(out, impact, 2e-3);  // balls of triangles
+    }
+    EXPECT_GT(through, 200);
 }
 
 }  // namespace

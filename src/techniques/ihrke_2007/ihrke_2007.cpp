@@ -16,6 +16,10 @@ constexpr std::uint32_t kMarchRays[] = {
 #include "march_rays.comp.inc"
 };
 
+constexpr std::uint32_t kFollowHeldPaths[] = {
+#include "follow_held_paths.comp.inc"
+};
+
 constexpr std::uint32_t kEndLitPaths[] = {
 #include "end_lit_paths.comp.inc"
 };
@@ -28,6 +32,10 @@ constexpr std::array kOwnParameters = {
     ParameterInfo{
         "proxy", "", 1, 0, 1, true,
         "1: view rays enter a volume that stands for a mesh at the mesh; 0: the voxels alone say where it is"},
+    ParameterInfo{
+        "interfaces", "", 0, 0, 1, true,
+        "of volumes that stand for meshes: 0 smooth, the voxels alone bend light, as in the paper; 1 sharp, the "
+        "index holds up to the mesh and light crosses that by Snell's law"},
     ParameterInfo{"voxelize", "", -1, -1, 1, true,
                   "1: solids of glass become a volume; 0: they stay surfaces; -1: a volume where the scene has none"},
     ParameterInfo{"voxels", "", 128, 8, 2048, true, "along the longest side of the volume that glass becomes"},
@@ -61,7 +69,7 @@ public:
     const Buffer& records() const override { return images_.records; }
     void set(PathPush& push) const override {
         push.volume_count = images_.count;
-        push.proxy = parameters_.whole("proxy");
+        push.proxy = sharp() ? kSharpInterfaces : parameters_.whole("proxy");
         if (!volumes_.lit()) return;
         push.light_count = volumes_.light_count();
         push.receiver_count = std::uint32_t(volumes_.light_volumes().receiver_list.size());
@@ -93,14 +101,21 @@ public:
                                        std::span<const Binding>(bindings), pass.push, entering);
     }
 
-    std::optional<LitEnd> lit_end() const override {
+    std::optional<Variant> held_follow() const override {
+        if (!sharp()) return std::nullopt;
+        return Variant{{"follow_held_paths.comp", kFollowHeldPaths}, {reads("volume_index", images_.index)}};
+    }
+
+    std::optional<Variant> lit_end() const override {
         if (!volumes_.lit()) return std::nullopt;
-        LitEnd end{{"end_lit_paths.comp", kEndLitPaths}, light_bindings()};
+        Variant end{{"end_lit_paths.comp", kEndLitPaths}, light_bindings()};
         end.bindings.push_back(reads("Lights", volumes_.lights()));
         return end;
     }
 
 private:
+    static constexpr std::uint32_t kSharpInterfaces = 2;  // of volume_boxes.glsl
+    bool sharp() const { return parameters_["interfaces"] != 0.0; }
     /// Of light_bindings.glsl. Where no light was traced something of the right kind stands in.
     std::vector<Binding> light_bindings() const {
         const LightVolumes& light = volumes_.light_volumes();
@@ -127,7 +142,8 @@ void prepare(const Preparation& preparation, const ParameterValues& parameters) 
     const double given = parameters["voxelize"];
     const bool wanted = given >= 0.0 ? given > 0.0 : preparation.scene.volume_objects.empty();
     std::optional<VoxelSettings> voxels;
-    if (wanted && !gpu_scene.refractive.empty())
+    // With sharp interfaces glass of one index is what its surfaces are.
+    if (wanted && parameters["interfaces"] == 0.0 && !gpu_scene.refractive.empty())
         voxels = VoxelSettings{.resolution = parameters.whole("voxels"), .smoothing = float(parameters["smoothing"])};
     volumes_of(gpu_scene).bring_up_to_date(preparation.scene, gpu_scene, voxels);
 }

@@ -114,7 +114,8 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
     CurvedRay ray;
     ray.x = clamp(voxel_position(volume, path.position), vec3(0.0), volume.size);
     ray.v = voxel_direction(volume, path.direction);
-    bool has_mesh = proxy != 0u && (volume.flags & kMeshVolume) != 0u;
+    bool is_held = proxy == kSharpInterfaces && (volume.flags & kMeshVolume) != 0u;
+    bool has_mesh = proxy == 1u && (volume.flags & kMeshVolume) != 0u;
     if (kSurfacesInside && has_mesh && from_mesh) pass_entry(ray, ray.v);
     float n_entry = index_field(ray.x).w;
     ray.v *= n_entry;
@@ -164,7 +165,10 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
                 ray = next;
                 break;
             }
-            if (until_surface <= kStep) inside = false;
+            if (until_surface <= kStep) {  // straight to the surface, and turned as much as on the curve
+                inside = false;
+                next.v = space_step(kIntegrator, ray, distance(next.x, ray.x)).v;
+            }
             until_surface -= kStep;
             since_look += kStep;
         }
@@ -192,7 +196,7 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
             add_light(texel, path.transmittance * sqrt(left) * (n_entry * n_entry / dot(ray.v, ray.v)) * added * travelled);
         }
         path.transmittance *= left;
-        if (kBoundaries) {
+        if (kBoundaries && !is_held) {
             if (passes_boundary(boundary, absorption.a, inside)) {
                 boundary.open = false;
                 leave_boundary(i, path, boundary, next.v, volume, world_from_voxel);
@@ -216,12 +220,12 @@ void main() {
     Path path = load_path(i);
     mark &= ~kEntersVolume;
     bool from_mesh = in_replaced(filling_body());
-    if (from_mesh) {
+    if (from_mesh && proxy != kSharpInterfaces) {
         for (uint w = 0u; w < kMediumWords; ++w) media[w] = 0u;  // from here on the volume knows what is there
         standing = PELLUCID_NO_TRIANGLE;
     }
     float straight;
-    uint own = next_volume(path.position, path.direction, straight);
+    uint own = next_volume(path.position, path.direction, volumes_of(from_mesh, proxy), straight);
     bool goes_on = own == kNoVolume || march(texel, i, own, from_mesh, path);
     if (!goes_on) path.status = kStatusStepLimit;
     save_path(i, path);

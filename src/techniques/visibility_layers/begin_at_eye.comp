@@ -34,11 +34,11 @@ void main() {
     uint first = imageLoad(layer_triangle, at).r;
     bool begins = in_medium;
     if (first != PELLUCID_NO_TRIANGLE)
-        begins = begins || !kVolumes || (traits[object_of(triangle_index(first))] & kReplaced) == 0u;
+        begins = begins || !kVolumes || proxy == kSharpInterfaces || (traits[object_of(triangle_index(first))] & kReplaced) == 0u;
     if (kVolumes) {
         float straight, opaque = imageLoad(opaque_depth, at).r;
         begins = begins || (light_count > 0u && opaque < PELLUCID_EMPTY_DEPTH);  // drawn without lights so far
-        begins = begins || (next_volume(path.position, path.direction, straight) != kNoVolume && straight * along_axis < opaque);
+        begins = begins || (next_volume(path.position, path.direction, volumes_of(false, proxy), straight) != kNoVolume && straight * along_axis < opaque);
     }
     bool shades = whole_picture != 0u && begins;
     imageStore(path_radiance, at, vec4(0.0, 0.0, 0.0, shades || ((kStochastic || kTree) && begins) ? 1.0 : 0.0));

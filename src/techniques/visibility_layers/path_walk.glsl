@@ -53,7 +53,7 @@ bool can_meet(uint traits, bool leaving, uint triangle) {
     }
     if (kTouching && looks_for == kFindShells && !closed_shell) return false;
     if (kTouching && looks_for == kFindOpaque && (traits & kKindMask) != kOpaqueKind) return false;
-    if (kVolumes && (traits & kReplaced) != 0u)
+    if (kVolumes && proxy != kSharpInterfaces && (traits & kReplaced) != 0u)
         return meets_replaced == kMeetAll || (meets_replaced == kMeetEntering && !leaving && triangle != standing);
     if (crosses_itself) return triangle != standing && !is_in(crossed_here, slot_of(traits));
     if (!closed_shell) return triangle != standing && !(leaving && (traits & kSingleSided) != 0u);

@@ -38,7 +38,8 @@ layout(push_constant) uniform Push {
     float coincidence;     // m: by so much the places of surfaces are uncertain
     uint closing;          // 1: the last pass; all that waits ends where it is
     uint volume_count;
-    uint proxy;            // 1: rays enter what a volume stands for at its surface; 0: it is as if that were not there
+    uint proxy;            // 1: rays enter what a volume stands for at its surface; 0: it is as if that were not there;
+                           // kSharpInterfaces: solids hold volumes, whose index holds up to their surfaces
     uint light_count;      // of the scene, 0 where they are not drawn
     uint receiver_count;   // of light that went through volumes
     uint whole_picture;    // 1: paths start at the eye and shade all that they meet, the first surface included
@@ -46,6 +47,8 @@ layout(push_constant) uniform Push {
     float eye_depth;       // m, of the plane on which rays start
     float largest_contact; // m, see contact_distance()
 };
+
+const uint kSharpInterfaces = 2u;
 
 uint object_of(uint triangle) { return kOneObject ? 0u : find_object(triangle); }
 

@@ -210,12 +210,16 @@ private:
     void follow(std::uint32_t pass, const Buffer& entering) {
         const Buffer& list = *next_;
         next_ = &start_pixel_list(recorder_, frame_, pass % 2 == 0 ? "paths 1" : "paths 0");
-        const std::vector<Binding> bindings =
+        std::vector<Binding> bindings =
             walking(this->pass(), {reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
                                    reads("Boxes", topology_.boxes), reads("Volumes", volume_records()),
                                    updates("EnteringList", entering)});
-        recorder_.compute_indirect(program({"follow_paths.comp", kFollowPaths}), std::span<const Binding>(bindings),
-                                   push_, list);
+        ShaderCode shader{"follow_paths.comp", kFollowPaths};
+        if (const auto held = volumes_ != nullptr ? volumes_->held_follow() : std::nullopt) {
+            shader = held->shader;
+            bindings.insert(bindings.end(), held->bindings.begin(), held->bindings.end());
+        }
+        recorder_.compute_indirect(program(shader), std::span<const Binding>(bindings), push_, list);
     }
 
     void end(const Buffer& list, bool closing) {

@@ -63,12 +63,15 @@ public:
     virtual void set(PathPush& push) const = 0;
     /// Takes the paths of `entering` through volumes; into `next` or, where they end, `ended`.
     virtual void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const = 0;
-    /// Of the program that ends paths where lights shine on what they end on; none where there are no lights.
-    struct LitEnd {
+    /// A program that takes another's place.
+    struct Variant {
         ShaderCode shader;
         std::vector<Binding> bindings;  ///< besides those that it has otherwise
     };
-    virtual std::optional<LitEnd> lit_end() const = 0;
+    /// Of the program that ends paths where lights shine on what they end on; none where there are no lights.
+    virtual std::optional<Variant> lit_end() const = 0;
+    /// Of the program that takes paths from surface to surface, where solids hold volumes.
+    virtual std::optional<Variant> held_follow() const = 0;
 };
 
 /// Texels of a mesh's maps along the longest side of its box, unless a parameter says otherwise.
