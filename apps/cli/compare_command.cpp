@@ -99,13 +99,20 @@ NamedTechnique truth_for(Comparison& comparison, const std::string& name, const 
     return truth_named("path");
 }
 
+void add_warnings(Comparison& comparison, const std::string& scene, const std::string& technique,
+                  const RenderResult& result) {
+    for (const std::string& warning : result.warnings) {
+        const bool named = warning.starts_with(technique + ": ");
+        comparison.warnings.insert(fmt::format("{}: {}{}", scene, named ? "" : technique + ": ", warning));
+    }
+}
+
 nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedView& view,
                                          const NamedTechnique& technique) {
     RenderSettings settings = settings_for(comparison, technique);
     settings.paths = true;
     const RenderResult result = comparison.renderer.render(settings);
-    for (const std::string& warning : result.warnings)
-        comparison.warnings.insert(fmt::format("{}: {}: {}", view.scene, technique.name, warning));
+    add_warnings(comparison, view.scene, technique.name, result);
 
     const Judgement judgement = judge(view.exact, result.paths);
     const Image flip = flip_ldr(view.truth.display, result.display);
@@ -161,8 +168,7 @@ ComparedView exact_view(Comparison& comparison, const std::string& name, const S
     settings = settings_of_truth(comparison, truth_for(comparison, name, scene));
     settings.progress = bar.progress();
     view.truth = comparison.renderer.render(settings);
-    for (const std::string& warning : view.truth.warnings)
-        comparison.warnings.insert(fmt::format("{}: {}: {}", name, settings.technique, warning));
+    add_warnings(comparison, name, settings.technique, view.truth);
     if (comparison.report) comparison.report->add_picture({name, index, ""}, PictureKind::kImage, view.truth.display);
     return view;
 }

@@ -21,7 +21,7 @@ struct Case {
     glm::vec4 position, direction;
 };
 struct Answer {
-    glm::vec4 field;
+    glm::vec4 field, cubic;
     glm::vec4 x[6], v[6];
 };
 
@@ -67,9 +67,34 @@ struct VoxelField {
             sum.gradient += weight * at.gradient;
             sum.n += weight * at.n;
         }
+        for (int k = 0; k < 3; ++k)
+            if (x[k] < 0.5 || x[k] > double(volume.size[k]) - 0.5) sum.gradient[k] = 0.0;
         return sum;
     }
 };
+
+/// The same by Ferguson's cubics. The gradient is the value's, by differences.
+double cubic_index(const VoxelField& field, const glm::dvec3& x) {
+    const glm::dvec3 size(field.volume.size), position = glm::clamp(x - 0.5, glm::dvec3(0.0), size - 1.0);
+    const glm::dvec3 corner = glm::min(glm::floor(position), size - 2.0), w = position - corner;
+    const auto value = [&](int axis, int side) {
+        const double f = side == 1 ? w[axis] : 1.0 - w[axis];
+        return f * f * (3.0 - 2.0 * f);
+    };
+    const auto slope = [&](int axis, int side) {
+        const double f = w[axis];
+        return side == 1 ? f * f * (f - 1.0) : f * (1.0 - f) * (1.0 - f);
+    };
+    double sum = 0.0;
+    for (int k = 0; k < 8; ++k) {
+        const glm::ivec3 side(k & 1, k >> 1 & 1, k >> 2);
+        const IndexSample<double> at = field.voxel(glm::ivec3(corner) + side);
+        const double hx = value(0, side.x), hy = value(1, side.y), hz = value(2, side.z);
+        sum += hx * hy * hz * at.n + slope(0, side.x) * hy * hz * at.gradient.x +
+               hx * slope(1, side.y) * hz * at.gradient.y + hx * hy * slope(2, side.z) * at.gradient.z;
+    }
+    return sum;
+}
 
 class EikonalTwin : public DeviceTest {
 protected:
@@ -105,6 +130,15 @@ TEST_F(EikonalTwin, ShaderAgreesWithCpp) {
         const IndexSample<double> sample = field(x);
         EXPECT_NEAR(double(answers[i].field.w), sample.n, 1e-5);
         EXPECT_LT(glm::distance(glm::dvec3(answers[i].field), sample.gradient), 1e-5);
+        const bool within =
+            glm::all(glm::greaterThan(x, glm::dvec3(0.6))) && glm::all(glm::lessThan(x, glm::dvec3(volume.size) - 0.6));
+        EXPECT_NEAR(double(answers[i].cubic.w), cubic_index(field, x), 1e-5);
+        for (int k = 0; k < 3 && within; ++k) {
+            glm::dvec3 step(0.0);
+            step[k] = 1e-4;
+            EXPECT_NEAR(double(answers[i].cubic[k]),
+                        (cubic_index(field, x + step) - cubic_index(field, x - step)) / 2e-4, 1e-4);
+        }
         const double h = double(cases[i].position.w);
         CurvedRay<double> rays[6];
         std::fill_n(rays, 6, start_ray<double>(field, x, d));

@@ -25,9 +25,13 @@ constexpr std::uint32_t kEndLitPaths[] = {
 };
 
 constexpr std::array kOwnParameters = {
-    ParameterInfo{"integrator", "", 1, 0, 3, true,
+    ParameterInfo{"integrator", "", 3, 0, 3, true,
                   "0 Euler, 1 Runge-Kutta of fourth order, 2 leapfrog of second, 3 Nystrom of fourth"},
     ParameterInfo{"step", "voxels", 0.5, 0.01, 8, false, "length of a step along view rays"},
+    ParameterInfo{
+        "interpolation", "", 1, 0, 1, true,
+        "of the index along view rays: 0 linear, of index and gradient each, as in the paper; 1 cubic, with the "
+        "gradient of the index itself"},
     ParameterInfo{"max-steps", "", 8192, 1, 60000, true, "steps of a view ray from one box or surface to the next"},
     ParameterInfo{
         "proxy", "", 1, 0, 1, true,
@@ -95,7 +99,7 @@ public:
              {parameters_.whole("integrator"), flag(images_.absorbs), flag(images_.reflects), flag(images_.scatters),
               flag(images_.emits), flag(images_.disperses), flag(pass.frame.scene.object_count > 0),
               flag(images_.overlapping), std::bit_cast<std::uint32_t>(float(parameters_["step"])),
-              parameters_.whole("max-steps"), flag(volumes_.lit())})
+              parameters_.whole("max-steps"), flag(volumes_.lit()), parameters_.whole("interpolation")})
             constants.push_back(constant);
         pass.recorder.compute_indirect(pass.frame.workspace.compute({"march_rays.comp", kMarchRays}, constants),
                                        std::span<const Binding>(bindings), pass.push, entering);

@@ -18,12 +18,14 @@ layout(constant_id = 21) const bool kSurfacesInside = false;  // objects may lie
 layout(constant_id = 22) const bool kOverlapping = false;     // and volumes in volumes
 layout(constant_id = 25) const bool kLit = false;             // light was traced
 layout(constant_id = 23) const float kStep = 0.5;             // voxels
+layout(constant_id = 26) const bool kCubic = false;            // interpolation of the index
 layout(constant_id = 24) const uint kMostSteps = 8192u;       // from one surface or box to the next
 
 layout(set = 0, binding = 5) uniform texture3D volume_index;
 layout(set = 0, binding = 6) uniform texture3D volume_absorption;
 layout(set = 0, binding = 9) uniform texture3D volume_scattering;
 layout(set = 0, binding = 27) uniform texture3D volume_emission;
+#define PELLUCID_CUBIC_INDEX kCubic
 #include "volume/volume_field.glsl"
 #include "optics/eikonal.glsl"
 #include "techniques/ihrke_2007/light_bindings.glsl"
