@@ -40,12 +40,13 @@ bool is_stable(const closed_form::Scene& scene, const closed_form::View& view, i
     return true;
 }
 
-bool is_right(const closed_form::Path& truth, const RefractedPath& path) {
+bool is_right(const closed_form::Path& truth, const RefractedPath& path, Transmittance transmittance) {
     return path.status == Status::kOk && path.events == truth.events.size() &&
            path.reflections == truth.reflections() &&
            glm::dot(truth.direction, glm::normalize(glm::dvec3(path.direction))) > kCosDegree &&
-           glm::all(glm::lessThan(glm::abs(truth.transmittance - glm::dvec3(path.transmittance)),
-                                  glm::dvec3(2.0 * kTransmittance)));
+           (transmittance == Transmittance::kIsFree ||
+            glm::all(glm::lessThan(glm::abs(truth.transmittance - glm::dvec3(path.transmittance)),
+                                   glm::dvec3(2.0 * kTransmittance))));
 }
 
 }  // namespace
@@ -62,13 +63,13 @@ Truth trace_closed_form(const closed_form::Scene& scene, const closed_form::View
     return truth;
 }
 
-Agreement agreement(const Truth& truth, std::span<const RefractedPath> paths) {
+Agreement agreement(const Truth& truth, std::span<const RefractedPath> paths, Transmittance transmittance) {
     Agreement result;
     int shown = 0;
     for (std::size_t i = 0; i < truth.paths.size(); ++i) {
         if (truth.stable[i] == 0 || (truth.paths[i].events.empty() && paths[i].events == 0)) continue;
         ++result.stable;
-        if (is_right(truth.paths[i], paths[i])) {
+        if (is_right(truth.paths[i], paths[i], transmittance)) {
             ++result.right;
         } else if (shown++ < kShown) {
             result.wrong +=

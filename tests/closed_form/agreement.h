@@ -30,7 +30,11 @@ struct Agreement {
     std::string wrong;
     double share() const { return stable > 0 ? double(right) / stable : 1.0; }
 };
-Agreement agreement(const Truth& truth, std::span<const RefractedPath> paths);
+/// Whether transmittances must agree, too. Those of techniques that follow what is reflected do not where it carries too
+/// little for that: its light goes on with what is refracted.
+enum class Transmittance { kCounts, kIsFree };
+Agreement agreement(const Truth& truth, std::span<const RefractedPath> paths,
+                    Transmittance transmittance = Transmittance::kCounts);
 
 /// One line: events, reflections, direction, transmittance, status.
 std::string to_string(const RefractedPath& path);

@@ -30,7 +30,8 @@ inline std::uint32_t arrangements_to_try() {
 
 /// Right shares of arrangements whose seeds are spread over 0..499. A mean of 99.9% is asked for, and 99% where
 /// 1,000 pixels or more are stable: balls are made of triangles (OneBallOfTrianglesIsABall measures what that costs).
-inline void expect_agreement(const TraceArrangement& trace, std::uint32_t size) {
+inline void expect_agreement(const TraceArrangement& trace, std::uint32_t size,
+                             Transmittance transmittance = Transmittance::kCounts) {
     const std::uint32_t tries = arrangements_to_try();
     double sum = 0.0, lowest = 1.0;
     std::uint32_t counted = 0;
@@ -40,7 +41,8 @@ inline void expect_agreement(const TraceArrangement& trace, std::uint32_t size) 
         const Truth truth = trace_closed_form(closed_form_scene(arrangement), arrangement.view, int(size));
         const auto found_with = [&](int ball_levels) {
             return agreement(truth,
-                             trace(solid_file(arrangement, ball_levels).load(), camera_of(arrangement.view), size));
+                             trace(solid_file(arrangement, ball_levels).load(), camera_of(arrangement.view), size),
+                             transmittance);
         };
         Agreement found = found_with(5);
         if (found.share() < 0.99) found = found_with(6);  // many reflections in a ball: its triangles decide

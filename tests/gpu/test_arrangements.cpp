@@ -8,13 +8,14 @@ namespace {
 /// Each technique learns from one arrangement how much room paths need, so one renderer draws them all.
 class Arrangements : public RendererTest {
 protected:
-    TraceArrangement with(const std::string& technique) {
-        return [this, technique](const Scene& scene, const Camera& camera, std::uint32_t size) {
+    TraceArrangement with(const std::string& technique, const ParameterMap& parameters = {}) {
+        return [this, technique, parameters](const Scene& scene, const Camera& camera, std::uint32_t size) {
             renderer().set_scene(scene);
             renderer().set_camera(camera);
             RenderSettings settings;
             settings.width = settings.height = size;
             settings.technique = technique;
+            settings.parameters = parameters;
             settings.paths = true;
             return renderer().render(settings).paths;
         };
@@ -23,6 +24,11 @@ protected:
 
 TEST_F(Arrangements, VisibilityLayersAgreesWithClosedForms) { expect_agreement(with("visibility-layers"), 64); }
 TEST_F(Arrangements, VisibilityCubeAgreesWithClosedForms) { expect_agreement(with("visibility-cube"), 64); }
+
+// As surfaces: voxels have neither of a scene's details.
+TEST_F(Arrangements, IhrkeAgreesWithClosedForms) {
+    expect_agreement(with("ihrke-2007", {{"voxelize", 0}}), 64, Transmittance::kIsFree);
+}
 
 TEST_F(Arrangements, VisibilityLayersAgreesOnEveryKind) { expect_agreement_on_kinds(with("visibility-layers"), 64); }
 TEST_F(Arrangements, VisibilityCubeAgreesOnEveryKind) { expect_agreement_on_kinds(with("visibility-cube"), 64); }

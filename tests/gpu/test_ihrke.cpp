@@ -2,6 +2,7 @@
 #include "gpu/exact_sphere.h"
 #include "gpu/gpu_test.h"
 #include "unit/built_scenes.h"
+#include "unit/built_volumes.h"
 
 #include <fmt/format.h>
 
@@ -20,18 +21,8 @@ glm::mat4 at(glm::vec3 position, float scale = 1.0f) {
 }
 
 void place(Scene& scene, Volume volume, const glm::mat4& world_from_volume = glm::mat4(1.0f)) {
-    scene.volume_objects.push_back({volume.name, int(scene.volumes.size()), world_from_volume});
+    scene.volume_objects.push_back({volume.name, int(scene.volumes.size()), world_from_volume, {}});
     scene.volumes.push_back(std::make_shared<const Volume>(std::move(volume)));
-}
-
-/// A cube of 2 half-edges around the origin in which nothing bends light.
-Volume even_cube(float half, unsigned resolution = 8) {
-    Volume volume;
-    volume.name = "even";
-    volume.size = glm::uvec3(resolution);
-    volume.low = glm::vec3(-half);
-    volume.voxel = 2.0f * half / float(resolution);
-    return volume;
 }
 
 Material painted(glm::vec3 color) {
@@ -237,16 +228,59 @@ TEST_F(Ihrke, RaysEnterSharperAtTheMesh) {
     RecordProperty("mean error, degrees", fmt::format("{:.3f} without, {:.3f} with the mesh", mean[0], mean[1]));
 }
 
-/// An index that falls from the middle of a ball to its surface, and on beyond it.
-Volume graded(float middle, float fall, unsigned resolution = 64) {
-    Volume volume = even_cube(1.1f, resolution);
-    for (unsigned z = 0; z < resolution; ++z)
-        for (unsigned y = 0; y < resolution; ++y)
-            for (unsigned x = 0; x < resolution; ++x) {
-                const glm::vec3 at = volume.low + volume.voxel * (glm::vec3(x, y, z) + 0.5f);
-                volume.n.push_back(middle - fall * glm::dot(at, at));
-            }
-    return volume;
+/// Distances of the lines in which paths go on from a point, voxels: root of the mean square, and largest.
+struct Misses {
+    double rms = 0.0, largest = 0.0;
+    int count = 0;
+};
+template <class Counts>
+Misses misses(const std::vector<RefractedPath>& paths, const glm::dvec3& point, double voxel, const Counts& counts) {
+    Misses found;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const glm::dvec2 pixel(double(i % kSize) + 0.5, double(i / kSize) + 0.5);
+        if (!counts(pixel / double(kSize) * 2.0 - 1.0)) continue;
+        const double miss =
+            glm::length(glm::cross(point - glm::dvec3(paths[i].position), glm::dvec3(paths[i].direction)));
+        found.rms += miss * miss / (voxel * voxel);
+        found.largest = std::max(found.largest, miss / voxel);
+        ++found.count;
+    }
+    found.rms = std::sqrt(found.rms / std::max(found.count, 1));
+    return found;
+}
+
+// Luneburg's lens, a radius of 60 voxels: parallel rays meet at the antipode, up to 0.9 of the radius.
+TEST_F(Ihrke, LuneburgFocusesParallelRays) {
+    Scene scene;
+    place(scene, make_volume("luneburg,resolution=120"));
+    set(scene);
+    Camera camera;
+    camera.orthographic = true;
+    camera.vertical_extent = 2.0f;
+    camera.world_from_view[3] = glm::vec4(0, 0, 3, 1);
+    renderer().set_camera(camera);
+    const Misses found =
+        misses(draw().paths, {0, 0, -1}, 2.0 / 120.0, [](const glm::dvec2& film) { return glm::length(film) < 0.9; });
+    EXPECT_GT(found.count, 5000);
+    EXPECT_LE(found.rms, 0.2);
+    EXPECT_LE(found.largest, 0.5);
+    fmt::print("Luneburg: rms {:.3f}, largest {:.3f} voxels\n", found.rms, found.largest);
+}
+
+// Maxwell's fish-eye images a point of its surface at its antipode: a cone of 80 degrees.
+TEST_F(Ihrke, FisheyeImagesAtTheAntipode) {
+    Scene scene;
+    place(scene, make_volume("maxwell-fisheye,resolution=120"));
+    set(scene);
+    Camera camera;
+    camera.vertical_fov = glm::radians(80.0f);
+    camera.world_from_view[3] = glm::vec4(0, 0, 1, 1);
+    renderer().set_camera(camera);
+    const Misses found =
+        misses(draw().paths, {0, 0, -1}, 2.0 / 120.0, [](const glm::dvec2& film) { return glm::length(film) < 1.0; });
+    EXPECT_GT(found.count, 5000);
+    EXPECT_LE(found.largest, 1.0);
+    fmt::print("fish-eye: rms {:.3f}, largest {:.3f} voxels\n", found.rms, found.largest);
 }
 
 // Sharp interfaces: light crosses the mesh by Snell's law, with the index that the volume has there, and bends inside.
@@ -256,7 +290,7 @@ TEST_F(Ihrke, SharpInterfacesHoldVolumes) {
         Scene scene;
         add(scene, shape("sphere,segments=128"), glass(1.5f));
         add(scene, shape("cube"), painted({0.1f, 0.8f, 0.2f}), at({0.3f, -0.2f, 0.1f}, 0.15f));
-        place(scene, graded(middle, fall));
+        place(scene, graded_ball(middle, fall));
         scene.volume_objects.back().objects = {0};
         set(scene);
         const auto exact = [&](glm::dvec2 shift) {
@@ -279,7 +313,9 @@ TEST_F(Ihrke, SharpInterfacesHoldVolumes) {
         // Nothing absorbs, so the ball is invisible; the cube is not lit and shows its colour.
         const Image image = draw("ihrke-2007", {{"interfaces", 1}, {"branches", 4}}).radiance;
         for (std::size_t i = 0; i < truth.size(); ++i) {
-            if (truth[i].object < 0 && found.paths[i].object < 0) EXPECT_LT(image.pixels[3 * i], 1.001f) << name;
+            if (truth[i].object < 0 && found.paths[i].object < 0) {
+                EXPECT_LT(image.pixels[3 * i], 1.001f) << name;
+            }
         }
     }
 }

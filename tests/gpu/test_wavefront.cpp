@@ -402,8 +402,8 @@ TEST_F(Wavefront, VoxelsKnowTheWayOfTheLightInTheirFrame) {
         EXPECT_LT(share, 1.005);
         EXPECT_NEAR(light[i].y, 0.5f * light[i].x, 0.01f);
         EXPECT_NEAR(light[i].z, 0.0f, 0.01f);
-        const glm::vec3 way(glm::unpackHalf4x16(directions[i]));
-        astray += share > 0.0 && !(glm::distance(way, expected) < 2e-3f) ? 1 : 0;
+        const glm::vec3 found(glm::unpackHalf4x16(directions[i]));
+        astray += share > 0.0 && !(glm::distance(found, expected) < 2e-3f) ? 1 : 0;
     }
     std::printf("voxels: %zu, full light %zu, dark %zu\n", light.size(), full, dark);
     EXPECT_EQ(astray, 0u);

@@ -1,5 +1,6 @@
 // Exact paths and path-traced pictures through volumes, against rays and integrals that are known.
 #include "built_scenes.h"
+#include "built_volumes.h"
 #include "closed_form/solid_file.h"
 #include "traced_scenes.h"
 
@@ -30,10 +31,7 @@ void add_volume(Scene& scene, Volume volume, const glm::mat4& world_from_volume 
 
 /// A cube of 2 m around the origin of what is the same everywhere.
 Volume even(glm::vec3 sigma_a, glm::vec3 emission, float n = 1.0f) {
-    Volume volume;
-    volume.size = glm::uvec3(8);
-    volume.low = glm::vec3(-1.0f);
-    volume.voxel = 0.25f;
+    Volume volume = even_cube(1.0f);
     volume.n.assign(volume.voxel_count(), n);
     volume.sigma_a.assign(volume.voxel_count(), sigma_a);
     volume.emission.assign(volume.voxel_count(), emission);
@@ -173,21 +171,6 @@ TEST(CurvedVolumes, SmallerBoxesCount) {
     EXPECT_NEAR(path.transmittance.g, std::exp(-1.0f), 1e-5f);
 }
 
-/// An index that falls from the middle of a ball to its surface, on beyond it.
-Volume graded(float middle, float fall, unsigned resolution = 64) {
-    Volume volume;
-    volume.size = glm::uvec3(resolution);
-    volume.low = glm::vec3(-1.1f);
-    volume.voxel = 2.2f / float(resolution);
-    for (unsigned z = 0; z < resolution; ++z)
-        for (unsigned y = 0; y < resolution; ++y)
-            for (unsigned x = 0; x < resolution; ++x) {
-                const glm::vec3 at = volume.low + volume.voxel * (glm::vec3(x, y, z) + 0.5f);
-                volume.n.push_back(middle - fall * glm::dot(at, at));
-            }
-    return volume;
-}
-
 /// A solid of glass that holds a volume.
 Scene holding(Volume volume, const Material& material = glass()) {
     Scene scene = scene_of(ball_mesh(5), material);
@@ -200,7 +183,7 @@ Scene holding(Volume volume, const Material& material = glass()) {
 TEST(CurvedVolumes, SolidsHoldVolumes) {
     const Camera camera = parallel_camera({0, 0, 0}, {0.0f, 0.1f, -1.0f}, 2.1f);
     const std::vector<RefractedPath> plain = exact(scene_of(ball_mesh(5)), camera, 24);
-    const std::vector<RefractedPath> held = exact(holding(graded(1.5f, 0.0f)), camera, 24);
+    const std::vector<RefractedPath> held = exact(holding(graded_ball(1.5f, 0.0f)), camera, 24);
     int through = 0;
     for (std::size_t i = 0; i < plain.size(); ++i) {
         EXPECT_EQ(plain[i].events, held[i].events) << i;
@@ -210,7 +193,7 @@ TEST(CurvedVolumes, SolidsHoldVolumes) {
     }
     EXPECT_GT(through, 300);
 
-    Volume dark = graded(1.5f, 0.0f);
+    Volume dark = graded_ball(1.5f, 0.0f);
     dark.sigma_a.assign(dark.voxel_count(), glm::vec3(0.0f, 0.7f, 0.0f));
     Material absorbing = glass();
     absorbing.attenuation_color = glm::vec3(0.5f);
@@ -227,7 +210,7 @@ TEST(CurvedVolumes, SolidsHoldVolumes) {
 
 // In a field of which the centre is that of the ball, n r sin(angle) stays (Bouguer): what enters leaves at the same angle.
 TEST(CurvedVolumes, GradedBallsBendAsBouguerSays) {
-    const Scene scene = holding(graded(1.8f, 0.3f));
+    const Scene scene = holding(graded_ball(1.8f, 0.3f));
     constexpr std::uint32_t kSize = 24;
     const Camera camera = parallel_camera({0, 0, 0}, {0.0f, 0.0f, -1.0f}, 2.1f);
     const std::vector<RefractedPath> paths = exact(scene, camera, kSize);

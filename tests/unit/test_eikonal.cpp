@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace pellucid::test {
@@ -117,6 +119,26 @@ TEST(Eikonal, OrdersOfTheIntegratorsOfForces) {
         EXPECT_NEAR(order, 2.0, 0.1);
     for (const Real order : measured_sigma_orders(Method::kNystrom, field, start, 1.0, 20))
         EXPECT_NEAR(order, 4.0, 0.3);
+}
+
+// |v| should stay n. Steps of half a voxel of a ball of 60 voxels.
+TEST(Eikonal, SpeedStaysTheIndex) {
+    const MaxwellFisheyeField<Real> field;
+    const auto drift = [&](Method method) {
+        Ray ray = start_ray<Real>(field, {-0.8, 0.2, 0.1}, glm::normalize(V(1.0, 0.4, -0.2)));
+        Real most = 0.0;
+        for (int i = 0; i < 180; ++i) {
+            ray = advance(method, field, ray, 0.5 / 60.0);
+            most = std::max(most, std::abs(glm::length(ray.v) / field(ray.x).n - 1.0));
+        }
+        return most;
+    };
+    EXPECT_LT(drift(Method::kEuler), 2e-2);
+    EXPECT_LT(drift(Method::kLeapfrog), 1e-4);
+    EXPECT_LT(drift(Method::kRk4), 1e-8);
+    EXPECT_LT(drift(Method::kNystrom), 1e-8);
+    std::printf("drift of |v| / n: Euler %.1e, leapfrog %.1e, RK4 %.1e, Nystrom %.1e\n", drift(Method::kEuler),
+                drift(Method::kLeapfrog), drift(Method::kRk4), drift(Method::kNystrom));
 }
 
 TEST(Eikonal, GradientsAreThoseOfTheIndex) {
