@@ -60,6 +60,7 @@ struct ComparedView {
     OrbitView orbit;
     std::uint64_t triangles;
     ExactView exact;
+    std::string truth_name;
     RenderResult truth;  ///< the picture that the others are held against
 };
 
@@ -124,6 +125,7 @@ nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedV
     run["height"] = settings.height;
     run["triangles"] = view.triangles;
     run["parameters"] = describe_parameters(technique.info(), settings.parameters);
+    if (view.truth_name != comparison.truth.name) run["image_truth"] = view.truth_name;
     add_accuracy(run, view.exact, judgement.accuracy);
     if (judgement.accuracy.covered > 0) {
         run["flip_mean"] = mean(flip, view.exact.covered);
@@ -164,8 +166,10 @@ ComparedView exact_view(Comparison& comparison, const std::string& name, const S
                       scene.triangle_count(),
                       trace_exact_view(comparison.renderer.tracer(), camera, settings.width, settings.height,
                                        arguments.exact_events, bar.progress()),
+                      {},
                       {}};
     settings = settings_of_truth(comparison, truth_for(comparison, name, scene));
+    view.truth_name = settings.technique;
     settings.progress = bar.progress();
     view.truth = comparison.renderer.render(settings);
     add_warnings(comparison, name, settings.technique, view.truth);

@@ -149,11 +149,17 @@ bool PathWalk::meet_opaque(const Vertex& vertex, Random& random) {
     return scatter(vertex, opaque_bsdf(vertex), random);
 }
 
+/// At the surface on which the path stands.
+double PathWalk::ior(const MediumStack& at, int channel) const {
+    if (at.solid() == kAir) return open_ior_;
+    return world_.volumes.index_at(at.solid(), ray_.origin, channel).value_or(at.medium().ior[channel]);
+}
+
 /// Paths carry radiance over n^2, so what is emitted into a medium is divided by that.
 double PathWalk::emitted_share() const {
     if (inside_.solid() == kAir) return open_share_;
-    const double ior = inside_.medium().ior[channel_.value_or(kGreen)];
-    return 1.0 / (ior * ior);
+    const double n = ior(inside_, channel_.value_or(kGreen));
+    return 1.0 / (n * n);
 }
 
 void PathWalk::emit(const Vertex& vertex) {
@@ -196,12 +202,8 @@ bool PathWalk::meet_solid(const Hit& hit, Random& random) {
     const Medium here = inside_.medium(), there = beyond_.medium();
     if (!channel_ && (here.disperses() || there.disperses())) choose_channel(random);
     const int channel = channel_.value_or(kGreen);  // without dispersion all are alike
-    const auto ior = [&](const MediumStack& at) {
-        if (at.solid() == kAir) return open_ior_;
-        return world_.volumes.index_at(at.solid(), interface.position, channel).value_or(at.medium().ior[channel]);
-    };
-    const double n_here = ior(inside_), n_there = ior(beyond_);
-    return scatter(vertex, InterfaceBsdf(n_here, n_there, roughness_at(vertex), tint), random);
+    const InterfaceBsdf bsdf(ior(inside_, channel), ior(beyond_, channel), roughness_at(vertex), tint);
+    return scatter(vertex, bsdf, random);
 }
 
 bool PathWalk::meet_pane(const Vertex& vertex, Random& random) {

@@ -84,6 +84,7 @@ private:
     bool meet_pane(const Vertex& vertex, Random& random);
     void emit(const Vertex& vertex);
     double emitted_share() const;
+    double ior(const MediumStack& at, int channel) const;
     bool transmits(const Vertex& vertex, Random& random) const;
     Bsdf opaque_bsdf(const Vertex& vertex) const;
     double roughness_at(const Vertex& vertex) const;
@@ -110,8 +111,8 @@ private:
     double pdf_ = 0.0;
     bool in_held_volume_ = false;  ///< the last piece of the way was in the volume of a solid
     double open_ior_ = 1.0;        ///< of what is around all solids, at the ray's origin
-    double open_share_ =
-        1.0;  ///< and of what is emitted there, the share that arrives where the path entered the volume
+    /// Of what is emitted there, the share that arrives where the path entered the volume.
+    double open_share_ = 1.0;
 };
 
 }  // namespace pellucid::reference

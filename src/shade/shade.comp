@@ -26,6 +26,7 @@ layout(set = 0, binding = 14, rgba32f) readonly uniform image2DArray reflected_r
 layout(std430, set = 0, binding = 15) readonly buffer Appearance { float appearance[]; };
 layout(std430, set = 0, binding = 16) readonly buffer Textures { TextureRecord textures[]; };
 
+#include "gpu/appearance.glsl"
 #include "gpu/vertices.glsl"
 #include "gpu/texture.glsl"
 #include "layers/corner_weights.glsl"
@@ -48,10 +49,10 @@ vec4 texture_tint(ivec3 at, uint triangle, ObjectRecord object) {
     vec3 v[3];
     vec4 texcoords[3], colors[3];
     for (uint k = 0u; k < 3u; ++k) {
-        uint vertex = indices[corner + k], look = 5u * vertex;
+        uint vertex = indices[corner + k];
         v[k] = (frame.view_from_world * (object.world_from_object * vec4(vertex_position(vertex), 1.0))).xyz;
-        texcoords[k] = vec4(appearance[look], appearance[look + 1u], appearance[look + 2u], appearance[look + 3u]);
-        colors[k] = unpackUnorm4x8(floatBitsToUint(appearance[look + 4u]));
+        texcoords[k] = vertex_texcoords(vertex);
+        colors[k] = vertex_color_of(vertex);
     }
     vec3 w = corner_weights(ray.direction, v[0] - ray.origin, v[1] - v[0], v[2] - v[0]);
     vec4 uv = w.x * texcoords[0] + w.y * texcoords[1] + w.z * texcoords[2];

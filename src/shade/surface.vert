@@ -5,7 +5,8 @@
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 
 #include "gpu/vertices.glsl"
-layout(std430, set = 0, binding = 22) readonly buffer Appearance { uint appearance[]; };  // see gpu_scene.h
+layout(std430, set = 0, binding = 22) readonly buffer Appearance { float appearance[]; };
+#include "gpu/appearance.glsl"
 
 layout(push_constant) uniform Push { uint drawn_object; };  // set by Recorder::draw
 
@@ -23,9 +24,8 @@ void main() {
     vec4 view = frame.view_from_world * (object.world_from_object * vec4(vertex_position(vertex), 1.0));
     gl_Position = frame.clip_from_view * view;
     world_normal = mat3(object.world_from_object_normal) * vertex_normal(vertex);
-    uint look = 5u * vertex;
-    texcoords = uintBitsToFloat(uvec4(appearance[look], appearance[look + 1u], appearance[look + 2u], appearance[look + 3u]));
-    vertex_color = unpackUnorm4x8(appearance[look + 4u]);
+    texcoords = vertex_texcoords(vertex);
+    vertex_color = vertex_color_of(vertex);
     material_index = object.material;
     triangle = object.first_triangle + (uint(gl_VertexIndex) - object.first_corner) / 3u;
 }

@@ -118,7 +118,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kSharpInterfaces = 2;  // of volume_boxes.glsl
+    static constexpr std::uint32_t kSharpInterfaces = 2;  // of visibility_bindings.glsl
     bool sharp() const { return parameters_["interfaces"] != 0.0; }
     /// Of light_bindings.glsl. Where no light was traced something of the right kind stands in.
     std::vector<Binding> light_bindings() const {

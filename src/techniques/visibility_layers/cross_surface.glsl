@@ -12,6 +12,7 @@ layout(std430, set = 0, binding = 40) readonly buffer Indices { uint indices[]; 
 layout(std430, set = 0, binding = 41) readonly buffer Appearance { float appearance[]; };
 layout(std430, set = 0, binding = 42) readonly buffer Textures { TextureRecord textures[]; };
 layout(set = 0, binding = 43) uniform texture2DArray texture_pages;
+#include "gpu/appearance.glsl"
 #include "gpu/texture.glsl"
 
 // A point of a triangle, in the world.
@@ -52,11 +53,7 @@ Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
 // Texture coordinates, both sets.
 vec4 texcoords_at(Surface surface) {
     vec4 texcoords = vec4(0.0);
-    for (uint k = 0u; k < 3u; ++k) {
-        uint look = 5u * indices[surface.corner + k];
-        texcoords += surface.weights[k] *
-                     vec4(appearance[look], appearance[look + 1u], appearance[look + 2u], appearance[look + 3u]);
-    }
+    for (uint k = 0u; k < 3u; ++k) texcoords += surface.weights[k] * vertex_texcoords(indices[surface.corner + k]);
     return texcoords;
 }
 
@@ -68,8 +65,7 @@ vec4 surface_tint(Surface surface) {
     float transmission = material.transmission;
     if (kTexturedGlass) {
         vec4 texcoords = texcoords_at(surface), color = vec4(0.0);
-        for (uint k = 0u; k < 3u; ++k)
-            color += surface.weights[k] * unpackUnorm4x8(floatBitsToUint(appearance[5u * indices[surface.corner + k] + 4u]));
+        for (uint k = 0u; k < 3u; ++k) color += surface.weights[k] * vertex_color_of(indices[surface.corner + k]);
         base *= color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
         transmission *= sample_texture(material.transmission_texture, texcoords.xy, texcoords.zw).r;
     }

@@ -21,6 +21,7 @@ layout(set = 0, binding = 16) uniform texture2D filtered_environment;
 layout(std430, set = 0, binding = 17) readonly buffer Appearance { float appearance[]; };
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 
+#include "gpu/appearance.glsl"
 #include "gpu/vertices.glsl"
 #include "techniques/visibility_layers/path_state.glsl"
 layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]; };
@@ -59,9 +60,8 @@ OpaqueLight opaque_light(Path path) {
     normal = normalize(normal);
     vec4 texcoords = vec4(0.0), color = vec4(0.0);
     for (int k = 0; k < 3; ++k) {
-        uint at = 5u * v[k];
-        texcoords += w[k] * vec4(appearance[at], appearance[at + 1u], appearance[at + 2u], appearance[at + 3u]);
-        color += w[k] * unpackUnorm4x8(floatBitsToUint(appearance[at + 4u]));
+        texcoords += w[k] * vertex_texcoords(v[k]);
+        color += w[k] * vertex_color_of(v[k]);
     }
     MaterialRecord material = materials[o.material];
     vec4 base = material.base_color * color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
