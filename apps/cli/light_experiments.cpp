@@ -63,7 +63,7 @@ MeasuredLight measure(ExperimentRun& run, const std::string& scene_name, const s
             {"turned", sum(s.turned) / emitted},
             {"weak", sum(s.weak) / emitted},
             {"left", sum(s.left) / emitted}};
-    fmt::print("{:<14} {:<26} {:>9.1f} ms {:>9} patches {:>9} splits, left {:.3f}%\n", scene_name, variant,
+    fmt::print("{:<14} {:<32} {:>9.1f} ms {:>9} patches {:>9} splits, left {:.3f}%\n", scene_name, variant,
                light.device_ms, s.patches, s.splits, 100.0 * sum(s.left) / emitted);
     std::fflush(stdout);
     return light;
@@ -77,18 +77,28 @@ Image display(const std::vector<double>& map, int width, int height) {
     return image;
 }
 
+/// A way to trace light that the experiment compares.
+struct LightVariant {
+    const char* name;
+    KeptLight kept;
+    bool folds;
+};
+constexpr LightVariant kLightVariants[] = {{"sum, folds kept", KeptLight::kSum, true},
+                                           {"brightest, folds kept", KeptLight::kBrightest, true},
+                                           {"brightest, folds dropped", KeptLight::kBrightest, false}};
+
 void measure_ball(ExperimentRun& run, ExperimentPage& page) {
     for (const int resolution : {32, 64, 128}) {
         const Scene scene = lit_volume(fmt::format("smoothed-sphere,radius=1,resolution={}", resolution), -1.4f);
         const std::string name = fmt::format("ball, {}", resolution);
         std::vector<double> exact;
-        for (const bool keep : {true, false}) {
+        for (const LightVariant& variant : kLightVariants) {
             LightSettings settings;
             settings.fresnel = false;  // as the photons
-            settings.keep_folds = keep;
+            settings.kept = variant.kept;
+            settings.keep_folds = variant.folds;
             nlohmann::ordered_json json;
-            const MeasuredLight light =
-                measure(run, name, keep ? "folds kept" : "folds dropped", scene, settings, json);
+            const MeasuredLight light = measure(run, name, variant.name, scene, settings, json);
             const LightMap& map = light.receivers.at(0);
             const BallAndPlane truth{.box = double(scene.volumes[0]->high().x),
                                      .direction = glm::normalize(glm::dvec3(kWay)),
@@ -112,7 +122,8 @@ void measure_ball(ExperimentRun& run, ExperimentPage& page) {
             json["correlation"] = correlation(own, exact);
             run.runs.push_back(json);
             if (resolution != 128) continue;
-            if (keep) page.add_picture(name, "counted photons", display(exact, truth.width, truth.height));
+            if (&variant == kLightVariants)
+                page.add_picture(name, "counted photons", display(exact, truth.width, truth.height));
             page.add_picture(name, json["variant"], display(own, truth.width, truth.height));
         }
     }
@@ -122,24 +133,26 @@ void measure_glass(ExperimentRun& run, ExperimentPage& page) {
     const std::string glass = "wine-glass,resolution=128";
     const float low = make_volume(glass).low.y;
     const Scene standing = lit_volume(glass, low + 0.04f);  // its foot on the plane
-    for (const bool keep : {true, false}) {
+    for (const LightVariant& variant : kLightVariants) {
         LightSettings settings;
-        settings.keep_folds = keep;
+        settings.kept = variant.kept;
+        settings.keep_folds = variant.folds;
         nlohmann::ordered_json json, counted;
-        const std::string variant = keep ? "folds kept" : "folds dropped";
-        const MeasuredLight light = measure(run, "wine glass, 128", variant, standing, settings, json);
-        settings.tally = true;
-        const LightStatistics s =
-            measure(run, "wine glass, 128", variant + ", counted", standing, settings, counted).statistics;
-        json["lit_voxels"] = s.lit_voxels;
-        json["multi_share"] = double(s.multi_voxels) / double(std::max<std::uint64_t>(s.lit_voxels, 1));
-        json["main_share"] = s.main_share;
+        const MeasuredLight light = measure(run, "wine glass, 128", variant.name, standing, settings, json);
+        if (variant.kept == KeptLight::kBrightest) {
+            settings.tally = true;
+            const std::string name = fmt::format("{}, counted", variant.name);
+            const LightStatistics s = measure(run, "wine glass, 128", name, standing, settings, counted).statistics;
+            json["lit_voxels"] = s.lit_voxels;
+            json["multi_share"] = double(s.multi_voxels) / double(std::max<std::uint64_t>(s.lit_voxels, 1));
+            json["main_share"] = s.main_share;
+        }
         run.runs.push_back(json);
         const LightMap& map = light.receivers.at(0);
         std::vector<double> own;
         for (std::size_t i = 0; i < map.irradiance.pixels.size(); i += 3)
             own.push_back(double(map.irradiance.pixels[i]));
-        page.add_picture("wine glass, 128", variant, display(own, map.irradiance.width, map.irradiance.height));
+        page.add_picture("wine glass, 128", variant.name, display(own, map.irradiance.width, map.irradiance.height));
     }
 }
 

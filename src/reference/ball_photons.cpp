@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace pellucid {
@@ -11,16 +12,52 @@ struct Photon {
     glm::dvec3 x, d;
 };
 
-Photon through_ball(Photon photon, double radius, double ior) {
+/// Where a photon leaves the ball, and which way. False: it passes the ball by.
+bool through_sharp_ball(Photon& photon, double radius, double ior) {
     for (const bool enters : {true, false}) {
         const double b = glm::dot(photon.x, photon.d), c = glm::dot(photon.x, photon.x) - radius * radius;
         const double root = enters ? b * b - c : b * b - std::min(c, 0.0);
-        if (enters && root <= 0.0) return photon;
+        if (enters && root <= 0.0) return false;
         photon.x += (-b + (enters ? -std::sqrt(root) : std::sqrt(root))) * photon.d;
         const glm::dvec3 normal = photon.x / radius * (enters ? 1.0 : -1.0);
         photon.d = glm::refract(photon.d, normal, enters ? 1.0 / ior : ior);
     }
-    return photon;
+    return true;
+}
+
+/// The same of a ball whose index is that of a sharp one smoothed across its surface: straight where the index is even,
+/// by Runge and Kutta's method between. Ihrke et al. 2007, equations 9 and 10.
+bool through_smoothed_ball(Photon& photon, const BallAndPlane& scene) {
+    const double sigma = scene.smoothing, outer = scene.radius + 5.0 * sigma, inner = scene.radius - 5.0 * sigma;
+    const double b = glm::dot(photon.x, photon.d), root = b * b - glm::dot(photon.x, photon.x) + outer * outer;
+    if (root <= 0.0) return false;
+    const auto index = [&](double r) {
+        return 1.0 + 0.5 * (scene.ior - 1.0) * std::erfc((r - scene.radius) / (std::numbers::sqrt2 * sigma));
+    };
+    const auto gradient = [&](const glm::dvec3& x) {
+        const double r = glm::length(x), off = (r - scene.radius) / sigma;
+        return -(scene.ior - 1.0) / (sigma * std::sqrt(2.0 * std::numbers::pi)) * std::exp(-0.5 * off * off) / r * x;
+    };
+    const auto way = [&](const Photon& at) { return at.d / index(glm::length(at.x)); };
+    photon.x += (-b - std::sqrt(root)) * photon.d;
+    const double h = 0.05 * sigma;
+    for (bool inside = false; !inside || glm::length(photon.x) < outer;) {
+        if (glm::length(photon.x) < inner) {
+            const glm::dvec3 d = glm::normalize(photon.d);
+            const double along = glm::dot(photon.x, d);
+            photon.x += (-along + std::sqrt(along * along - glm::dot(photon.x, photon.x) + inner * inner)) * d;
+        }
+        const auto moved = [&](const Photon& by, double t) { return Photon{photon.x + t * by.x, photon.d + t * by.d}; };
+        const Photon k1{way(photon), gradient(photon.x)};
+        const Photon a2 = moved(k1, 0.5 * h), k2{way(a2), gradient(a2.x)};
+        const Photon a3 = moved(k2, 0.5 * h), k3{way(a3), gradient(a3.x)};
+        const Photon a4 = moved(k3, h), k4{way(a4), gradient(a4.x)};
+        photon.x += h / 6.0 * (k1.x + 2.0 * k2.x + 2.0 * k3.x + k4.x);
+        photon.d += h / 6.0 * (k1.d + 2.0 * k2.d + 2.0 * k3.d + k4.d);
+        inside = inside || glm::length(photon.x) < outer;
+    }
+    photon.d = glm::normalize(photon.d);
+    return true;
 }
 
 bool meets_box(const Photon& photon, double half) {
@@ -29,30 +66,86 @@ bool meets_box(const Photon& photon, double half) {
     return std::max({low.x, low.y, low.z}) < std::min({high.x, high.y, high.z});
 }
 
-}  // namespace
+/// Adds the lengths of a straight way in voxels of a cube around the origin, from x on.
+void add_lengths(VoxelPhotons& voxels, double half, const Photon& photon, double weight) {
+    const int n = voxels.resolution;
+    const double edge = 2.0 * half / n;
+    const glm::dvec3 start = (photon.x + half) / edge;
+    // From face to face: the faces that the way crosses, in order.
+    const glm::dvec3 a = -start / photon.d, b = (double(n) - start) / photon.d;
+    const glm::dvec3 low = glm::min(a, b), high = glm::max(a, b);
+    double t = std::max({0.0, low.x, low.y, low.z});
+    const double end = std::min({high.x, high.y, high.z});
+    if (!(t < end)) return;
+    const glm::dvec3 at = start + (t + 1e-9) * photon.d;
+    glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::floor(at)), 0, n - 1);
+    glm::dvec3 next;
+    for (int k = 0; k < 3; ++k) next[k] = (voxel[k] + (photon.d[k] > 0.0 ? 1 : 0) - start[k]) / photon.d[k];
+    while (t < end) {
+        const int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : next.y < next.z ? 1 : 2;
+        const double until = std::min(next[axis], end);
+        const std::size_t i =
+            std::size_t(voxel.x) + std::size_t(n) * (std::size_t(voxel.y) + std::size_t(n) * std::size_t(voxel.z));
+        voxels.fluence[i] += weight * (until - t);
+        voxels.photons[i] += 1.0;
+        t = until;
+        voxel[axis] += photon.d[axis] > 0.0 ? 1 : -1;
+        if (voxel[axis] < 0 || voxel[axis] >= n) return;
+        next[axis] += 1.0 / std::abs(photon.d[axis]);
+    }
+}
 
-std::vector<double> count_photons(const BallAndPlane& scene, int photons) {
-    std::vector<double> map(std::size_t(scene.width) * std::size_t(scene.height), 0.0);
-    const glm::dvec3 d = scene.direction, normal = glm::cross(scene.side, scene.up);
+/// Calls `use(photon, area)` for photons on `rings` rings around the axis; where the ball has sent them on, and which way. All
+/// photons of a ring go alike.
+template <class Use>
+void for_each_photon(const BallAndPlane& scene, int rings, const Use& use) {
+    const glm::dvec3 d = scene.direction;
     const glm::dvec3 side =
         glm::normalize(glm::cross(d, std::abs(d.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
     const glm::dvec3 up = glm::cross(side, d);
-    const double reach = 1.74 * scene.box, cell = 2.0 * reach / photons;  // the box from any side
-    const double share = cell * cell / (scene.texel * scene.texel);
-    for (int j = 0; j < photons; ++j)
-        for (int i = 0; i < photons; ++i) {
-            const glm::dvec3 start = (cell * (i + 0.5) - reach) * side + (cell * (j + 0.5) - reach) * up;
-            Photon photon{start - 2.0 * reach * d, d};
-            if (!meets_box(photon, scene.box)) continue;
-            photon = through_ball(photon, scene.radius, scene.ior);
-            const double t = glm::dot(scene.corner - photon.x, normal) / glm::dot(photon.d, normal);
-            const glm::dvec3 at = photon.x + t * photon.d - scene.corner;
-            const glm::dvec2 texel(std::floor(glm::dot(at, scene.side) / scene.texel),
-                                   std::floor(glm::dot(at, scene.up) / scene.texel));
-            if (!(t >= 0.0) || texel.x < 0.0 || texel.y < 0.0 || texel.x >= scene.width || texel.y >= scene.height)
-                continue;
-            map[std::size_t(texel.x) + std::size_t(scene.width) * std::size_t(texel.y)] += share;
+    const double reach = 1.74 * scene.box, width = reach / rings;  // the box from any side
+    constexpr double kGoldenAngle = 2.399963;
+    for (int ring = 0; ring < rings; ++ring) {
+        const double off = (ring + 0.5) * width;
+        Photon along{off * side - 2.0 * reach * d, d};
+        const bool bent = scene.smoothing > 0.0 ? through_smoothed_ball(along, scene)
+                                                : through_sharp_ball(along, scene.radius, scene.ior);
+        const int count = std::max(6, int(std::lround(2.0 * std::numbers::pi * (ring + 0.5))));
+        const double area = 2.0 * std::numbers::pi * off * width / count;
+        for (int k = 0; k < count; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / count + kGoldenAngle * ring;
+            const glm::dvec3 outward = std::cos(angle) * side + std::sin(angle) * up;
+            if (!meets_box({off * outward - 2.0 * reach * d, d}, scene.box)) continue;
+            const auto turned = [&](const glm::dvec3& v) { return glm::dot(v, side) * outward + glm::dot(v, d) * d; };
+            use(bent ? Photon{turned(along.x), turned(along.d)} : Photon{off * outward - 2.0 * reach * d, d}, area);
         }
+    }
+}
+
+}  // namespace
+
+VoxelPhotons count_voxel_photons(const BallAndPlane& scene, int resolution, int per_voxel) {
+    const std::size_t count = std::size_t(resolution) * std::size_t(resolution) * std::size_t(resolution);
+    VoxelPhotons voxels{resolution, std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
+    const double edge = 2.0 * scene.box / resolution;
+    for_each_photon(scene, int(1.74 * 0.5 * resolution * per_voxel), [&](const Photon& photon, double area) {
+        add_lengths(voxels, scene.box, photon, area / (edge * edge));
+    });
+    return voxels;
+}
+
+std::vector<double> count_photons(const BallAndPlane& scene, int photons) {
+    std::vector<double> map(std::size_t(scene.width) * std::size_t(scene.height), 0.0);
+    const glm::dvec3 normal = glm::cross(scene.side, scene.up);
+    for_each_photon(scene, photons, [&](const Photon& photon, double area) {
+        const double t = glm::dot(scene.corner - photon.x, normal) / glm::dot(photon.d, normal);
+        const glm::dvec3 at = photon.x + t * photon.d - scene.corner;
+        const glm::dvec2 texel(std::floor(glm::dot(at, scene.side) / scene.texel),
+                               std::floor(glm::dot(at, scene.up) / scene.texel));
+        if (!(t >= 0.0) || texel.x < 0.0 || texel.y < 0.0 || texel.x >= scene.width || texel.y >= scene.height) return;
+        map[std::size_t(texel.x) + std::size_t(scene.width) * std::size_t(texel.y)] +=
+            area / (scene.texel * scene.texel);
+    });
     return map;
 }
 

@@ -1,7 +1,6 @@
 #version 460
 // Between two rounds: what was written becomes what is read, and says how many groups are needed.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 layout(local_size_x = 1) in;
 

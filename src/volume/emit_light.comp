@@ -3,8 +3,6 @@
 // a front of its own. Patches begin where the light is; a directional light begins before all volumes.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

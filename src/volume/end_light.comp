@@ -1,8 +1,6 @@
 #version 460
 // Counts the power of the patches that were still on their way when the rounds ended.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
 
 layout(local_size_x = 64) in;
 

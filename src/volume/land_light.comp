@@ -2,8 +2,6 @@
 // Puts the light of patches that have left the volumes onto receivers: every patch as a grid of rays, so that its power is
 // spread over what it covers and none is lost; a ray's power goes to the four texels around its end.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
 
 layout(local_size_x = 64) in;
 
@@ -15,8 +13,8 @@ layout(std430, set = 0, binding = 0) readonly buffer Receivers { LightReceiver r
 layout(std430, set = 0, binding = 1) buffer State { LightState state; };
 #include "volume/light_power.glsl"
 layout(std430, set = 0, binding = 2) readonly buffer Landed { LightPatch landed[]; };
-// Fixed point, three colours each: the light that arrives, and in a second half what would arrive without volumes.
-layout(std430, set = 0, binding = 3) buffer Texels { uint64_t texels[]; };
+// Wide counters, three colours each: the light that arrives, and in a second half what would arrive without volumes.
+layout(std430, set = 0, binding = 3) buffer Texels { uint texels[]; };
 
 layout(constant_id = 0) const bool kStraight = false;  // patches as the light emits them, as if there were no volumes
 
@@ -44,9 +42,12 @@ void add_texel(LightReceiver receiver, ivec2 at, vec3 power) {
     ivec2 size = ivec2(receiver.side.w, receiver.up.w);
     at = clamp(at, ivec2(0), size - 1);
     uint texel = floatBitsToUint(receiver.normal.w) + uint(at.x + size.x * at.y);
-    if (kStraight) texel += uint(texels.length()) / 6u;
+    if (kStraight) texel += uint(texels.length()) / 12u;
     for (int c = 0; c < 3; ++c)
-        if (power[c] > 0.0) atomicAdd(texels[3u * texel + c], fixed_point(power[c]));
+        if (power[c] > 0.0) {
+            uvec2 units = power_units(power[c]);
+            PELLUCID_ADD_WIDE(texels, 3u * texel + c, units)
+        }
 }
 
 void main() {

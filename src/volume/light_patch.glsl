@@ -6,6 +6,7 @@
 #include "volume/box.glsl"
 #include "volume/light_records.h"
 #include "volume/light_state.h"
+#include "volume/wide_counter.glsl"
 
 // Twin of LightPush in wavefront.cpp.
 layout(push_constant) uniform Push {
@@ -66,6 +67,6 @@ LightPatch pack_patch(Quad quad) {
     return patch_;
 }
 
-uint64_t fixed_point(float power) { return uint64_t(max(power, 0.0) * power_scale + 0.5); }
+uvec2 power_units(float power) { return fixed_point(max(power, 0.0) * power_scale + 0.5); }
 
 #endif

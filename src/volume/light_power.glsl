@@ -4,7 +4,10 @@
 // Counts what becomes of light. Needs: volume/light_patch.glsl; buffer State { LightState state; }.
 void add_power(uint fate, vec3 power) {
     for (int c = 0; c < 3; ++c)
-        if (power[c] > 0.0) atomicAdd(state.power[3u * fate + c], fixed_point(power[c]));
+        if (power[c] > 0.0) {
+            uvec2 units = power_units(power[c]);
+            PELLUCID_ADD_WIDE(state.power, 3u * fate + c, units)
+        }
 }
 
 void end_patch(Quad quad, uint fate) {

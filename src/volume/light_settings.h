@@ -8,8 +8,15 @@
 
 namespace pellucid {
 
+/// What a voxel keeps of the light that passes it.
+enum class KeptLight {
+    kSum,        ///< all of it, and its mean way (ours)
+    kBrightest,  ///< the patch of greatest irradiance and its way, as in the paper; needs 64-bit atomics
+};
+
 /// How light is traced through volumes. Ihrke et al. 2007, section 4.2.
 struct LightSettings {
+    KeptLight kept = KeptLight::kSum;
     float step = 0.5f;         ///< optical length of a step, voxels, > 0
     float span = 1.0f;         ///< patches with a longer side are split, voxels, > 0
     float finest = 1.0f / 32;  ///< share of its first power below which a patch is not split any more, 0..1
@@ -23,7 +30,7 @@ struct LightSettings {
     float reach = 3.0f;                ///< of receivers, radii of the sphere around all volumes
     std::uint32_t most_texels = 1024;  ///< along a side of a receiver
     bool fresnel = true;  ///< surfaces (Volume::boundary) take away what they reflect; reflected light is not followed
-    bool tally = false;   ///< count what voxels get from several directions (LightStatistics::voxels on); traces twice
+    bool tally = false;   ///< kBrightest: count what voxels get from several directions (lit_voxels on); traces twice
 };
 
 /// What became of the light. Power in W, three colours.

@@ -7,7 +7,6 @@
 namespace pellucid::gpu {
 // NOLINTBEGIN(readability-identifier-naming): GLSL's names
 using uint = std::uint32_t;
-using uint64_t = std::uint64_t;
 // NOLINTEND(readability-identifier-naming)
 #endif
 
@@ -23,7 +22,7 @@ using uint64_t = std::uint64_t;
 #define PELLUCID_LIGHT_FATES 8u
 
 struct LightState {
-    uint64_t power[PELLUCID_LIGHT_FATES * 3u];  // fixed point, three colours each
+    uint power[PELLUCID_LIGHT_FATES * 6u];  // wide counters, three colours each
     uint kept, extra;                           // patches written for the next round: from the front, from the back
     uint in_kept, in_extra;                     // patches of this round
     uint landed, landing;                       // patches to be put on receivers: appended; in this round

@@ -24,8 +24,11 @@ constexpr std::uint32_t kEmitLight[] = {
 constexpr std::uint32_t kBeginRound[] = {
 #include "begin_round.comp.inc"
 };
-constexpr std::uint32_t kStepLight[] = {
-#include "step_light.comp.inc"
+constexpr std::uint32_t kStepSummedLight[] = {
+#include "step_summed_light.comp.inc"
+};
+constexpr std::uint32_t kStepBrightestLight[] = {
+#include "step_brightest_light.comp.inc"
 };
 constexpr std::uint32_t kLandLight[] = {
 #include "land_light.comp.inc"
@@ -33,8 +36,11 @@ constexpr std::uint32_t kLandLight[] = {
 constexpr std::uint32_t kEndLight[] = {
 #include "end_light.comp.inc"
 };
-constexpr std::uint32_t kResolveLight[] = {
-#include "resolve_light.comp.inc"
+constexpr std::uint32_t kResolveSummedLight[] = {
+#include "resolve_summed_light.comp.inc"
+};
+constexpr std::uint32_t kResolveBrightestLight[] = {
+#include "resolve_brightest_light.comp.inc"
 };
 constexpr std::uint32_t kResolveReceivers[] = {
 #include "resolve_receivers.comp.inc"
@@ -52,6 +58,10 @@ struct ReceiverPush {
     std::uint32_t own;
     float power_scale;
 };
+struct SumPush {
+    std::uint32_t own;
+    float irradiance_scale;
+};
 
 constexpr vk::BufferUsageFlags kStorage =
     vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
@@ -59,6 +69,7 @@ constexpr vk::BufferUsageFlags kStorage =
 constexpr double kGuessedIndex = 2.0;  // optical length of a voxel, at most, when rounds are counted
 constexpr double kLeftUnsaid = 0.01;   // share of the power that may be on its way when the rounds end
 constexpr int kPowerBits = 44;         // of all light, in fixed point
+constexpr std::size_t kSumBytes = 56, kKeyBytes = 8, kTallyBytes = 16;  // of a voxel
 
 template <class T>
 Buffer filled(const Device& device, const char* name, const std::vector<T>& values) {
@@ -72,11 +83,12 @@ void append(std::string& key, const T& value) {
     key.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
-std::string volume_key(const VolumeImages& volumes, bool tally) {
+std::string volume_key(const VolumeImages& volumes, const LightSettings& settings) {
     std::string key;
     append(key, volumes.records.id());
     append(key, volumes.index.id());
-    append(key, tally);
+    append(key, settings.kept);
+    append(key, settings.tally);
     return key;
 }
 
@@ -142,7 +154,8 @@ struct WavefrontTracer::Tracing {
     bool overlapping;
 };
 
-void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, bool tally) {
+void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, const LightSettings& settings) {
+    const std::size_t voxel_bytes = settings.kept == KeptLight::kSum ? kSumBytes : kKeyBytes;
     records_ = download_records(device_, volumes);
     glm::vec3 low(1e30f), high(-1e30f);
     smallest_voxel_ = 1e30f;
@@ -168,7 +181,7 @@ void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, bool tally) {
         for (const glm::uvec3 size : sizes) sum += count(size);
         return sum;
     };
-    const std::uint64_t most = device_.max_storage_binding() / (tally ? 16 : 8);
+    const std::uint64_t most = device_.max_storage_binding() / (settings.tally ? kTallyBytes : voxel_bytes);
     coarse_voxels_ = false;
     while (total() > most) {
         const auto largest = std::size_t(
@@ -194,9 +207,10 @@ void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, bool tally) {
         GpuImage(device_, "direction of light in volumes", vk::Format::eR16G16B16A16Sfloat, extent, usage);
     light_.placements = filled(device_, "places of light", placements);
     light_.placement_list = placements;
-    keys_ = Buffer(device_, "light of voxels", voxels_ * 8, kStorage);
-    tally_ = Buffer(device_, "tally of light", tally ? voxels_ * 16 : 16, kStorage);
-    if (tally) tally_copy_ = Buffer(device_, "copy of the tally", voxels_ * 16, kStorage, true);
+    voxel_light_ = Buffer(device_, "light of voxels", voxels_ * voxel_bytes, kStorage);
+    const std::size_t tally_bytes = settings.tally ? voxels_ * kTallyBytes : kTallyBytes;
+    tally_ = Buffer(device_, "tally of light", tally_bytes, kStorage);
+    if (settings.tally) tally_copy_ = Buffer(device_, "copy of the tally", tally_bytes, kStorage, true);
 }
 
 void WavefrontTracer::prepare_receivers(const Scene& scene, const LightSettings& settings) {
@@ -210,13 +224,13 @@ void WavefrontTracer::prepare_receivers(const Scene& scene, const LightSettings&
 
 bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Scene& scene, const VolumeImages& volumes,
                              const LightSettings& settings, std::uint64_t moves) {
-    const std::string of_volumes = volume_key(volumes, settings.tally);
+    const std::string of_volumes = volume_key(volumes, settings);
     const std::string key = of_volumes + key_of(scene, settings, moves);
     if (key == key_) return false;
-    if (!device_.long_atomics())
-        throw Error(
-            fmt::format("light in volumes: {} lacks 64-bit atomics (shaderBufferInt64Atomics)", device_.info().name));
-    if (of_volumes != volume_key_) prepare_volumes(volumes, settings.tally);
+    if (settings.kept == KeptLight::kBrightest && !device_.long_atomics())
+        throw Error(fmt::format("brightest light in volumes: {} lacks 64-bit atomics (shaderBufferInt64Atomics)",
+                                device_.info().name));
+    if (of_volumes != volume_key_) prepare_volumes(volumes, settings);
     volume_key_ = of_volumes;
     prepare_receivers(scene, settings);
     const auto capacity = std::uint32_t(
@@ -244,7 +258,7 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
                           .overlapping = volumes.overlapping};
 
     const Recorder::Scope scope(recorder, "light");
-    recorder.fill(keys_, 0);
+    recorder.fill(voxel_light_, 0);
     recorder.fill(tally_, 0);
     if (!settings.tally) {
         trace(recorder, workspace, volumes, tracing, 0);
@@ -253,14 +267,7 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
         trace(recorder, workspace, volumes, tracing, 2);
         recorder.copy(tally_, tally_copy_, tally_.size());
     }
-    const Program& resolve = workspace.compute({"resolve_light.comp", kResolveLight});
-    for (std::uint32_t i = 0; i < light_.placement_list.size(); ++i) {
-        const gpu::LightPlacement& own = light_.placement_list[i];
-        recorder.compute(resolve,
-                         {writes("light_irradiance", light_.irradiance), writes("light_direction", light_.direction),
-                          reads("Placements", light_.placements), reads("Keys", keys_)},
-                         i, {own.size_x, own.size_y * own.size_z});
-    }
+    resolve_voxels(recorder, workspace, tracing);
     const Program& resolve_receivers = workspace.compute({"resolve_receivers.comp", kResolveReceivers});
     for (std::uint32_t i = 0; i < light_.receiver_list.size(); ++i) {
         const gpu::LightReceiver& own = light_.receiver_list[i];
@@ -278,6 +285,28 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
     return true;
 }
 
+void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
+    const bool sums = tracing.settings.kept == KeptLight::kSum;
+    const Program& resolve = sums ? workspace.compute({"resolve_summed_light.comp", kResolveSummedLight})
+                                  : workspace.compute({"resolve_brightest_light.comp", kResolveBrightestLight});
+    const std::vector<Binding> own_bindings = {
+        writes("light_irradiance", light_.irradiance), writes("light_direction", light_.direction),
+        reads("Placements", light_.placements), reads(sums ? "Sums" : "Keys", voxel_light_)};
+    const std::span<const Binding> bindings = own_bindings;
+    for (std::uint32_t i = 0; i < light_.placement_list.size(); ++i) {
+        const gpu::LightPlacement& own = light_.placement_list[i];
+        const vk::Extent2D threads{own.size_x, own.size_y * own.size_z};
+        if (!sums) {
+            recorder.compute(resolve, bindings, i, threads);
+            continue;
+        }
+        // Sums are power times voxels' lengths.
+        const float joined = std::exp2(3.0f * float(own.halvings)), voxel = records_[i].voxel;
+        recorder.compute(resolve, bindings, SumPush{i, 1.0f / (tracing.push.power_scale * joined * voxel * voxel)},
+                         threads);
+    }
+}
+
 void WavefrontTracer::trace(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
                             const Tracing& tracing, std::uint32_t tally) {
     const auto flag = [](bool value) { return value ? 1u : 0u; };
@@ -292,11 +321,29 @@ void WavefrontTracer::trace(Recorder& recorder, Workspace& workspace, const Volu
     const Program& begin = workspace.compute({"begin_round.comp", kBeginRound});
     const Program& land = workspace.compute({"land_light.comp", kLandLight}, {0});
     const Program& end = workspace.compute({"end_light.comp", kEndLight});
-    const Program& step =
-        workspace.compute({"step_light.comp", kStepLight},
-                          {flag(volumes.absorbs || volumes.scatters), flag(volumes.scatters), flag(tracing.overlapping),
-                           flag(push.receiver_count > 0), flag(tracing.settings.keep_folds),
-                           flag(volumes.reflects && tracing.settings.fresnel), tally});
+    std::vector<std::uint32_t> constants = {flag(volumes.absorbs || volumes.scatters),
+                                            flag(volumes.scatters),
+                                            flag(tracing.overlapping),
+                                            flag(push.receiver_count > 0),
+                                            flag(tracing.settings.keep_folds),
+                                            flag(volumes.reflects && tracing.settings.fresnel)};
+    std::vector<Binding> step_bindings = {reads("volume_index", volumes.index),
+                                          reads("volume_absorption", volumes.absorption),
+                                          reads("volume_scattering", volumes.scattering),
+                                          reads("Volumes", volumes.records),
+                                          reads("Placements", light_.placements),
+                                          reads("Receivers", light_.receivers),
+                                          reads("Fronts", fronts_),
+                                          updates("State", state_),
+                                          writes("Landed", landed)};
+    const bool sums = tracing.settings.kept == KeptLight::kSum;
+    step_bindings.push_back(updates(sums ? "Sums" : "Keys", voxel_light_));
+    if (!sums) {
+        constants.push_back(tally);
+        step_bindings.push_back(updates("Tally", tally_));
+    }
+    const Program& step = sums ? workspace.compute({"step_summed_light.comp", kStepSummedLight}, constants)
+                               : workspace.compute({"step_brightest_light.comp", kStepBrightestLight}, constants);
     recorder.fill(state_, 0);
     recorder.fill(texels_, 0);
     for (std::uint32_t i = 0; i < front_list_.fronts.size(); ++i) {
@@ -315,18 +362,14 @@ void WavefrontTracer::trace(Recorder& recorder, Workspace& workspace, const Volu
     };
     begin_round();
     recorder.compute_indirect(workspace.compute({"land_light.comp", kLandLight}, {1}),
-                              {reads("Receivers", light_.receivers), updates("State", state_),
-                               reads("Landed", *from), updates("Texels", texels_)},
+                              {reads("Receivers", light_.receivers), updates("State", state_), reads("Landed", *from),
+                               updates("Texels", texels_)},
                               push, step_groups);
     for (std::uint32_t round = 0; round < tracing.rounds; ++round) {
-        recorder.compute_indirect(
-            step,
-            {reads("volume_index", volumes.index), reads("volume_absorption", volumes.absorption),
-             reads("volume_scattering", volumes.scattering), reads("Volumes", volumes.records),
-             reads("Placements", light_.placements), reads("Receivers", light_.receivers), reads("Fronts", fronts_),
-             updates("State", state_), reads("PatchesIn", *from), writes("PatchesOut", *to), writes("Landed", landed),
-             updates("Keys", keys_), updates("Tally", tally_)},
-            push, step_groups);
+        std::vector<Binding> bindings = step_bindings;
+        bindings.push_back(reads("PatchesIn", *from));
+        bindings.push_back(writes("PatchesOut", *to));
+        recorder.compute_indirect(step, std::span<const Binding>(bindings), push, step_groups);
         begin_round();
         recorder.compute_indirect(land,
                                   {reads("Receivers", light_.receivers), updates("State", state_),
@@ -341,9 +384,11 @@ void WavefrontTracer::read_statistics(double power_scale, bool tally) {
     gpu::LightState state;
     std::memcpy(&state, state_copy_.mapped(), sizeof(state));
     const auto power = [&](std::uint32_t fate) {
-        return glm::dvec3(double(state.power[3 * fate]), double(state.power[3 * fate + 1]),
-                          double(state.power[3 * fate + 2])) /
-               power_scale;
+        const auto color = [&](std::uint32_t c) {
+            const std::uint32_t* words = &state.power[6 * fate + 2 * c];
+            return double(words[0]) + 4294967296.0 * double(words[1]);
+        };
+        return glm::dvec3(color(0), color(1), color(2)) / power_scale;
     };
     statistics_ = {.emitted = power(PELLUCID_LIGHT_EMITTED),
                    .arrived = power(PELLUCID_LIGHT_ARRIVED),

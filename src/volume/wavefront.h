@@ -18,8 +18,10 @@ namespace pellucid {
 
 /// What the light of a scene leaves in its volumes and on its receivers; light_lookup.glsl reads it.
 struct LightVolumes {
-    GpuImage irradiance;    ///< RGBA32F: on a surface square to the light, W/m2; a: 1 where there is light
-    GpuImage direction;     ///< RGBA16F: the way of the brightest light, unit, in the frame of the volume's voxels
+    GpuImage
+        irradiance;  ///< RGBA32F: fluence rate, W/m2 (of one beam: on a surface square to it); a: 1 where there is light
+    GpuImage
+        direction;  ///< RGBA16F: mean way of the light, in the frame of the voxels; shorter than 1 where ways differ
     Buffer placements;      ///< gpu::LightPlacement per volume record
     Buffer receivers;       ///< gpu::LightReceiver
     Buffer receiver_light;  ///< vec4 per texel: irradiance by light that went towards volumes, W/m2; then, for all
@@ -34,7 +36,7 @@ public:
     explicit WavefrontTracer(const Device& device) : device_(device) {}
 
     /// Records the passes if light, volumes, receivers or settings have changed since the last time; false if not.
-    /// `moves`: GpuScene::moves. Throws Error if the device lacks 64-bit atomics or memory.
+    /// `moves`: GpuScene::moves. Throws Error if the device lacks memory, or for KeptLight::kBrightest 64-bit atomics.
     bool update(Recorder& recorder, Workspace& workspace, const Scene& scene, const VolumeImages& volumes,
                 const LightSettings& settings, std::uint64_t moves = 0);
 
@@ -47,10 +49,11 @@ public:
 
 private:
     struct Tracing;
-    void prepare_volumes(const VolumeImages& volumes, bool tally);
+    void prepare_volumes(const VolumeImages& volumes, const LightSettings& settings);
     void prepare_receivers(const Scene& scene, const LightSettings& settings);
     void trace(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes, const Tracing& tracing,
                std::uint32_t tally);
+    void resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
     void read_statistics(double power_scale, bool tally);
 
     const Device& device_;
@@ -60,7 +63,7 @@ private:
     float radius_ = 0.0f, smallest_voxel_ = 1.0f;
     bool coarse_voxels_ = false;
     std::uint64_t voxels_ = 0;
-    Buffer keys_, tally_, texels_, state_, state_copy_, tally_copy_, fronts_;
+    Buffer voxel_light_, tally_, texels_, state_, state_copy_, tally_copy_, fronts_;
     LightFronts front_list_;
     LightVolumes light_;
     LightStatistics statistics_;

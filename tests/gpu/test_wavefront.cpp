@@ -9,6 +9,7 @@
 
 #include "gpu/device_test.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
 
 #include <numbers>
@@ -92,7 +93,6 @@ protected:
     void SetUp() override {
         DeviceTest::SetUp();
         if (IsSkipped()) return;
-        if (!device().long_atomics()) GTEST_SKIP() << "no 64-bit atomics";
         tracer_.emplace(device());
     }
     const LightStatistics& trace(const Scene& scene, const LightSettings& settings = {}) {
@@ -194,36 +194,88 @@ TEST_F(Wavefront, AbsorptionFollowsBeerAndLambert) {
     }
 }
 
+// The bar of 1% holds for means over cells of 4 x 4 x 4 voxels of the sum; a voxel of it is held to the 1.5% by which grids of
+// points two to a voxel scatter, times four. The brightest light is that of some patch: somewhere in the voxel, not in its middle.
 TEST_F(Wavefront, PointLightFollowsTheInverseSquareLaw) {
     Scene scene;
-    const Volume medium = block(64, 2.0f, 1.3f, glm::vec3(0.0f));
-    place(scene, medium);
-    scene.lights = {point(glm::vec3(0.01f), glm::vec3(3.0f))};
-    trace(scene);
-    print("inverse square", tracer().statistics());
-    const std::vector<glm::vec4> light = voxel_light();
-    double worst = 0.0, sum = 0.0;
-    int lit = 0, dark = 0;
-    for (int z = 0, i = 0; z < 64; ++z)
-        for (int y = 0; y < 64; ++y)
-            for (int x = 0; x < 64; ++x, ++i) {
-                const glm::dvec3 at = (glm::dvec3(x, y, z) + 0.5) / 32.0 - 1.0;
-                const double r = glm::distance(at, glm::dvec3(0.01));
-                if (r < 0.3 || r > 0.95) continue;
-                if (light[std::size_t(i)].x == 0.0f) {
-                    ++dark;
-                    continue;
+    place(scene, block(64, 2.0f, 1.3f, glm::vec3(0.0f)));
+    const glm::dvec3 lamp(0.01);
+    scene.lights = {point(glm::vec3(lamp), glm::vec3(3.0f))};
+    for (const KeptLight kept : {KeptLight::kSum, KeptLight::kBrightest}) {
+        const bool sums = kept == KeptLight::kSum;
+        if (!sums && !device().long_atomics()) continue;
+        LightSettings settings;
+        settings.kept = kept;
+        trace(scene, settings);
+        print("inverse square", tracer().statistics());
+        const std::vector<glm::vec4> light = voxel_light();
+        double worst = 0.0, sum = 0.0, squares = 0.0, worst_cell = 0.0;
+        int lit = 0, dark = 0;
+        std::vector<glm::dvec2> cells(16 * 16 * 16, glm::dvec2(0.0));
+        for (int z = 0, i = 0; z < 64; ++z)
+            for (int y = 0; y < 64; ++y)
+                for (int x = 0; x < 64; ++x, ++i) {
+                    const double r = 1.0 / 32.0 * glm::distance(glm::dvec3(x, y, z) + 0.5 - 32.0, 32.0 * lamp);
+                    if (r < 4.0 / 32.0 || r > 0.95) continue;
+                    const double found = double(light[std::size_t(i)].x), ratio = found * r * r / 3.0;
+                    ++(found > 0.0 ? lit : dark);
+                    cells[std::size_t(x / 4 + 16 * (y / 4 + 16 * (z / 4)))] += glm::dvec2(ratio, 1.0);
+                    worst = std::max(worst, std::abs(ratio - 1.0));
+                    squares += (ratio - 1.0) * (ratio - 1.0);
+                    EXPECT_LT(std::abs(ratio - 1.0), sums ? 0.3 : 0.03 + 2.0 * (0.87 / 32.0) / r);
+                    sum += ratio;
                 }
-                ++lit;
-                const double ratio = double(light[std::size_t(i)].x) * r * r / 3.0;
-                worst = std::max(worst, std::abs(ratio - 1.0));
-                // A voxel has the irradiance of the brightest patch in it: somewhere in it, not in its middle.
-                EXPECT_LT(std::abs(ratio - 1.0), 0.03 + 2.0 * (0.87 / 32.0) / r);
-                sum += ratio;
+        for (const glm::dvec2 cell : cells)
+            if (cell.y == 64.0) worst_cell = std::max(worst_cell, std::abs(cell.x / cell.y - 1.0));
+        std::printf("inverse square, %s: mean %.4f, rms %.4f, worst %.4f, worst cell %.4f, dark %d of %d\n",
+                    sums ? "sum" : "brightest", sum / lit, std::sqrt(squares / lit), worst, worst_cell, dark,
+                    lit + dark);
+        EXPECT_NEAR(sum / lit, 1.0, sums ? 0.01 : 0.03);
+        EXPECT_EQ(dark, 0);
+        EXPECT_LT(worst_cell, sums ? 0.01 : 0.1);
+        EXPECT_LT(std::sqrt(squares / lit), 0.04);
+    }
+}
+
+// The light behind a ball against photons through the same smoothed ball, at least 1,000 in every voxel that counts.
+TEST_F(Wavefront, SumsBehindABallAreThoseOfCountedPhotons) {
+    Scene scene;
+    const unsigned resolution = 96, per_voxel = 32;
+    Volume ball = block(resolution, 3.2f, 1.0f, glm::vec3(0.0f));
+    const double voxel = double(ball.voxel);
+    const BallAndPlane truth{
+        .smoothing = 0.75 * voxel, .box = 1.6, .direction = glm::normalize(glm::dvec3(0.2, -1.0, 0.1))};
+    for (unsigned z = 0, i = 0; z < resolution; ++z)
+        for (unsigned y = 0; y < resolution; ++y)
+            for (unsigned x = 0; x < resolution; ++x, ++i) {
+                const double r = glm::length((glm::dvec3(x, y, z) + 0.5) * voxel - truth.box);
+                ball.n[i] = 1.0f + 0.5f * float(smoothed_inside(r - truth.radius, truth.smoothing));
             }
-    EXPECT_NEAR(sum / lit, 1.0, 0.03);
-    EXPECT_EQ(dark, 0);
-    std::printf("inverse square: mean %.4f, worst %.4f, dark %d of %d\n", sum / lit, worst, dark, lit + dark);
+    place(scene, ball);
+    scene.lights = {directional(glm::vec3(truth.direction))};
+    trace(scene, without_reflection());
+    const VoxelPhotons photons = count_voxel_photons(truth, resolution, per_voxel);
+    const std::vector<glm::vec4> light = voxel_light();
+    std::vector<double> own, exact;
+    double apart = 0.0, total = 0.0, found = 0.0;
+    for (unsigned z = 0, i = 0; z < resolution; ++z)
+        for (unsigned y = 0; y < resolution; ++y)
+            for (unsigned x = 0; x < resolution; ++x, ++i) {
+                const glm::dvec3 at = (glm::dvec3(x, y, z) + 0.5) * voxel - truth.box;
+                if (glm::length(at) < truth.radius + 5.0 * truth.smoothing + voxel) continue;
+                if (glm::dot(at, truth.direction) < 0.0 || photons.photons[std::size_t(i)] < 1000.0) continue;
+                own.push_back(double(light[std::size_t(i)].x));
+                exact.push_back(photons.fluence[std::size_t(i)]);
+                apart += std::abs(own.back() - exact.back());
+                total += exact.back();
+                found += own.back();
+            }
+    std::printf("behind a ball: %zu voxels, correlation %.4f, flux %.4f, apart %.4f\n", own.size(),
+                correlation(own, exact), found / total, apart / total);
+    EXPECT_GT(own.size(), 1000u);
+    EXPECT_GT(correlation(own, exact), 0.97);
+    EXPECT_NEAR(found / total, 1.0, 0.01);
+    EXPECT_LT(apart / total, 0.15);
 }
 
 TEST_F(Wavefront, CausticOfABallIsThatOfCountedPhotons) {
@@ -386,29 +438,40 @@ TEST_F(Wavefront, VoxelsKnowTheWayOfTheLightInTheirFrame) {
     place(scene, block(16, 1.0f, 1.5f, glm::vec3(0.0f)), placed);
     const glm::vec3 way = glm::normalize(glm::vec3(1.0f, -2.0f, 0.5f));
     scene.lights = {directional(way, {2.0f, 1.0f, 0.0f})};
-    trace(scene);
-    const std::vector<std::byte> bytes = download_box(device(), tracer().light().direction);
-    std::vector<std::uint64_t> directions(bytes.size() / 8);
-    std::memcpy(directions.data(), bytes.data(), bytes.size());
-    const std::vector<glm::vec4> light = voxel_light();
     const glm::vec3 expected = glm::normalize(glm::inverse(glm::mat3(placed)) * way);
-    // 8 bits of colour, 24 of brightness, 12 and half floats of direction. Along the edges of what meets the box, patches
-    // have less: as much less as of them passes it.
-    std::size_t full = 0, dark = 0, astray = 0;
-    for (std::size_t i = 0; i < light.size(); ++i) {
-        const double share = double(light[i].x) / 2.0;
-        dark += share == 0.0 ? 1 : 0;
-        full += std::abs(share - 1.0) < 0.005 ? 1 : 0;
-        EXPECT_LT(share, 1.005);
-        EXPECT_NEAR(light[i].y, 0.5f * light[i].x, 0.01f);
-        EXPECT_NEAR(light[i].z, 0.0f, 0.01f);
-        const glm::vec3 found(glm::unpackHalf4x16(directions[i]));
-        astray += share > 0.0 && !(glm::distance(found, expected) < 2e-3f) ? 1 : 0;
+    for (const KeptLight kept : {KeptLight::kSum, KeptLight::kBrightest}) {
+        const bool sums = kept == KeptLight::kSum;
+        if (!sums && !device().long_atomics()) continue;
+        LightSettings settings;
+        settings.kept = kept;
+        trace(scene, settings);
+        const std::vector<std::byte> bytes = download_box(device(), tracer().light().direction);
+        std::vector<std::uint64_t> directions(bytes.size() / 8);
+        std::memcpy(directions.data(), bytes.data(), bytes.size());
+        const std::vector<glm::vec4> light = voxel_light();
+        // Brightest: 8 bits of colour, 24 of brightness, 12 and half floats of direction; along the edges of what meets the
+        // box, patches have less: as much less as of them passes it. Sums scatter by 1.5% (points two to a voxel), more
+        // where the corners of the box cut patches.
+        std::size_t full = 0, dark = 0, astray = 0;
+        double total = 0.0;
+        for (std::size_t i = 0; i < light.size(); ++i) {
+            const double share = double(light[i].x) / 2.0;
+            total += share;
+            dark += share == 0.0 ? 1 : 0;
+            full += std::abs(share - 1.0) < (sums ? 0.05 : 0.005) ? 1 : 0;
+            EXPECT_LT(share, sums ? 1.25 : 1.005);
+            EXPECT_NEAR(light[i].y, 0.5f * light[i].x, 0.01f);
+            EXPECT_NEAR(light[i].z, 0.0f, 0.01f);
+            const glm::vec3 found(glm::unpackHalf4x16(directions[i]));
+            astray += share > 0.0 && !(glm::distance(found, expected) < 2e-3f) ? 1 : 0;
+        }
+        std::printf("voxels: %zu, full light %zu, dark %zu, mean %.4f\n", light.size(), full, dark,
+                    total / double(light.size()));
+        EXPECT_EQ(astray, 0u);
+        EXPECT_LT(dark, light.size() / 100);  // at the edges, where none is on both sides
+        EXPECT_GT(full, light.size() * 9 / 10);
+        EXPECT_NEAR(total / double(light.size()), 1.0, 0.01);
     }
-    std::printf("voxels: %zu, full light %zu, dark %zu\n", light.size(), full, dark);
-    EXPECT_EQ(astray, 0u);
-    EXPECT_LT(dark, light.size() / 100);  // at the edges, where none is on both sides
-    EXPECT_GT(full, light.size() * 9 / 10);
 }
 
 TEST_F(Wavefront, SurfacesTakeAwayWhatTheyReflect) {

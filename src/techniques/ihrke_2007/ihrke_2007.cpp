@@ -46,6 +46,9 @@ constexpr std::array kOwnParameters = {
     ParameterInfo{"smoothing", "voxels", 0.75, 0, 16, false,
                   "standard deviation of the Gaussian that smooths the index of that volume"},
     ParameterInfo{
+        "kept-light", "", 1, 0, 1, true,
+        "what voxels keep of light: 0 the brightest and its way, as in the paper; 1 all of it and its mean way"},
+    ParameterInfo{
         "folds", "", 1, 0, 1, true,
         "1: light goes on past a focus; 0: a piece of a wavefront that has turned over ends, as in the paper"},
     ParameterInfo{"light-step", "voxels", 0.5, 0.01, 8, false, "optical length of a step of light"},
@@ -156,7 +159,8 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     SceneVolumes& scene_volumes = volumes_of(frame.scene);
     if (scene_volumes.lit())
         scene_volumes.light(recorder, frame.workspace,
-                            {.step = float(parameters["light-step"]),
+                            {.kept = parameters["kept-light"] != 0.0 ? KeptLight::kSum : KeptLight::kBrightest,
+                             .step = float(parameters["light-step"]),
                              .keep_folds = parameters["folds"] != 0.0,
                              .capacity = parameters.whole("patches")});
     const SurfaceMap map = layers.source.map_meshes(recorder, frame, parameters.whole("map-resolution"));

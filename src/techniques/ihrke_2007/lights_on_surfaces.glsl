@@ -7,17 +7,15 @@
 
 layout(std430, set = 0, binding = 35) readonly buffer Lights { PunctualLight lights[]; };
 
-// In a volume: that of its voxel's brightest light. False: the place is in none.
+// In a volume: what its voxels keep, less what comes from behind. False: the place is in none.
 bool irradiance_in_volume(vec3 position, vec3 normal, out vec3 irradiance) {
     irradiance = vec3(0.0);
     for (uint i = 0u; i < volume_count; ++i) {
         vec3 x = voxel_position(volumes[i], position);
         if (!in_box(x, volumes[i].size)) continue;
-        vec3 way = light_value(light_direction, placements[i], x).xyz;
-        if (dot(way, way) > 0.0) {
-            way = normalize(mat3(volumes[i].world_from_voxel) * way);
-            irradiance = light_value(light_irradiance, placements[i], x).rgb * max(-dot(way, normal), 0.0);
-        }
+        PlaceLight light = light_at(placements[i], x);
+        vec3 way = mat3(volumes[i].world_from_voxel) * light.way / volumes[i].voxel;
+        irradiance = light.fluence * max(-dot(way, normal), 0.0);
         return true;
     }
     return false;

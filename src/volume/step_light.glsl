@@ -1,48 +1,8 @@
-#version 460
 // A round: every patch of the wavefronts goes on by some steps, until it has to be split, or ends. Patches need not keep
 // step with each other (Ihrke et al. 2007, section 4.2).
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_samplerless_texture_functions : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_EXT_shader_atomic_int64 : require
-
-layout(local_size_x = 64) in;
-
-layout(constant_id = 0) const bool kMedium = false;       // something absorbs or scatters
-layout(constant_id = 1) const bool kScatters = false;
-layout(constant_id = 2) const bool kOverlapping = false;  // boxes
-layout(constant_id = 3) const bool kReceivers = false;    // there are some
-layout(constant_id = 4) const bool kKeepFolds = true;
-layout(constant_id = 5) const bool kBoundary = false;     // surfaces reflect
-layout(constant_id = 6) const uint kTally = 0u;           // 1: adds up what voxels get; 2: of it, what goes the main way
-
-layout(set = 0, binding = 0) uniform texture3D volume_index;
-layout(set = 0, binding = 1) uniform texture3D volume_absorption;
-layout(set = 0, binding = 2) uniform texture3D volume_scattering;
-
-#include "gpu/octahedral.glsl"
-#include "volume/volume_field.glsl"
-#include "optics/eikonal.glsl"
-#include "volume/light_patch.glsl"
-#include "volume/light_plane.glsl"
-#include "volume/light_key.glsl"
-#include "volume/light_surface.glsl"
-
-layout(std430, set = 0, binding = 3) readonly buffer Volumes { VolumeRecord volumes[]; };
-layout(std430, set = 0, binding = 4) readonly buffer Placements { LightPlacement placements[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Receivers { LightReceiver receivers[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Fronts { LightFront fronts[]; };
-layout(std430, set = 0, binding = 7) buffer State { LightState state; };
-#include "volume/light_power.glsl"
-layout(std430, set = 0, binding = 8) readonly buffer PatchesIn { LightPatch patches_in[]; };
-layout(std430, set = 0, binding = 9) writeonly buffer PatchesOut { LightPatch patches_out[]; };
-layout(std430, set = 0, binding = 10) writeonly buffer Landed { LightPatch landed[]; };
-layout(std430, set = 0, binding = 11) buffer Keys { uint64_t keys[]; };
-layout(std430, set = 0, binding = 12) buffer Tally { uint64_t tally[]; };  // two per voxel: all, what goes the main way
-
-const float kMainWay = 0.9659258;  // cosine of the 15 degrees within which light goes the same way
-
-vec3 middle(vec3 corners[4]) { return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]); }
+//
+// Needs: volume/step_bindings.glsl; void keep_light(VolumeRecord, LightPlacement, PassingLight), which leaves the light of
+// a step in voxels.
 
 void keep_patch(Quad quad) { patches_out[atomicAdd(state.kept, 1u)] = pack_patch(quad); }
 void land_patch(Quad quad) { landed[atomicAdd(state.landed, 1u)] = pack_patch(quad); }
@@ -122,20 +82,10 @@ bool meets_receiver(vec3 from, vec3 to, VolumeRecord volume) {
     return met;
 }
 
-// Writes the light of a patch to the voxel under its middle, if it is the brightest there.
-void light_voxel(LightPlacement placement, vec3 centre, vec3 way, vec3 irradiance, vec3 power, float length_m) {
-    uvec3 at = min(uvec3(centre) >> placement.halvings,
-                   uvec3(placement.size_x, placement.size_y, placement.size_z) - 1u);
-    uint voxel = placement.first_key + at.x + placement.size_x * (at.y + placement.size_y * at.z);
-    uint64_t key = light_key(irradiance, way);
-    if (kTally == 0u) {
-        if (key > keys[voxel]) atomicMax(keys[voxel], key);
-    } else if (kTally == 1u) {
-        atomicMax(keys[voxel], key);
-        atomicAdd(tally[2u * voxel], fixed_point((power.r + power.g + power.b) * length_m));
-    } else if (dot(way, key_direction(keys[voxel])) > kMainWay) {
-        atomicAdd(tally[2u * voxel + 1u], fixed_point((power.r + power.g + power.b) * length_m));
-    }
+// Of light over a way of that optical depth.
+vec3 mean_transmittance(vec3 depth) {
+    vec3 mean = (1.0 - exp(-depth)) / max(depth, 1e-4);
+    return mix(mean, 1.0 - 0.5 * depth, lessThan(depth, vec3(1e-3)));
 }
 
 void split(Quad quad, bool along_side) {
@@ -211,6 +161,7 @@ void main() {
         vec3 v_before = mean_v(quad.v);
         // At a point where all light meets, both sides turn over at once.
         bool reversed = dot(x[1] - x[0], quad.x[1] - quad.x[0]) < 0.0 || dot(x[3] - x[0], quad.x[3] - quad.x[0]) < 0.0;
+        vec3 old[4] = quad.x;
         quad.x = x;
         quad.v = v;
         vec3 half_way = 0.5 * (from + to);
@@ -218,24 +169,26 @@ void main() {
         vec3 area = 0.5 * cross(x[2] - x[0], x[3] - x[1]) * handed;
         vec3 way = normalize(middle(v));
         float facing = dot(area, way);
-        if (in_box(half_way, volume_size)) {
-            if (kMedium || kBoundary) {
-                vec4 absorption = volume_value(volume_absorption, half_way);
-                vec3 extinction = absorption.rgb;
-                if (kScatters) extinction += volume_value(volume_scattering, half_way).rgb;
-                float near, far;  // the part of the step that is in the box
-                clip_to_box(volume, from, to - from, near, far);
-                quad.power *= exp(-extinction * travelled * max(min(far, 1.0) - near, 0.0));
-                if (kBoundary) {
-                    vec3 reflected = quad.power * crossed_surface(quad.surface, absorption.a, v_before, mean_v(v));
-                    quad.power -= reflected;
-                    quad.unabsorbed -= reflected;
-                    add_power(PELLUCID_LIGHT_REFLECTED, reflected);
-                }
+        vec3 mean_power = quad.power;
+        if ((kMedium || kBoundary) && in_box(half_way, volume_size)) {
+            vec4 absorption = volume_value(volume_absorption, half_way);
+            vec3 extinction = absorption.rgb;
+            if (kScatters) extinction += volume_value(volume_scattering, half_way).rgb;
+            float near, far;  // the part of the step that is in the box
+            clip_to_box(volume, from, to - from, near, far);
+            vec3 depth = extinction * travelled * max(min(far, 1.0) - near, 0.0);
+            mean_power *= mean_transmittance(depth);
+            quad.power *= exp(-depth);
+            if (kBoundary) {
+                vec3 reflected = quad.power * crossed_surface(quad.surface, absorption.a, v_before, mean_v(v));
+                quad.power -= reflected;
+                quad.unabsorbed -= reflected;
+                add_power(PELLUCID_LIGHT_REFLECTED, reflected);
             }
-            float area_m = max(abs(facing), least_area) * volume.voxel * volume.voxel;
-            light_voxel(placement, half_way, way, quad.power / area_m, quad.power, travelled * volume.voxel);
         }
+        keep_light(volume, placement,
+                   PassingLight(old, x, way, facing, quad.power, mean_power, travelled * volume.voxel,
+                                most_power / first_power, s));
         turned = !kKeepFolds && (facing < 0.0 || reversed);
         weak = max(quad.power.r, max(quad.power.g, quad.power.b)) < weakest * first_power;
         bool outside = !in_box(to, volume_size);

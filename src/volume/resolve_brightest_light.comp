@@ -1,5 +1,5 @@
 #version 460
-// From the keys of one placement's voxels to the images of its light.
+// From the keys (brightest_light.glsl) of one placement's voxels to the images of its light.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 

@@ -1,0 +1,50 @@
+#ifndef PELLUCID_VOLUME_STEP_BINDINGS_GLSL
+#define PELLUCID_VOLUME_STEP_BINDINGS_GLSL
+
+// What the two ways to keep light (sum_light.glsl, brightest_light.glsl) and the round itself (step_light.glsl) share.
+
+layout(local_size_x = 64) in;
+
+layout(constant_id = 0) const bool kMedium = false;       // something absorbs or scatters
+layout(constant_id = 1) const bool kScatters = false;
+layout(constant_id = 2) const bool kOverlapping = false;  // boxes
+layout(constant_id = 3) const bool kReceivers = false;    // there are some
+layout(constant_id = 4) const bool kKeepFolds = true;
+layout(constant_id = 5) const bool kBoundary = false;     // surfaces reflect
+
+layout(set = 0, binding = 0) uniform texture3D volume_index;
+layout(set = 0, binding = 1) uniform texture3D volume_absorption;
+layout(set = 0, binding = 2) uniform texture3D volume_scattering;
+
+#include "gpu/octahedral.glsl"
+#include "volume/volume_field.glsl"
+#include "optics/eikonal.glsl"
+#include "volume/light_patch.glsl"
+#include "volume/light_plane.glsl"
+#include "volume/light_surface.glsl"
+
+layout(std430, set = 0, binding = 3) readonly buffer Volumes { VolumeRecord volumes[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Placements { LightPlacement placements[]; };
+layout(std430, set = 0, binding = 5) readonly buffer Receivers { LightReceiver receivers[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Fronts { LightFront fronts[]; };
+layout(std430, set = 0, binding = 7) buffer State { LightState state; };
+#include "volume/light_power.glsl"
+layout(std430, set = 0, binding = 8) readonly buffer PatchesIn { LightPatch patches_in[]; };
+layout(std430, set = 0, binding = 9) writeonly buffer PatchesOut { LightPatch patches_out[]; };
+layout(std430, set = 0, binding = 10) writeonly buffer Landed { LightPatch landed[]; };
+
+vec3 middle(vec3 corners[4]) { return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]); }
+
+// What a patch leaves in the voxels that it passes in one step.
+struct PassingLight {
+    vec3 from[4], to[4];  // corners, voxels
+    vec3 way;             // unit
+    float area;           // square to it, voxels^2; negative past a focus
+    vec3 power;           // W, at the end of the step
+    vec3 mean_power;      // over it
+    float length_m;
+    float first_share;    // of the power that patches of its front began with
+    uint step_number;
+};
+
+#endif
