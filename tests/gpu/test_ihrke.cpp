@@ -336,6 +336,53 @@ TEST_F(Ihrke, WhiteFurnace) {
     }
 }
 
+/// A slab of index n, half a metre thick and square to z, in a cube of 1 m.
+Volume slab(float n, double smoothing, unsigned resolution) {
+    Volume volume = even_cube(0.5f, resolution);
+    const double sigma = smoothing * double(volume.voxel);
+    for (unsigned z = 0; z < resolution; ++z) {
+        const double off = std::abs(double(volume.low.z) + (z + 0.5) * double(volume.voxel)) - 0.25;
+        const auto inside = float(smoothed_inside(off, sigma));
+        volume.n.insert(volume.n.end(), resolution * resolution, 1.0f + (n - 1.0f) * inside);
+        volume.boundary.insert(volume.boundary.end(), resolution * resolution,
+                               float(std::exp(-0.5 * off * off / (sigma * sigma))));
+    }
+    return volume;
+}
+
+// Before a white wall, in the dark. What is transmitted at once is (1 - R)^2; with all that is reflected inside it adds up to
+// (1 - R) / (1 + R), which at normal incidence is 2 n / (n^2 + 1).
+TEST_F(Ihrke, SlabsReflectAsFresnelSaysWhateverTheStep) {
+    for (const float n : {1.5f, 2.42f})
+        for (const double smoothing : {0.5, 0.75, 1.0})
+            for (const double step : {0.25, 0.5, 1.0}) {
+                Scene scene;
+                place(scene, slab(n, smoothing, 48));
+                add(scene, square(), painted({1, 1, 1}), at({0, 0, -1.0f}, 3.0f));
+                set(scene, uniform_environment(glm::vec3(0.0f)));
+                const RenderResult found = draw("ihrke-2007", {{"step", step}, {"branches", 16}, {"threshold", 1e-4}});
+                double path_error = 0.0, picture_error = 0.0;
+                int seen = 0;
+                for (int y = 40; y < 56; ++y)
+                    for (int x = 40; x < 56; ++x) {
+                        const WorldRay ray = pixel_ray(camera_, kSize, kSize, x, y);
+                        const double c = -ray.direction.z, eta = 1.0 / double(n);
+                        const double c_t = std::sqrt(1.0 - eta * eta * (1.0 - c * c));
+                        const double rs = (c - double(n) * c_t) / (c + double(n) * c_t),
+                                     rp = (c_t - double(n) * c) / (c_t + double(n) * c);
+                        const double r = 0.5 * (rs * rs + rp * rp);
+                        const RefractedPath& path = found.paths[std::size_t(y) * kSize + std::size_t(x)];
+                        path_error += double(path.transmittance.g) / ((1.0 - r) * (1.0 - r)) - 1.0;
+                        picture_error += double(rgb(found.radiance, x, y).g) * (1.0 + r) / (1.0 - r) - 1.0;
+                        ++seen;
+                    }
+                std::printf("slab of %.2f, smoothing %.2f, step %.2f: path %+.4f, picture %+.4f\n", double(n),
+                            smoothing, step, path_error / seen, picture_error / seen);
+                EXPECT_NEAR(path_error / seen, 0.0, 0.005);
+                EXPECT_NEAR(picture_error / seen, 0.0, 0.005);
+            }
+}
+
 // A dispersive volume shows in each channel what one of that colour's index shows.
 TEST_F(Ihrke, ColorsPartInDispersiveVolumes) {
     const Volume dispersive = make_volume("smoothed-sphere,resolution=48,dispersion=4");

@@ -57,23 +57,38 @@ bool passes_boundary(inout Boundary boundary, float field, bool inside) {
            (boundary.lowest < 0.5 * boundary.highest && field > boundary.lowest + 0.1 * boundary.highest);
 }
 
-void leave_boundary(uint i, inout Path path, Boundary boundary, vec3 v, VolumeRecord volume, mat3 world_from_voxel) {
-    float n_i = length(boundary.v), n_t = length(v);
+// The index beside a surface, a voxel away from x: what a grid has next to a jump swings a little. Where another surface is
+// so near, at x.
+float index_beside(vec3 x, vec3 away) {
+    vec3 beside = x + away;
+    bool clear = in_box(beside, volume_size) && volume_value(volume_absorption, beside).a <= kBoundaryEnds;
+    return index_field(clear ? beside : x).w;
+}
+
+// `v`: behind the surface. What a step was too long for is put right along the normal: across it v does not change.
+void leave_boundary(uint i, inout Path path, Boundary boundary, vec3 x, inout vec3 v, VolumeRecord volume,
+                    mat3 world_from_voxel) {
     vec3 turned = v - boundary.v;
     if (!(length(turned) > kLeastTurn)) return;
-    vec3 incident = boundary.v / n_i, normal = normalize(turned);
-    if (dot(incident, normal) > 0.0) normal = -normal;
+    vec3 normal = normalize(turned);
+    if (dot(boundary.v, normal) > 0.0) normal = -normal;
     ++path.events;
-    if (dot(v, normal) > 0.0) {  // total internal reflection
+    float n_t = index_beside(x, normalize(v));
+    vec3 along = boundary.v - dot(boundary.v, normal) * normal;
+    float across = n_t * n_t - dot(along, along);
+    bool reflects = dot(v, normal) > 0.0;
+    if (across > 0.0) v = along + (reflects ? 1.0 : -1.0) * sqrt(across) * normal;
+    if (reflects) {  // total internal reflection
         ++path.reflections;
         return;
     }
-    float reflectance = fresnel_dielectric(-dot(incident, normal), n_i / n_t);
+    float n_i = index_beside(boundary.x, -normalize(boundary.v));
+    float reflectance = fresnel_dielectric(sqrt(max(1.0 - dot(along, along) / (n_i * n_i), 0.0)), n_i / n_t);
     vec3 reflected = path.transmittance * reflectance;
     if (!kTree || !may_branch(i, reflected)) return;  // its light goes on with what is transmitted, so that none is lost
     Path branch = path;
     branch.position = (volume.world_from_voxel * vec4(boundary.x, 1.0)).xyz;
-    branch.direction = normalize(world_from_voxel * reflect_direction(incident, normal));
+    branch.direction = normalize(world_from_voxel * reflect_direction(normalize(boundary.v), normal));
     branch.transmittance = reflected;
     uint own = mark;
     mark &= ~(kMainPath | kEntersVolume);
@@ -201,7 +216,7 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
         if (kBoundaries && !is_held) {
             if (passes_boundary(boundary, absorption.a, inside)) {
                 boundary.open = false;
-                leave_boundary(i, path, boundary, next.v, volume, world_from_voxel);
+                leave_boundary(i, path, boundary, next.x, next.v, volume, world_from_voxel);
             }
             if (absorption.a > kBoundaryEnds && !boundary.open) boundary = Boundary(true, ray.x, ray.v, absorption.a, absorption.a);
             in_air = kSurfacesInside && has_mesh && absorption.a <= kBoundaryEnds && dot(next.v, next.v) < kAirIndex * kAirIndex;
