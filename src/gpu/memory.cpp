@@ -109,6 +109,7 @@ std::uint32_t texel_size(vk::Format format) {
         case vk::Format::eD32Sfloat:
             return 4;
         case vk::Format::eR32G32Uint:
+        case vk::Format::eR32G32Sfloat:
         case vk::Format::eR16G16B16A16Sfloat:
             return 8;
         case vk::Format::eR32G32B32A32Sfloat:

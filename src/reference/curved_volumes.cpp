@@ -31,15 +31,21 @@ struct Index {
     glm::dvec3 gradient{0.0};  ///< per voxel
 };
 
-/// Between four values at -1, 0, 1, 2: weights at f, 0..1, and their slopes.
+/// Of a uniform cubic B-spline at f, 0..1, between the second and the third of four values: their weights, and those of its
+/// slope. Before the first value and behind the last a row goes on straight.
 struct Cubic {
     std::array<double, 4> weight, slope;
 
-    explicit Cubic(double f) {
-        weight = {0.5 * f * (f * (2.0 - f) - 1.0), 0.5 * (f * f * (3.0 * f - 5.0) + 2.0),
-                  0.5 * f * (f * (4.0 - 3.0 * f) + 1.0), 0.5 * f * f * (f - 1.0)};
-        slope = {0.5 * (f * (4.0 - 3.0 * f) - 1.0), 0.5 * f * (9.0 * f - 10.0), 0.5 * (f * (8.0 - 9.0 * f) + 1.0),
-                 0.5 * f * (3.0 * f - 2.0)};
+    Cubic(double f, bool first, bool last) {
+        const double g = 1.0 - f;
+        weight = {g * g * g / 6.0, (1.0 + 3.0 * g * (1.0 + g * f)) / 6.0, (1.0 + 3.0 * f * (1.0 + f * g)) / 6.0,
+                  f * f * f / 6.0};
+        slope = {-0.5 * g * g, 0.5 * f * (f - 2.0 * g - 2.0), 0.5 * g * (2.0 * f + 2.0 - g), 0.5 * f * f};
+        for (std::array<double, 4>* row : {&weight, &slope}) {
+            auto& [a, b, c, d] = *row;
+            if (first) b += 2.0 * a, c -= a, a = 0.0;
+            if (last) c += 2.0 * d, b -= d, d = 0.0;
+        }
     }
 };
 
@@ -111,7 +117,10 @@ struct CurvedVolumes::Placed {
                                            : parted && channel == kBlue ? volume->n_blue
                                                                         : volume->n;
         if (even[brick(at.low)] != 0) return {double(values[number(at.low)]), glm::dvec3(0.0)};
-        const Cubic cx(at.share.x), cy(at.share.y), cz(at.share.z);
+        const auto cubic_along = [&](int k) {
+            return Cubic(at.share[k], at.low[k] == 0, at.low[k] + 2 == int(volume->size[k]));
+        };
+        const Cubic cx = cubic_along(0), cy = cubic_along(1), cz = cubic_along(2);
         std::size_t first[3][4];  // of the values at -1, 0, 1, 2 along each axis
         std::size_t stride = 1;
         for (int k = 0; k < 3; ++k) {

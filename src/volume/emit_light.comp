@@ -63,7 +63,7 @@ void main() {
     quad.volume = PELLUCID_NO_VOLUME;
     quad.front = front;
     quad.coarse = false;
-    quad.surface = 0u;
+    quad.surface = vec4(0.0);
     if (!(max(quad.power.r, max(quad.power.g, quad.power.b)) > 0.0)) return;  // none of it heads there
     add_power(PELLUCID_LIGHT_EMITTED, quad.power);
     uint slot = atomicAdd(state.kept, 1u);  // fronts have no more patches than a list has room for

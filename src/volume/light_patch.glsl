@@ -31,7 +31,7 @@ struct Quad {
     uint volume;      // that v belongs to
     uint front;
     bool coarse;      // a split has found no room
-    uint surface;     // what light was like before the surface that it is in: pack_incident(); 0: it is in none
+    vec4 surface;     // that it is in: LightPatch::surface
 };
 
 Quad unpack_patch(LightPatch patch_) {
@@ -46,7 +46,7 @@ Quad unpack_patch(LightPatch patch_) {
     quad.volume = tag & 0xffffu;
     quad.front = tag >> 16 & PELLUCID_MOST_FRONTS;
     quad.coarse = tag >> 31 != 0u;
-    quad.surface = floatBitsToUint(patch_.direction[3].w);
+    quad.surface = patch_.surface;
     return quad;
 }
 
@@ -63,7 +63,8 @@ LightPatch pack_patch(Quad quad) {
     patch_.direction[0].w = quad.unabsorbed.r;
     patch_.direction[1].w = quad.unabsorbed.g;
     patch_.direction[2].w = quad.unabsorbed.b;
-    patch_.direction[3].w = uintBitsToFloat(quad.surface);
+    patch_.direction[3].w = 0.0;
+    patch_.surface = quad.surface;
     return patch_;
 }
 

@@ -19,9 +19,9 @@ using uint = std::uint32_t;
 
 // Four corners of a piece of a wavefront, in order around it.
 struct LightPatch {
-    vec4 position[4];  // xyz: world, m. w: power, W (three colours); last: bits of the tag
-    vec4 direction
-        [4];  // xyz: v, n times the unit direction, world. w: power if nothing had been absorbed; last: surface
+    vec4 position[4];   // xyz: world, m. w: power, W (three colours); last: bits of the tag
+    vec4 direction[4];  // xyz: v, n times the unit direction, world. w: power if nothing had been absorbed
+    vec4 surface;       // that it is in: way before it, packed; 0: none; n before it; highest and lowest of its field
 };
 
 // A grid of patches that a light emits towards the box of one volume.
@@ -53,7 +53,7 @@ struct LightPlacement {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LightPatch) == 128);
+static_assert(sizeof(LightPatch) == 144);
 static_assert(sizeof(LightFront) == 112);
 static_assert(sizeof(LightReceiver) == 64);
 static_assert(sizeof(LightPlacement) == 32);

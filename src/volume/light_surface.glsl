@@ -1,43 +1,32 @@
 #ifndef PELLUCID_VOLUME_LIGHT_SURFACE_GLSL
 #define PELLUCID_VOLUME_LIGHT_SURFACE_GLSL
 
-// What surfaces in volumes reflect. A surface is as thick as the index is smoothed. Its normal is known once it lies
-// behind: the direction in which v has changed; it and the indices on both sides say what it has reflected (Fresnel).
-// Needs: gpu/octahedral.glsl.
+// What surfaces in volumes reflect of a patch, by its middle. Needs: gpu/octahedral.glsl, volume/smoothed_surface.glsl.
 
-#include "optics/interface.glsl"
-
-const float kSurface = 0.25;      // boundary above which light is in a surface
-const float kLeastTurn = 0.02;    // of v; less is no surface, or one beside the way of the light
-
-// v in 31 bits: 11 and 10 of its direction (within 0.2 degrees), 10 of n up to 8 (within 0.004); never 0.
-uint pack_incident(vec3 v) {
-    vec2 place = clamp(octahedral_from_direction(v) * 0.5 + 0.5, 0.0, 1.0);
-    return 1u << 31 | uint(place.x * 2047.0 + 0.5) << 20 | uint(place.y * 1023.0 + 0.5) << 10 |
-           uint(clamp(length(v) * 128.0 + 0.5, 1.0, 1023.0));
+// A direction, within 0.01 degrees, in the bits of a float that is neither 0 nor infinite.
+float pack_way(vec3 way) {
+    vec2 place = clamp(octahedral_from_direction(way) * 0.5 + 0.5, 0.0, 1.0);
+    return uintBitsToFloat(1u << 30 | uint(place.x * 16383.0 + 0.5) << 15 | uint(place.y * 32767.0 + 0.5));
 }
-
-vec3 unpack_incident(uint packed) {
-    vec2 place = vec2(float(packed >> 20 & 0x7ffu) / 2047.0, float(packed >> 10 & 0x3ffu) / 1023.0);
-    return normalize(octahedron_point(place * 2.0 - 1.0)) * float(packed & 0x3ffu) / 128.0;
+vec3 unpack_way(float packed) {
+    uint bits = floatBitsToUint(packed);
+    vec2 place = vec2(float(bits >> 15 & 0x3fffu) / 16383.0, float(bits & 0x7fffu) / 32767.0);
+    return normalize(octahedron_point(place * 2.0 - 1.0));
 }
 
 // Share of the light that a surface has reflected: more than 0 in the step in which light leaves it. Light that it
-// turns back (total reflection) loses nothing.
-float crossed_surface(inout uint surface, float boundary, vec3 v_before, vec3 v_after) {
-    if (boundary > kSurface) {
-        if (surface == 0u) surface = pack_incident(v_before);
-        return 0.0;
+// turns back (total reflection) loses nothing. Places and v are those of the middle, before and after the step.
+float crossed_surface(inout vec4 surface, float field, bool inside, vec3 x_before, vec3 v_before, vec3 x, vec3 v) {
+    Boundary boundary = kNoBoundary;
+    if (surface.x != 0.0) boundary = Boundary(true, unpack_way(surface.x) * surface.y, surface.y, surface.z, surface.w);
+    float reflectance = 0.0;
+    if (passes_boundary(boundary, field, inside)) {
+        reflectance = pass_surface(boundary, x, v).reflectance;
+        boundary.open = false;
     }
-    if (surface == 0u) return 0.0;
-    vec3 v = unpack_incident(surface);
-    surface = 0u;
-    vec3 turned = v_after - v;
-    if (length(turned) < kLeastTurn) return 0.0;
-    vec3 incident = normalize(v), normal = normalize(turned);
-    if (dot(incident, normal) > 0.0) normal = -normal;
-    if (dot(v_after, normal) > 0.0) return 0.0;
-    return fresnel_dielectric(-dot(incident, normal), length(v) / length(v_after));
+    if (field > kBoundaryEnds && !boundary.open) boundary = open_boundary(x_before, v_before, field);
+    surface = boundary.open ? vec4(pack_way(normalize(boundary.v)), boundary.n, boundary.highest, boundary.lowest) : vec4(0.0);
+    return reflectance;
 }
 
 #endif

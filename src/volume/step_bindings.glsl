@@ -13,14 +13,18 @@ layout(constant_id = 4) const bool kKeepFolds = true;
 layout(constant_id = 5) const bool kBoundary = false;     // surfaces reflect
 
 layout(set = 0, binding = 0) uniform texture3D volume_index;
+layout(set = 0, binding = 13) uniform texture3D volume_bricks;
 layout(set = 0, binding = 1) uniform texture3D volume_absorption;
 layout(set = 0, binding = 2) uniform texture3D volume_scattering;
 
 #include "gpu/octahedral.glsl"
 #include "volume/volume_field.glsl"
 #include "optics/eikonal.glsl"
+#include "optics/transmittance.glsl"
 #include "volume/light_patch.glsl"
 #include "volume/light_plane.glsl"
+#include "optics/interface.glsl"
+#include "volume/smoothed_surface.glsl"
 #include "volume/light_surface.glsl"
 
 layout(std430, set = 0, binding = 3) readonly buffer Volumes { VolumeRecord volumes[]; };

@@ -82,12 +82,6 @@ bool meets_receiver(vec3 from, vec3 to, VolumeRecord volume) {
     return met;
 }
 
-// Of light over a way of that optical depth.
-vec3 mean_transmittance(vec3 depth) {
-    vec3 mean = (1.0 - exp(-depth)) / max(depth, 1e-4);
-    return mix(mean, 1.0 - 0.5 * depth, lessThan(depth, vec3(1e-3)));
-}
-
 void split(Quad quad, bool along_side) {
     // Room for one more than there are is what the patches of this round leave.
     uint room = capacity - (state.in_kept + state.in_extra);
@@ -131,7 +125,7 @@ void main() {
         quad.v[k] = mat3(volume.voxel_from_world) * quad.v[k] * volume.voxel;
         if (quad.volume != own) quad.v[k] = normalize(quad.v[k]) * (in_box(quad.x[k], volume_size) ? index_field(quad.x[k]).w : 1.0);
     }
-    if (quad.volume != own) quad.surface = 0u;
+    if (quad.volume != own) quad.surface = vec4(0.0);
     quad.volume = own;
     float handed = determinant(mat3(volume.voxel_from_world)) < 0.0 ? -1.0 : 1.0;
     float first_power = fronts[quad.front].intensity.w;
@@ -180,7 +174,7 @@ void main() {
             mean_power *= mean_transmittance(depth);
             quad.power *= exp(-depth);
             if (kBoundary) {
-                vec3 reflected = quad.power * crossed_surface(quad.surface, absorption.a, v_before, mean_v(v));
+                vec3 reflected = quad.power * crossed_surface(quad.surface, absorption.a, in_box(to, volume_size), from, v_before, to, mean_v(v));
                 quad.power -= reflected;
                 quad.unabsorbed -= reflected;
                 add_power(PELLUCID_LIGHT_REFLECTED, reflected);

@@ -14,6 +14,7 @@ namespace pellucid {
 namespace {
 
 constexpr auto kIndexFormat = vk::Format::eR32G32B32A32Sfloat;
+constexpr auto kBrickFormat = vk::Format::eR32G32Sfloat;
 constexpr auto kMediumFormat = vk::Format::eR16G16B16A16Sfloat;
 constexpr vk::ImageUsageFlags kUsage =
     vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc;
@@ -22,23 +23,59 @@ using Half4 = std::uint64_t;
 /// Largest finite half: thicker voxels let nothing through either.
 Half4 half4(glm::vec4 v) { return glm::packHalf4x16(glm::min(v, glm::vec4(65504.0f))); }
 
-/// Gradient per voxel, and the index. An empty field is vacuum.
-std::vector<glm::vec4> gradients(const Volume& volume, const std::vector<float>& n) {
-    std::vector<glm::vec4> texels(volume.voxel_count(), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
+/// The index of the voxel before, the own, and the two behind it along x: what rows of four have in one texel, an
+/// interpolation reads at once. Beyond the faces the index goes on straight. An empty field is vacuum.
+std::vector<glm::vec4> index_texels(const Volume& volume, const std::vector<float>& n) {
+    std::vector<glm::vec4> texels(volume.voxel_count(), glm::vec4(1.0f));
     if (n.empty()) return texels;
-    const glm::uvec3 size = volume.size;
-    const std::size_t steps[3] = {1, size.x, std::size_t(size.x) * size.y};
-    std::size_t i = 0;
-    for (unsigned z = 0; z < size.z; ++z)
-        for (unsigned y = 0; y < size.y; ++y)
-            for (unsigned x = 0; x < size.x; ++x, ++i) {
-                const unsigned at[3] = {x, y, z};
-                for (int k = 0; k < 3; ++k) {
-                    const bool first = at[k] == 0, last = at[k] + 1 == size[k];
-                    const float before = n[first ? i : i - steps[k]], after = n[last ? i : i + steps[k]];
-                    texels[i][k] = (after - before) * (first || last ? 1.0f : 0.5f);
-                }
-                texels[i].w = n[i];
+    const std::size_t width = volume.size.x;
+    for (std::size_t row = 0; row < n.size(); row += width) {
+        const auto at = [&](std::ptrdiff_t x) {
+            const float* const own = &n[row];
+            if (x < 0) return 2.0f * own[0] - own[1];
+            const auto beyond = x + 1 - std::ptrdiff_t(width);
+            return beyond <= 0 ? own[x] : own[width - 1] + float(beyond) * (own[width - 1] - own[width - 2]);
+        };
+        for (std::size_t x = 0; x < width; ++x) {
+            const auto i = std::ptrdiff_t(x);
+            texels[row + x] = {at(i - 1), at(i), at(i + 1), at(i + 2)};
+        }
+    }
+    return texels;
+}
+
+constexpr unsigned kBrick = 8;  // of volume_field.glsl
+glm::uvec3 bricks_of(glm::uvec3 size) { return (size + kBrick - 1u) / kBrick; }
+
+/// Whether a field is the same in a brick and in what interpolation looks at around it.
+template <class T>
+bool is_even(const Volume& volume, const std::vector<T>& field, glm::uvec3 brick) {
+    if (field.empty()) return true;
+    const glm::uvec3 size = volume.size, from = glm::max(kBrick * brick, 1u) - 1u;
+    const glm::uvec3 to = glm::min(kBrick * (brick + 1u) + 2u, size);
+    const T first = field[from.x + size.x * (from.y + std::size_t(size.y) * from.z)];
+    for (unsigned z = from.z; z < to.z; ++z)
+        for (unsigned y = from.y; y < to.y; ++y) {
+            const T* const row = &field[size.x * (y + std::size_t(size.y) * z)];
+            for (unsigned x = from.x; x < to.x; ++x)
+                if (row[x] != first) return false;
+        }
+    return true;
+}
+
+std::vector<glm::vec2> brick_texels(const Volume& volume, const std::vector<float>& n) {
+    const glm::uvec3 count = bricks_of(volume.size), size = volume.size;
+    std::vector<glm::vec2> texels;
+    glm::uvec3 b;
+    for (b.z = 0; b.z < count.z; ++b.z)
+        for (b.y = 0; b.y < count.y; ++b.y)
+            for (b.x = 0; b.x < count.x; ++b.x) {
+                const glm::uvec3 at = glm::min(kBrick * b, size - 1u);
+                const float own = n.empty() ? 1.0f : n[at.x + size.x * (at.y + std::size_t(size.y) * at.z)];
+                const bool media = is_even(volume, volume.sigma_a, b) && is_even(volume, volume.sigma_s, b) &&
+                                   is_even(volume, volume.g, b) && is_even(volume, volume.emission, b) &&
+                                   is_even(volume, volume.boundary, b);
+                texels.emplace_back(is_even(volume, n, b) ? own : 0.0f, media ? 1.0f : 0.0f);
             }
     return texels;
 }
@@ -141,10 +178,13 @@ VolumeImages upload_volumes(const Device& device, const Scene& scene) {
         const std::size_t own = index_sizes.size();
         const bool parts = !volume->n_red.empty();
         index_boxes.push_back({own + (parts ? 1 : 0), own, own + (parts ? 2 : 0)});
-        index_sizes.insert(index_sizes.end(), parts ? 3 : 1, volume->size);
+        index_sizes.insert(index_sizes.end(), parts ? 3 : 1, bricks_of(volume->size));
     }
     const std::uint32_t limit = device.limits().maxImageDimension3D;
-    const PackedBoxes boxes = pack_boxes(sizes, limit), places = pack_boxes(index_sizes, limit);
+    const PackedBoxes boxes = pack_boxes(sizes, limit), brick_places = pack_boxes(index_sizes, limit / kBrick);
+    PackedBoxes places = brick_places;  // of the index: as those of its bricks
+    places.extent *= kBrick;
+    for (glm::uvec3& first : places.first) first *= kBrick;
     VolumeImages result;
     result.absorbs = any([](const Volume& v) { return !v.sigma_a.empty(); });
     result.reflects = any([](const Volume& v) { return !v.boundary.empty(); });
@@ -153,10 +193,12 @@ VolumeImages upload_volumes(const Device& device, const Scene& scene) {
     result.disperses = any([](const Volume& v) { return !v.n_red.empty(); });
 
     result.index = image_of_boxes(device, "index of volumes", kIndexFormat, places);
+    result.bricks = image_of_boxes(device, "bricks of volumes", kBrickFormat, brick_places);
     for (std::size_t v = 0; v < scene.volumes.size(); ++v) {
         const Volume& volume = *scene.volumes[v];
         const auto fill = [&](std::size_t box, const std::vector<float>& n) {
-            fill_box(device, result.index, places.first[box], volume.size, gradients(volume, n));
+            fill_box(device, result.index, places.first[box], volume.size, index_texels(volume, n));
+            fill_box(device, result.bricks, brick_places.first[box], bricks_of(volume.size), brick_texels(volume, n));
         };
         fill(index_boxes[v].green, volume.n);
         if (volume.n_red.empty()) continue;

@@ -1,10 +1,10 @@
 #ifndef PELLUCID_VOLUME_VOLUME_FIELD_GLSL
 #define PELLUCID_VOLUME_VOLUME_FIELD_GLSL
 
-// What is at a place in a volume (gpu/volume_images.h), interpolated linearly between the middles of voxels; beyond
-// those at the faces it is what is there. Places are in voxel coordinates of the volume that was entered last.
+// What is at a place in a volume (gpu/volume_images.h). Places are in voxel coordinates of the volume that was entered
+// last. Beyond the middles of the voxels at its faces it is what is there.
 //
-// Needs: #extension GL_EXT_samplerless_texture_functions : require; volume_index (texture3D).
+// Needs: #extension GL_EXT_samplerless_texture_functions : require; volume_index, volume_bricks (texture3D).
 #include "volume/volume_record.glsl"
 
 vec3 volume_size;    // of the volume that was entered last
@@ -32,49 +32,73 @@ vec4 interpolated(texture3D image, ivec3 first, vec3 x) {
 }
 vec4 volume_value(texture3D image, vec3 x) { return interpolated(image, medium_first, x); }
 
-// Ferguson's cubics through the indices and the gradients at the eight voxels around: the gradient is that of the value,
-// which makes the order of an integrator its own, for no more texels than linear interpolation takes.
-vec4 cubic_index(vec3 x) {
-    vec3 position = clamp(x - 0.5, vec3(0.0), volume_size - 1.0);
-    vec3 corner = min(floor(position), volume_size - 2.0);
-    vec3 w = position - corner;
-    // Of the value and the slope on either side, per axis; and their own slopes.
-    vec3 value[2], slope[2], value_slope[2], slope_slope[2];
-    value[1] = w * w * (3.0 - 2.0 * w);
-    value[0] = 1.0 - value[1];
-    slope[0] = w * (1.0 - w) * (1.0 - w);
-    slope[1] = w * w * (w - 1.0);
-    value_slope[1] = 6.0 * w * (1.0 - w);
-    value_slope[0] = -value_slope[1];
-    slope_slope[0] = (1.0 - w) * (1.0 - 3.0 * w);
-    slope_slope[1] = w * (3.0 * w - 2.0);
-    ivec3 first = index_first + ivec3(corner);
-    vec4 sum = vec4(0.0);
-    for (int k = 0; k < 8; ++k) {
-        ivec3 side = ivec3(k & 1, k >> 1 & 1, k >> 2);
-        vec4 at = texelFetch(volume_index, first + side, 0);
-        vec3 h = vec3(value[side.x].x, value[side.y].y, value[side.z].z);
-        vec3 t = vec3(slope[side.x].x, slope[side.y].y, slope[side.z].z);
-        vec3 dh = vec3(value_slope[side.x].x, value_slope[side.y].y, value_slope[side.z].z);
-        vec3 dt = vec3(slope_slope[side.x].x, slope_slope[side.y].y, slope_slope[side.z].z);
-        vec3 others = vec3(h.y * h.z, h.z * h.x, h.x * h.y);
-        sum.w += h.x * others.x * at.w + dot(t * others, at.xyz);
-        sum.xyz += others * (dh * at.w + dt * at.xyz);
-        sum.x += dh.x * (t.y * h.z * at.y + h.y * t.z * at.z);
-        sum.y += dh.y * (t.z * h.x * at.z + h.z * t.x * at.x);
-        sum.z += dh.z * (t.x * h.y * at.x + h.x * t.y * at.y);
-    }
-    return sum;
-}
-
-// Gradient per voxel, and the index; what optics/eikonal.glsl asks for.
+// Of the index: 0 linear, value and central differences each by itself, as in the paper; 1 by uniform cubic B-splines,
+// with the gradient of the value. These smooth the index by a variance of 1/3 voxel^2.
 #ifndef PELLUCID_CUBIC_INDEX
 #define PELLUCID_CUBIC_INDEX false
 #endif
+
+// Of four voxels in a row, at f (0..1) between the second and the third: their shares of the value and of the slope.
+// What would lie beyond a face goes on as the two voxels there; along x the image has it.
+void row_shares(float f, bool first, bool last, out vec4 value, out vec4 slope) {
+    float g = 1.0 - f;
+    if (PELLUCID_CUBIC_INDEX) {
+        value = vec4(g * g * g, 4.0 - 3.0 * f * f * (2.0 - f), 4.0 - 3.0 * g * g * (2.0 - g), f * f * f) / 6.0;
+        slope = 0.5 * vec4(-g * g, f * (3.0 * f - 4.0), -g * (3.0 * g - 4.0), f * f);
+    } else {
+        value = vec4(0.0, g, f, 0.0);
+        slope = 0.5 * vec4(-g, -f, g, f);
+    }
+    if (first) {
+        value += value.x * vec4(-1.0, 2.0, -1.0, 0.0);
+        slope += slope.x * vec4(-1.0, 2.0, -1.0, 0.0);
+    }
+    if (last) {
+        value += value.w * vec4(0.0, -1.0, 2.0, -1.0);
+        slope += slope.w * vec4(0.0, -1.0, 2.0, -1.0);
+    }
+}
+
+// Of the brick of 8^3 cells that a place is in: the index if it is the same in all of it, else 0; whether media are.
+const int kBrick = 8;
+vec2 brick_at(vec3 x) {
+    vec3 corner = min(floor(clamp(x - 0.5, vec3(0.0), volume_size - 1.0)), volume_size - 2.0);
+    return texelFetch(volume_bricks, (index_first + ivec3(corner)) / kBrick, 0).xy;
+}
+
+// How far a ray may go on straight, voxels, because neither the index nor a medium changes; 0: not at all.
+float even_way(vec3 x, vec3 way) {
+    vec2 brick = brick_at(x);
+    if (brick.x == 0.0 || brick.y == 0.0) return 0.0;
+    vec3 position = x - 0.5, low = floor(clamp(position, vec3(0.0), volume_size - 2.0) / float(kBrick)) * float(kBrick);
+    vec3 face = low + float(kBrick) * step(vec3(0.0), way);
+    vec3 until = mix((face - position) / way, vec3(1e30), lessThan(abs(way), vec3(1e-6)));
+    return max(min(until.x, min(until.y, until.z)), 0.0);
+}
+
+// Gradient per voxel, and the index; what optics/eikonal.glsl asks for.
 vec4 index_field(vec3 x) {
-    vec4 field = PELLUCID_CUBIC_INDEX ? cubic_index(x) : interpolated(volume_index, index_first, x);
-    field.xyz *= step(vec3(0.5), x) * step(x, volume_size - 0.5);  // beyond, the index is what it is at the face
-    return field;
+    vec2 brick = brick_at(x);
+    if (brick.x > 0.0) return vec4(0.0, 0.0, 0.0, brick.x);
+    vec3 position = clamp(x - 0.5, vec3(0.0), volume_size - 1.0);
+    vec3 corner = min(floor(position), volume_size - 2.0);
+    vec4 value[3], slope[3];
+    ivec3 low = ivec3(corner), last = ivec3(volume_size) - 1;
+    for (int k = 0; k < 3; ++k)
+        row_shares(position[k] - corner[k], k > 0 && low[k] == 0, k > 0 && low[k] + 1 == last[k], value[k], slope[k]);
+    vec4 sum = vec4(0.0);
+    for (int z = 0; z < 4; ++z) {
+        for (int y = 0; y < 4; ++y) {
+            if (!PELLUCID_CUBIC_INDEX && (y == 0 || y == 3) && (z == 0 || z == 3)) continue;
+            ivec2 at = clamp(low.yz + ivec2(y, z) - 1, ivec2(0), last.yz);
+            vec4 row = texelFetch(volume_index, index_first + ivec3(low.x, at), 0);
+            float along = dot(value[0], row), share = value[1][y] * value[2][z];
+            sum += vec4(share * dot(slope[0], row), slope[1][y] * value[2][z] * along, value[1][y] * slope[2][z] * along,
+                        share * along);
+        }
+    }
+    sum.xyz *= step(vec3(0.5), x) * step(x, volume_size - 0.5);  // beyond, the index is what it is at the face
+    return sum;
 }
 
 #endif

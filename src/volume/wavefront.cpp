@@ -328,6 +328,7 @@ void WavefrontTracer::trace(Recorder& recorder, Workspace& workspace, const Volu
                                             flag(tracing.settings.keep_folds),
                                             flag(volumes.reflects && tracing.settings.fresnel)};
     std::vector<Binding> step_bindings = {reads("volume_index", volumes.index),
+                                          reads("volume_bricks", volumes.bricks),
                                           reads("volume_absorption", volumes.absorption),
                                           reads("volume_scattering", volumes.scattering),
                                           reads("Volumes", volumes.records),

@@ -6,6 +6,9 @@
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0) uniform texture3D volume_index;
+layout(set = 0, binding = 4) uniform texture3D volume_bricks;
+layout(constant_id = 0) const bool kCubic = false;
+#define PELLUCID_CUBIC_INDEX kCubic
 #include "volume/volume_field.glsl"
 #include "optics/eikonal.glsl"
 #include "optics/phase.glsl"
@@ -17,7 +20,6 @@ struct Case {
 };
 struct Answer {
     vec4 field;
-    vec4 cubic;
     vec4 x[6];  // Euler and RK4 in steps of space, then of time; leapfrog and Nystrom
     vec4 v[6];  // w: Henyey-Greenstein with the direction's x as cosine and its y as g
 };
@@ -31,7 +33,6 @@ void main() {
     enter_volume(volumes[0], 0u);
     vec4 field = index_field(own.position.xyz);
     answers[i].field = field;
-    answers[i].cubic = cubic_index(own.position.xyz);
     CurvedRay rays[6];
     for (int k = 0; k < 6; ++k) rays[k] = CurvedRay(own.position.xyz, field.w * own.direction.xyz);
     float h = own.position.w;

@@ -150,7 +150,9 @@ TEST_F(Ihrke, AbsorptionFollowsBeerAndLambert) {
             const glm::vec3 expected =
                 glm::exp(-(sigma + 0.25f) * float(length) / 1.4f);  // a placement scales what is met, too
             EXPECT_LT(glm::distance(rgb(found.radiance, x, y), expected), 3e-3f) << x << ", " << y;
-            if (length > 0.1) EXPECT_NEAR(path.length_inside, length, 1e-3);
+            if (length > 0.1) {
+                EXPECT_NEAR(path.length_inside, length, 1e-3);
+            }
         }
     EXPECT_GT(through, 1000);
 }
@@ -419,6 +421,54 @@ TEST_F(Ihrke, ColorsPartInDispersiveVolumes) {
                                      return draw("ihrke-2007", {{"branches", 0}}).radiance;
                                  }()),
               0.1f);
+}
+
+// A prism of 40 degrees deviates every colour by its own index, in every pixel that is four voxels from its edges.
+TEST_F(Ihrke, PrismsDeviateEveryColor) {
+    const glm::dvec3 enters(std::sin(glm::radians(20.0)), 0.0, std::cos(glm::radians(20.0))),
+        leaves(enters.x, 0.0, -enters.z);
+    const double off = 0.4 * enters.x;  // of both faces from the origin; their edge is at x = 0.4
+    for (const float n : {1.5f, 1.52f, 1.55f}) {
+        Volume prism = even_cube(0.5f, 64);
+        const double voxel = double(prism.voxel);
+        for (unsigned z = 0; z < 64; ++z)
+            for (unsigned y = 0; y < 64; ++y)
+                for (unsigned x = 0; x < 64; ++x) {
+                    const glm::dvec3 at = (glm::dvec3(x, y, z) + 0.5) * voxel - 0.5;
+                    const double distance = std::max(
+                        {glm::dot(at, enters) - off, glm::dot(at, leaves) - off, -0.4 - at.x, std::abs(at.y) - 0.4});
+                    prism.n.push_back(1.0f + (n - 1.0f) * float(smoothed_inside(distance, 0.75 * voxel)));
+                }
+        Scene scene;
+        place(scene, prism);
+        set(scene);
+        const RenderResult found = draw();
+        double squares = 0.0, worst = 0.0;
+        int seen = 0;
+        for (int y = 0; y < int(kSize); ++y)
+            for (int x = 0; x < int(kSize); ++x) {
+                const WorldRay ray = pixel_ray(camera_, kSize, kSize, x, y);
+                const auto meet = [&](const glm::dvec3& from, const glm::dvec3& d, const glm::dvec3& normal) {
+                    return from + (off - glm::dot(from, normal)) / glm::dot(d, normal) * d;
+                };
+                const auto clear = [&](const glm::dvec3& at) {
+                    return at.x > -0.4 + 4.0 * voxel && at.x < 0.4 - 8.0 * voxel && std::abs(at.y) < 0.4 - 4.0 * voxel;
+                };
+                const glm::dvec3 in = meet(ray.origin, ray.direction, enters);
+                const glm::dvec3 inside = glm::refract(ray.direction, enters, 1.0 / double(n));
+                const glm::dvec3 out = meet(in, inside, leaves), expected = glm::refract(inside, -leaves, double(n));
+                if (!clear(in) || !clear(out) || glm::length(expected) < 0.5) continue;
+                const glm::dvec3 own(found.paths[std::size_t(y) * kSize + std::size_t(x)].direction);
+                const double angle = glm::degrees(std::acos(std::min(glm::dot(own, expected), 1.0)));
+                squares += angle * angle;
+                worst = std::max(worst, angle);
+                ++seen;
+            }
+        std::printf("prism of %.2f: rms %.4f, worst %.4f degrees, %d pixels\n", double(n), std::sqrt(squares / seen),
+                    worst, seen);
+        EXPECT_GT(seen, 300);
+        EXPECT_LT(worst, 0.2);
+    }
 }
 
 // An opaque thing is seen through a lens as it bends light: the wall behind Luneburg's lens is met where its exact ray

@@ -87,6 +87,7 @@ public:
         for (const auto* more : {&pass.state, &pass.walk, &pass.light})
             bindings.insert(bindings.end(), more->begin(), more->end());
         const Binding own[] = {reads("volume_index", images_.index),
+                               reads("volume_bricks", images_.bricks),
                                reads("volume_absorption", images_.absorption),
                                reads("volume_scattering", images_.scattering),
                                reads("volume_emission", images_.emission),
@@ -110,7 +111,8 @@ public:
 
     std::optional<Variant> held_follow() const override {
         if (!sharp()) return std::nullopt;
-        return Variant{{"follow_held_paths.comp", kFollowHeldPaths}, {reads("volume_index", images_.index)}};
+        return Variant{{"follow_held_paths.comp", kFollowHeldPaths},
+                       {reads("volume_index", images_.index), reads("volume_bricks", images_.bricks)}};
     }
 
     std::optional<Variant> lit_end() const override {

@@ -22,79 +22,43 @@ layout(constant_id = 26) const bool kCubic = false;            // interpolation 
 layout(constant_id = 24) const uint kMostSteps = 8192u;       // from one surface or box to the next
 
 layout(set = 0, binding = 5) uniform texture3D volume_index;
+layout(set = 0, binding = 38) uniform texture3D volume_bricks;
 layout(set = 0, binding = 6) uniform texture3D volume_absorption;
 layout(set = 0, binding = 9) uniform texture3D volume_scattering;
 layout(set = 0, binding = 27) uniform texture3D volume_emission;
 #define PELLUCID_CUBIC_INDEX kCubic
 #include "volume/volume_field.glsl"
 #include "optics/eikonal.glsl"
+#include "optics/transmittance.glsl"
 #include "techniques/ihrke_2007/light_bindings.glsl"
+#include "volume/smoothed_surface.glsl"
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
 
-const float kBoundaryEnds = 0.02;    // of the boundary field: below it a ray is in no surface
-const float kLeastTurn = 1e-3;       // change of v in a surface that is none, or lies along the ray
 const float kAirIndex = 1.01;        // up to it a ray has left the glass
 const float kReachGrows = 4.0;       // how far surfaces are looked for, in the way since the last time
 const float kStraight = 1.0 - 1e-6;  // cosine up to which a ray still goes the way in which it has looked for surfaces
 
-// A surface in a volume is as thick as its index is smoothed. What it does is known once it lies behind: its normal is
-// the direction in which v has changed, and the indices on both sides say what it reflects (Fresnel).
-struct Boundary {
-    bool open;      // the ray is in one
-    vec3 x, v;      // where it began
-    float highest;  // of the boundary field since then
-    float lowest;   // since that
-};
-
-// Takes notice of the field at the end of a step. True: a surface lies behind. Of two that are so near to each other that
-// the field does not fall to nothing between them, each ends in the valley.
-bool passes_boundary(inout Boundary boundary, float field, bool inside) {
-    if (!boundary.open) return false;
-    if (field > boundary.highest) boundary.highest = boundary.lowest = field;
-    boundary.lowest = min(boundary.lowest, field);
-    return field <= kBoundaryEnds || !inside ||
-           (boundary.lowest < 0.5 * boundary.highest && field > boundary.lowest + 0.1 * boundary.highest);
-}
-
-// The index beside a surface, a voxel away from x: what a grid has next to a jump swings a little. Where another surface is
-// so near, at x.
-float index_beside(vec3 x, vec3 away) {
-    vec3 beside = x + away;
-    bool clear = in_box(beside, volume_size) && volume_value(volume_absorption, beside).a <= kBoundaryEnds;
-    return index_field(clear ? beside : x).w;
-}
-
-// `v`: behind the surface. What a step was too long for is put right along the normal: across it v does not change.
-void leave_boundary(uint i, inout Path path, Boundary boundary, vec3 x, inout vec3 v, VolumeRecord volume,
+void leave_boundary(uint i, inout Path path, Boundary boundary, vec3 began, vec3 x, vec3 v, VolumeRecord volume,
                     mat3 world_from_voxel) {
-    vec3 turned = v - boundary.v;
-    if (!(length(turned) > kLeastTurn)) return;
-    vec3 normal = normalize(turned);
-    if (dot(boundary.v, normal) > 0.0) normal = -normal;
+    Passage passage = pass_surface(boundary, x, v);
+    if (!passage.exists) return;
     ++path.events;
-    float n_t = index_beside(x, normalize(v));
-    vec3 along = boundary.v - dot(boundary.v, normal) * normal;
-    float across = n_t * n_t - dot(along, along);
-    bool reflects = dot(v, normal) > 0.0;
-    if (across > 0.0) v = along + (reflects ? 1.0 : -1.0) * sqrt(across) * normal;
-    if (reflects) {  // total internal reflection
+    if (passage.reflected) {
         ++path.reflections;
         return;
     }
-    float n_i = index_beside(boundary.x, -normalize(boundary.v));
-    float reflectance = fresnel_dielectric(sqrt(max(1.0 - dot(along, along) / (n_i * n_i), 0.0)), n_i / n_t);
-    vec3 reflected = path.transmittance * reflectance;
+    vec3 reflected = path.transmittance * passage.reflectance;
     if (!kTree || !may_branch(i, reflected)) return;  // its light goes on with what is transmitted, so that none is lost
     Path branch = path;
-    branch.position = (volume.world_from_voxel * vec4(boundary.x, 1.0)).xyz;
-    branch.direction = normalize(world_from_voxel * reflect_direction(normalize(boundary.v), normal));
+    branch.position = (volume.world_from_voxel * vec4(began, 1.0)).xyz;
+    branch.direction = normalize(world_from_voxel * reflect_direction(normalize(boundary.v), passage.normal));
     branch.transmittance = reflected;
     uint own = mark;
     mark &= ~(kMainPath | kEntersVolume);
     push_branch(i, branch, branch_capacity);
     mark = own;
-    path.transmittance *= 1.0 - reflectance;
+    path.transmittance *= 1.0 - passage.reflectance;
 }
 
 // In dispersive volumes every colour goes a way of its own: green's is the path's.
@@ -136,7 +100,8 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
     if (kSurfacesInside && has_mesh && from_mesh) pass_entry(ray, ray.v);
     float n_entry = index_field(ray.x).w;
     ray.v *= n_entry;
-    Boundary boundary = Boundary(false, vec3(0.0), vec3(0.0), 0.0, 0.0);
+    Boundary boundary = kNoBoundary;
+    vec3 boundary_began = ray.x;
 
     // Surfaces of objects are looked for along the ray as it goes, straight on, and again once it has turned: the sooner
     // that was, the less far.
@@ -150,8 +115,11 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
     for (; inside && steps < kMostSteps; ++steps) {
         CurvedRay next;
         float near, share;
+        vec3 direction = normalize(ray.v);
+        // Where nothing changes a step reaches to where something may.
+        float stride = kStep;
+        if (!kOverlapping && !(kScatters && kLit) && !boundary.open) stride = max(stride, even_way(ray.x, direction));
         if (kSurfacesInside) {
-            vec3 direction = normalize(ray.v);
             bool turned = dot(direction, looked_along) < kStraight || (until_surface < kStep && direction != looked_along);
             if (in_air || turned || since_look + kStep > reach) {
                 if (in_air) reach = kFarthest;
@@ -174,22 +142,22 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
                     until_surface = kFarthest;
                 }
             }
-            next = CurvedRay(ray.x + max(until_surface - short_of, 0.0) * direction, ray.v);
+            stride = min(stride, max(reach - since_look, kStep));
+            float to_surface = max(until_surface - short_of, 0.0);
             if (in_air) {
                 clip_to_box(volume, ray.x, direction, near, share);
-                next.x = ray.x + clamp(until_surface - short_of, 0.0, max(share, 0.0)) * direction;
+                next.x = ray.x + clamp(to_surface, 0.0, max(share, 0.0)) * direction;
                 path.length_inside += distance(next.x, ray.x) * volume.voxel;
-                ray = next;
+                ray = CurvedRay(next.x, ray.v);
                 break;
             }
-            if (until_surface <= kStep) {  // straight to the surface, and turned as much as on the curve
-                inside = false;
-                next.v = space_step(kIntegrator, ray, distance(next.x, ray.x)).v;
-            }
-            until_surface -= kStep;
-            since_look += kStep;
+            inside = until_surface > stride;
+            if (!inside) stride = to_surface;
+            until_surface -= stride;
+            since_look += stride;
         }
-        if (inside) next = space_step(kIntegrator, ray, kStep);
+        next = space_step(kIntegrator, ray, stride);
+        if (!inside) next.x = ray.x + stride * direction;  // straight to the surface, and turned as much as on the curve
         vec3 way = next.x - ray.x;
         clip_to_box(volume, ray.x, way, near, share);
         if (share < 1.0) {
@@ -204,21 +172,24 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
         vec4 scattering = vec4(0.0);
         if (kAbsorbs || kBoundaries) absorption = volume_value(volume_absorption, middle);
         if (kScatters) scattering = volume_value(volume_scattering, middle);
-        vec3 left = exp(-(absorption.rgb + scattering.rgb) * travelled);
+        vec3 depth = (absorption.rgb + scattering.rgb) * travelled, left = exp(-depth);
         if (kEmits || (kScatters && kLit)) {
             vec3 added = vec3(0.0);  // radiance, per voxel's length
             if (kEmits) added += volume_value(volume_emission, middle).rgb;
             if (kScatters && kLit) added += scattered_radiance(own, middle, -normalize(ray.v), scattering);
             // What is carried along a bent ray is L / n^2 (the paper leaves that out).
-            add_light(texel, path.transmittance * sqrt(left) * (n_entry * n_entry / dot(ray.v, ray.v)) * added * travelled);
+            add_light(texel, path.transmittance * mean_transmittance(depth) * (n_entry * n_entry / dot(ray.v, ray.v)) * added * travelled);
         }
         path.transmittance *= left;
         if (kBoundaries && !is_held) {
             if (passes_boundary(boundary, absorption.a, inside)) {
                 boundary.open = false;
-                leave_boundary(i, path, boundary, next.x, next.v, volume, world_from_voxel);
+                leave_boundary(i, path, boundary, boundary_began, next.x, next.v, volume, world_from_voxel);
             }
-            if (absorption.a > kBoundaryEnds && !boundary.open) boundary = Boundary(true, ray.x, ray.v, absorption.a, absorption.a);
+            if (absorption.a > kBoundaryEnds && !boundary.open) {
+                boundary = open_boundary(ray.x, ray.v, absorption.a);
+                boundary_began = ray.x;
+            }
             in_air = kSurfacesInside && has_mesh && absorption.a <= kBoundaryEnds && dot(next.v, next.v) < kAirIndex * kAirIndex;
         }
         ray = next;

@@ -24,6 +24,7 @@ PELLUCID_APPENDED_LIST(EnteringList, 31, entering_groups, entering_length, enter
 
 #ifdef PELLUCID_HELD_VOLUMES
 layout(set = 0, binding = 5) uniform texture3D volume_index;
+layout(set = 0, binding = 38) uniform texture3D volume_bricks;
 #include "volume/volume_field.glsl"
 
 // Indices of refraction of a body, at a place on its surface.
