@@ -77,8 +77,8 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
                 : "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
     const std::size_t translucent = translucent_objects(scene);
-    if (technique.volumes && !scene.lights.empty() && !scene.volume_objects.empty()) {
-        lines.push_back("lights shine through volumes and on opaque objects, which cast no shadows");
+    if (technique.volumes) {
+        // It says itself what lights do: glass may have become a volume.
     } else if (!scene.lights.empty() && translucent == 0) {
         lines.push_back(
             fmt::format("{} light{} not drawn", scene.lights.size(), scene.lights.size() == 1 ? " is" : "s are"));

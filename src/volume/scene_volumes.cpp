@@ -55,7 +55,13 @@ void SceneVolumes::light(Recorder& recorder, Workspace& workspace, const LightSe
 
 std::vector<std::string> SceneVolumes::warnings() const {
     std::vector<std::string> lines = warnings_;
-    if (!lit()) return lines;
+    if (!lit()) {
+        if (light_count_ > 0)
+            lines.push_back(fmt::format("{} light{} not drawn: there is no volume", light_count_,
+                                        light_count_ == 1 ? " is" : "s are"));
+        return lines;
+    }
+    lines.emplace_back("lights shine through volumes and on opaque objects, which cast no shadows");
     const std::vector<std::string> of_light = tracer_.statistics().warnings();
     lines.insert(lines.end(), of_light.begin(), of_light.end());
     return lines;

@@ -43,7 +43,7 @@ Volume make_linear(const ShapeArguments& arguments) {
 
 Volume make_smoothed_sphere(const ShapeArguments& arguments) {
     const double radius = arguments.number("radius"), half = 1.0625 * radius;
-    Volume volume = empty_grid(glm::dvec3(-half), glm::dvec3(half), arguments.whole("resolution"), 12);
+    Volume volume = empty_grid(glm::dvec3(-half), glm::dvec3(half), arguments.whole("resolution"), 15);
     fill_solid(volume, arguments, [radius](glm::dvec3 x) { return glm::length(x) - radius; });
     return volume;
 }
@@ -51,7 +51,7 @@ Volume make_smoothed_sphere(const ShapeArguments& arguments) {
 Volume make_rounded_cube(const ShapeArguments& arguments) {
     const double half = 0.5 * arguments.number("size"), rounding = arguments.number("rounding") * half;
     const double around = half * 1.0625;
-    Volume volume = empty_grid(glm::dvec3(-around), glm::dvec3(around), arguments.whole("resolution"), 12);
+    Volume volume = empty_grid(glm::dvec3(-around), glm::dvec3(around), arguments.whole("resolution"), 15);
     const auto distance = [=](glm::dvec3 x) {
         const glm::dvec3 q = glm::abs(x) - (half - rounding);
         return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0) - rounding;

@@ -62,7 +62,7 @@ Volume make_wine_glass(const ShapeArguments& arguments) {
     for (const glm::dvec2 p : outline) high = glm::max(high, p), low = glm::min(low, p);
     const double margin = 0.04;
     Volume volume = empty_grid({-high.x - margin, low.y - margin, -high.x - margin},
-                               {high.x + margin, high.y + margin, high.x + margin}, arguments.whole("resolution"), 12);
+                               {high.x + margin, high.y + margin, high.x + margin}, arguments.whole("resolution"), 15);
     const OutlineDistance distance(outline, {0.0, low.y - 2.0 * margin}, high + 4.0 * margin,
                                    0.5 * double(volume.voxel));
     fill_solid(volume, arguments, [&](glm::dvec3 x) { return distance({std::hypot(x.x, x.z), x.y}); });

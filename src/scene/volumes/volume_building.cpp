@@ -84,7 +84,10 @@ std::vector<ShapeParameter> with_solid_parameters(std::vector<ShapeParameter> ow
         {"blue", 0, 0, 1e6, "absorption of blue light, 1/m"},
         {"scattering", 0, 0, 1e6, "scattering, 1/m"},
         {"g", 0, -0.99, 0.99, "mean cosine of scattering"},
-        {"noise", 0, 0, 1, "share of the absorption and scattering that noise takes away or doubles"},
+        {"emitted-red", 0, 0, 1e6, "radiance of red light that a metre adds, W/(m3 sr)"},
+        {"emitted-green", 0, 0, 1e6, "of green light"},
+        {"emitted-blue", 0, 0, 1e6, "of blue light"},
+        {"noise", 0, 0, 1, "share of absorption, scattering and emission that noise takes away or doubles"},
         {"noise-scale", 0.4, 0.001, 100, "width of the noise, m"},
     };
     own.insert(own.end(), common.begin(), common.end());
@@ -117,9 +120,11 @@ void fill_solid(Volume& volume, const ShapeArguments& arguments, const std::func
 
     const glm::vec3 absorption(float(arguments.number("red")), float(arguments.number("green")),
                                float(arguments.number("blue")));
+    const glm::vec3 emission(float(arguments.number("emitted-red")), float(arguments.number("emitted-green")),
+                             float(arguments.number("emitted-blue")));
     const double noise = arguments.number("noise"), scale = arguments.number("noise-scale");
     const auto scattering = float(arguments.number("scattering"));
-    if (absorption == glm::vec3(0.0f) && scattering == 0.0f) return;
+    if (absorption == glm::vec3(0.0f) && scattering == 0.0f && emission == glm::vec3(0.0f)) return;
     std::vector<float> density;
     fill_field(volume, density, [&](glm::dvec3 x) {
         return distance(x) > 4.0 * sigma ? 0.0
@@ -132,6 +137,7 @@ void fill_solid(Volume& volume, const ShapeArguments& arguments, const std::func
         std::transform(density.begin(), density.end(), field.begin(), [&](float d) { return d * factor; });
     };
     if (absorption != glm::vec3(0.0f)) scaled(absorption, volume.sigma_a);
+    if (emission != glm::vec3(0.0f)) scaled(emission, volume.emission);
     if (scattering > 0.0f) {
         scaled(glm::vec3(scattering), volume.sigma_s);
         volume.g.assign(density.size(), float(arguments.number("g")));

@@ -40,7 +40,8 @@ double fractal_noise(glm::dvec3 x, double scale, int octaves = 5);
 float noise_factor(double share, double value);
 
 /// Turns a signed distance (m, positive outside) into the index, boundary and medium of a solid, as the parameters ior,
-/// dispersion, red, green, blue, scattering, g, noise, noise-scale and smoothing of `arguments` say.
+/// dispersion, red, green, blue, scattering, g, emitted-red, -green and -blue, noise, noise-scale and smoothing of
+/// `arguments` say.
 void fill_solid(Volume& volume, const ShapeArguments& arguments, const std::function<double(glm::dvec3)>& distance);
 
 /// Adds the parameters of fill_solid(), and resolution, to those of a maker.
