@@ -1,5 +1,7 @@
 #include "reference/curved_volumes.h"
 
+#include "reference/placed_volume.h"
+
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
@@ -20,161 +22,7 @@ constexpr double kLeastCrossing = 1e-3;  // voxels; less of a box is not met
 constexpr double kMostSides = 32.0;      // longest ways in a box, in its longest side: what goes farther is caught
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// Position (voxels), v = n dx/ds, optical depths, and what was emitted on the way, attenuated.
-using Values = std::array<double, 12>;
-
-glm::dvec3 position_of(const Values& s) { return {s[0], s[1], s[2]}; }
-glm::dvec3 velocity_of(const Values& s) { return {s[3], s[4], s[5]}; }
-
-struct Index {
-    double n = 1.0;
-    glm::dvec3 gradient{0.0};  ///< per voxel
-};
-
-/// Of a uniform cubic B-spline at f, 0..1, between the second and the third of four values: their weights, and those of its
-/// slope. Before the first value and behind the last a row goes on straight.
-struct Cubic {
-    std::array<double, 4> weight, slope;
-
-    Cubic(double f, bool first, bool last) {
-        const double g = 1.0 - f;
-        weight = {g * g * g / 6.0, (1.0 + 3.0 * g * (1.0 + g * f)) / 6.0, (1.0 + 3.0 * f * (1.0 + f * g)) / 6.0,
-                  f * f * f / 6.0};
-        slope = {-0.5 * g * g, 0.5 * f * (f - 2.0 * g - 2.0), 0.5 * g * (2.0 * f + 2.0 - g), 0.5 * f * f};
-        for (std::array<double, 4>* row : {&weight, &slope}) {
-            auto& [a, b, c, d] = *row;
-            if (first) b += 2.0 * a, c -= a, a = 0.0;
-            if (last) c += 2.0 * d, b -= d, d = 0.0;
-        }
-    }
-};
-
 }  // namespace
-
-struct CurvedVolumes::Placed {
-    std::shared_ptr<const Volume> volume;
-    glm::dmat4 world_from_voxel, voxel_from_world;
-    double voxel = 1.0;  ///< edge, m in the world
-    glm::dvec3 size;     ///< voxels
-
-    /// Between the middles of voxels, from that of the first; beyond those at the faces all is as there.
-    struct Cell {
-        glm::ivec3 low;
-        glm::dvec3 share;
-        glm::dvec3 within;  ///< 0 along an axis on which the place is beyond
-    };
-    Cell cell(const glm::dvec3& x) const {
-        const glm::dvec3 last = size - 1.0, p = glm::clamp(x - 0.5, glm::dvec3(0.0), last);
-        const glm::dvec3 low = glm::min(glm::floor(p), size - 2.0);
-        Cell at{glm::ivec3(low), p - low, glm::dvec3(1.0)};
-        for (int k = 0; k < 3; ++k)
-            if (x[k] < 0.5 || x[k] > size[k] - 0.5) at.within[k] = 0.0;
-        return at;
-    }
-    std::size_t number(glm::ivec3 at) const {
-        at = glm::clamp(at, glm::ivec3(0), glm::ivec3(volume->size) - 1);
-        return std::size_t(at.x) + volume->size.x * (std::size_t(at.y) + volume->size.y * std::size_t(at.z));
-    }
-
-    /// Cells of the grid in cubes of kBrick, as those of `cell()`; whether the index is the same in all of one, and in
-    /// what is next to it.
-    static constexpr int kBrick = 8;
-    glm::ivec3 bricks{0};
-    std::vector<char> even;
-    std::size_t brick(const glm::ivec3& low) const {
-        const glm::ivec3 b = low / kBrick;
-        return std::size_t(b.x) + std::size_t(bricks.x) * (std::size_t(b.y) + std::size_t(bricks.y) * std::size_t(b.z));
-    }
-    void find_even_bricks() {
-        bricks = (glm::ivec3(volume->size) + kBrick - 1) / kBrick;
-        even.assign(std::size_t(bricks.x) * std::size_t(bricks.y) * std::size_t(bricks.z), 1);
-        for (const std::vector<float>* values : {&volume->n, &volume->n_red, &volume->n_blue}) {
-            if (values->empty()) continue;
-            glm::ivec3 b;
-            for (b.z = 0; b.z < bricks.z; ++b.z)
-                for (b.y = 0; b.y < bricks.y; ++b.y)
-                    for (b.x = 0; b.x < bricks.x; ++b.x)
-                        even[brick(kBrick * b)] = even[brick(kBrick * b)] != 0 && same_in(*values, kBrick * b) ? 1 : 0;
-        }
-    }
-    bool same_in(const std::vector<float>& values, const glm::ivec3& low) const {
-        const float first = values[number(low)];
-        glm::ivec3 at;
-        for (at.z = low.z - 1; at.z < low.z + kBrick + 2; ++at.z)
-            for (at.y = low.y - 1; at.y < low.y + kBrick + 2; ++at.y)
-                for (at.x = low.x - 1; at.x < low.x + kBrick + 2; ++at.x)
-                    if (values[number(at)] != first) return false;
-        return true;
-    }
-
-    Index index(const glm::dvec3& x, int channel) const {
-        return volume->n.empty() ? Index{} : index(cell(x), channel);
-    }
-    Index index(const Cell& at, int channel) const {
-        if (volume->n.empty()) return {};
-        const bool parted = !volume->n_red.empty();
-        const std::vector<float>& values = parted && channel == kRed    ? volume->n_red
-                                           : parted && channel == kBlue ? volume->n_blue
-                                                                        : volume->n;
-        if (even[brick(at.low)] != 0) return {double(values[number(at.low)]), glm::dvec3(0.0)};
-        const auto cubic_along = [&](int k) {
-            return Cubic(at.share[k], at.low[k] == 0, at.low[k] + 2 == int(volume->size[k]));
-        };
-        const Cubic cx = cubic_along(0), cy = cubic_along(1), cz = cubic_along(2);
-        std::size_t first[3][4];  // of the values at -1, 0, 1, 2 along each axis
-        std::size_t stride = 1;
-        for (int k = 0; k < 3; ++k) {
-            for (int i = 0; i < 4; ++i)
-                first[k][i] = stride * std::size_t(std::clamp(at.low[k] + i - 1, 0, int(volume->size[k]) - 1));
-            stride *= volume->size[k];
-        }
-        Index sum{0.0, glm::dvec3(0.0)};
-        for (std::size_t z = 0; z < 4; ++z) {
-            for (std::size_t y = 0; y < 4; ++y) {
-                const float* const row = values.data() + first[2][z] + first[1][y];
-                double value = 0.0, along = 0.0;
-                for (std::size_t i = 0; i < 4; ++i) {
-                    const double n = double(row[first[0][i]]);
-                    value += cx.weight[i] * n;
-                    along += cx.slope[i] * n;
-                }
-                sum.n += cy.weight[y] * cz.weight[z] * value;
-                sum.gradient += glm::dvec3(cy.weight[y] * cz.weight[z] * along, cy.slope[y] * cz.weight[z] * value,
-                                           cy.weight[y] * cz.slope[z] * value);
-            }
-        }
-        sum.gradient *= at.within;
-        return sum;
-    }
-
-    glm::dvec3 linear(const std::vector<glm::vec3>& values, const Cell& at) const {
-        if (values.empty()) return glm::dvec3(0.0);
-        glm::dvec3 sum(0.0);
-        for (int k = 0; k < 8; ++k) {
-            const glm::ivec3 offset(k & 1, k >> 1 & 1, k >> 2);
-            const glm::dvec3 w = glm::mix(1.0 - at.share, at.share, glm::dvec3(offset));
-            sum += w.x * w.y * w.z * glm::dvec3(values[number(at.low + offset)]);
-        }
-        return sum;
-    }
-
-    /// By a voxel of length.
-    void slope(const Values& s, Values& ds, int channel) const {
-        const Cell here = cell(position_of(s));
-        const Index at = index(here, channel);
-        const glm::dvec3 v = velocity_of(s);
-        const glm::dvec3 extinction = linear(volume->sigma_a, here) + linear(volume->sigma_s, here);
-        const glm::dvec3 emission = linear(volume->emission, here) / (at.n * at.n);
-        const double metres = double(volume->voxel);  // a scaled placement leaves what it absorbs in all
-        for (std::size_t k = 0; k < 3; ++k) {
-            const int c = int(k);
-            ds[k] = v[c] / at.n;
-            ds[3 + k] = at.gradient[c];
-            ds[6 + k] = metres * extinction[c];
-            ds[9 + k] = metres * emission[c] * std::exp(-s[6 + k]);
-        }
-    }
-};
 
 CurvedVolumes::CurvedVolumes(const Scene& scene, const Geometry& geometry) {
     for (const VolumeObject& object : scene.volume_objects) {
@@ -188,6 +36,7 @@ CurvedVolumes::CurvedVolumes(const Scene& scene, const Geometry& geometry) {
         placed->voxel_from_world = glm::inverse(placed->world_from_voxel);
         placed->voxel = glm::length(glm::dvec3(placed->world_from_voxel[0]));
         placed->find_even_bricks();
+        placed->reflects = object.objects.empty() && !volume->boundary.empty();
         if (object.objects.empty())
             open_.push_back(std::move(placed));
         else
@@ -266,8 +115,8 @@ bool CurvedVolumes::meets(const glm::dvec3& origin, const glm::dvec3& direction,
     return next_volume(open_, origin, direction, to_box) != kNone && to_box < distance;
 }
 
-CurvedVolumes::Flight CurvedVolumes::fly(std::int32_t solid, const Geometry& geometry, Query& query,
-                                         int channel) const {
+CurvedVolumes::Flight CurvedVolumes::fly(std::int32_t solid, const Geometry& geometry, Query& query, int channel,
+                                         Random* random) const {
     const List& volumes = volumes_of(solid);
     Flight flight;
     for (;;) {
@@ -284,13 +133,13 @@ CurvedVolumes::Flight CurvedVolumes::fly(std::int32_t solid, const Geometry& geo
         flight.length += to_box;
         flight.met = true;
         flight.ior = flight.basic = 1.0;
-        if (bend(volumes, volume, geometry, query, channel, flight)) return flight;
+        if (bend(volumes, volume, geometry, query, channel, random, flight)) return flight;
     }
 }
 
 /// From where a ray is in a box, to a surface (true), or to where it leaves the box.
 bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& geometry, Query& query, int channel,
-                         Flight& flight) {
+                         Random* random, Flight& flight) {
     const Placed& placed = *volumes[own];
     const auto world = [&](const Values& s) {
         return glm::dvec3(placed.world_from_voxel * glm::dvec4(position_of(s), 1.0));
@@ -329,6 +178,22 @@ bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& g
         flight.transmittance *= glm::dvec3(std::exp(-s[6]), std::exp(-s[7]), std::exp(-s[8]));
     };
 
+    // A surface is met where there is most of it between two steps.
+    constexpr double kLeastSurface = 0.5;
+    double surface_here = placed.reflects ? placed.surface(start) : 0.0;
+    bool on_surface = surface_here > kLeastSurface;  // that has been met
+    const auto meet_surface = [&](Values& here) {
+        glm::dvec3 normal;
+        const std::optional<double> share = placed.reflectance(here, normal, channel);
+        if (!share) return;
+        if (random == nullptr) {  // the transmitted path
+            for (std::size_t k = 6; k < 9; ++k) here[k] -= std::log1p(-*share);
+            return;
+        }
+        if (random->next() >= *share) return;
+        const glm::dvec3 back = glm::reflect(velocity_of(here), normal);
+        for (int k = 0; k < 3; ++k) here[std::size_t(3 + k)] = back[k];
+    };
     auto stepper = odeint::make_controlled(kTolerance, kTolerance, odeint::runge_kutta_dopri5<Values>());
     double time = 0.0, step = 0.25;
     const double longest = kMostSides * std::max({placed.size.x, placed.size.y, placed.size.z});
@@ -337,6 +202,17 @@ bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& g
         Values next = state;
         double taken = step;
         if (stepper.try_step(system, next, time, step) == odeint::fail) continue;
+        if (placed.reflects) {
+            const double ahead = placed.surface(position_of(next));
+            if (surface_here < kLeastSurface) on_surface = false;
+            if (!on_surface && surface_here >= ahead && surface_here > kLeastSurface) {
+                on_surface = true;
+                meet_surface(state);
+                stepper.reset();
+                continue;  // from here again
+            }
+            surface_here = ahead;
+        }
         bool leaves = false;
         double share = share_of(state, next, leaves);
         for (int refine = 0; leaves && refine < 4; ++refine) {  // the curve's own length, where the chord leaves

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/geometry.h"
+#include "reference/random.h"
 
 #include <pellucid/scene.h>
 #include <pellucid/volume.h>
@@ -18,13 +19,13 @@ namespace pellucid::reference {
 
 /// The volumes of a scene, and rays that bend in them, in double precision.
 ///
-/// - The index is interpolated by Catmull and Rom's cubics between the middles of voxels: its gradient is that of the
-///   value itself. Absorption, scattering and emission are interpolated linearly.
+/// - The index is interpolated by uniform cubic B-splines over the voxels: its gradient is that of the value itself. Absorption, scattering and emission are interpolated linearly.
 /// - Rays obey d/ds (n dx/ds) = grad n (Ihrke et al. 2007, equations 9 and 10), by the method of Dormand & Prince with a
 ///   relative tolerance of 1e-7 a step (Boost.Odeint).
 /// - Light crosses the faces of boxes straight on. Where boxes overlap the smaller counts.
-/// - What is scattered out of the way is lost; what is scattered into it is left out, and so is what surfaces of a
-///   volume (Volume::boundary) reflect: a smooth index reflects nothing.
+/// - What is scattered out of the way is lost; what is scattered into it is left out.
+/// - Surfaces of a volume (Volume::boundary) reflect what those between the indices on either side do (Fresnel): at random,
+///   or from the transmitted path, that loses it.
 /// - A volume that stands for objects of a solid is held by it: rays bend in it inside the solid, whose surfaces are sharp,
 ///   and nowhere else.
 class CurvedVolumes {
@@ -56,7 +57,8 @@ public:
         double left_after = 0.0;        ///< m from the start to there
     };
     /// `channel`: kRed to kBlue. Leaves in `query` the last piece.
-    Flight fly(std::int32_t solid, const Geometry& geometry, Query& query, int channel) const;
+    /// With `random` surfaces of volumes reflect or transmit by chance; without, every path is transmitted.
+    Flight fly(std::int32_t solid, const Geometry& geometry, Query& query, int channel, Random* random = nullptr) const;
 
     /// Whether a straight way in the open meets a box.
     bool meets(const glm::dvec3& origin, const glm::dvec3& direction, double distance) const;
@@ -72,7 +74,7 @@ private:
     static std::size_t next_volume(const List& volumes, const glm::dvec3& origin, const glm::dvec3& direction,
                                    double& distance);
     static bool bend(const List& volumes, std::size_t own, const Geometry& geometry, Query& query, int channel,
-                     Flight& flight);
+                     Random* random, Flight& flight);
 
     List open_;
     std::map<std::int32_t, List> held_;  ///< by solid

@@ -73,7 +73,8 @@ Hit PathWalk::next_surface(Random& random, bool& caught) {
     if (!channel_ && world_.volumes.disperses() &&
         (solid != kAir || world_.volumes.meets(ray_.origin, ray_.direction, std::numeric_limits<double>::infinity())))
         choose_channel(random);
-    const CurvedVolumes::Flight flight = world_.volumes.fly(solid, world_.geometry, ray_, channel_.value_or(kGreen));
+    const CurvedVolumes::Flight flight =
+        world_.volumes.fly(solid, world_.geometry, ray_, channel_.value_or(kGreen), &random);
     radiance_ += throughput_ * flight.emission;
     throughput_ *= flight.transmittance;
     if (solid == kAir) {

@@ -23,8 +23,6 @@ std::vector<std::string> volumes_of_truth(const Scene& scene) {
     };
     if (any([](const Volume& volume) { return !volume.sigma_s.empty(); }))
         lines.emplace_back("light that volumes scatter is lost");
-    if (any([](const Volume& volume) { return !volume.boundary.empty(); }))
-        lines.emplace_back("surfaces of volumes reflect nothing but what they reflect totally");
     if (!scene.volume_objects.empty() && !scene.lights.empty())
         lines.emplace_back("lights do not shine through volumes");
     return lines;

@@ -338,20 +338,6 @@ TEST_F(Ihrke, WhiteFurnace) {
     }
 }
 
-/// A slab of index n, half a metre thick and square to z, in a cube of 1 m.
-Volume slab(float n, double smoothing, unsigned resolution) {
-    Volume volume = even_cube(0.5f, resolution);
-    const double sigma = smoothing * double(volume.voxel);
-    for (unsigned z = 0; z < resolution; ++z) {
-        const double off = std::abs(double(volume.low.z) + (z + 0.5) * double(volume.voxel)) - 0.25;
-        const auto inside = float(smoothed_inside(off, sigma));
-        volume.n.insert(volume.n.end(), resolution * resolution, 1.0f + (n - 1.0f) * inside);
-        volume.boundary.insert(volume.boundary.end(), resolution * resolution,
-                               float(std::exp(-0.5 * off * off / (sigma * sigma))));
-    }
-    return volume;
-}
-
 // Before a white wall, in the dark. What is transmitted at once is (1 - R)^2; with all that is reflected inside it adds up to
 // (1 - R) / (1 + R), which at normal incidence is 2 n / (n^2 + 1).
 TEST_F(Ihrke, SlabsReflectAsFresnelSaysWhateverTheStep) {

@@ -1,9 +1,13 @@
 #pragma once
 
 // Volumes of which the rays are known.
+#include "optics/index_fields.h"
+
 #include <pellucid/volume.h>
 
 #include <glm/glm.hpp>
+
+#include <cmath>
 
 namespace pellucid::test {
 
@@ -27,6 +31,20 @@ inline Volume graded_ball(float middle, float fall, unsigned resolution = 64) {
                 volume.n.push_back(middle - fall * glm::dot(at, at));
             }
         }
+    }
+    return volume;
+}
+
+/// A slab of index n, half a metre thick and square to z, in a cube of 1 m.
+inline Volume slab(float n, double smoothing, unsigned resolution) {
+    Volume volume = even_cube(0.5f, resolution);
+    const double sigma = smoothing * double(volume.voxel);
+    for (unsigned z = 0; z < resolution; ++z) {
+        const double off = std::abs(double(volume.low.z) + (z + 0.5) * double(volume.voxel)) - 0.25;
+        const auto inside = float(smoothed_inside(off, sigma));
+        volume.n.insert(volume.n.end(), resolution * resolution, 1.0f + (n - 1.0f) * inside);
+        volume.boundary.insert(volume.boundary.end(), resolution * resolution,
+                               float(std::exp(-0.5 * off * off / (sigma * sigma))));
     }
     return volume;
 }
