@@ -71,7 +71,8 @@ void add_volume_options(CLI::App& command, VolumeArguments& arguments) {
     command
         .add_option("--map", arguments.grids,
                     "Which field a grid of a .vdb file is, and a factor on its values (1): n, n_red, n_blue, sigma_a, "
-                    "sigma_s, g, emission or boundary; or level-set, whose factor is the index inside (1.5). May be "
+                    "sigma_s, g, emission or boundary; distance, of which surfaces become that reflect; or level-set, "
+                    "which also bounds a solid, whose index the factor is (1.5). May be "
                     "repeated; default: grids have the names of fields")
         ->type_name("GRID=FIELD[:SCALE]")
         ->allow_extra_args(false)

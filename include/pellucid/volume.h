@@ -53,7 +53,8 @@ Volume make_volume(const std::string& spec);
 struct GridMapping {
     std::string grid;
     /// n, n_red, n_blue, sigma_a, sigma_s, g, emission or boundary; a grid of numbers becomes a field of colours that are
-    /// grey. Or level-set: distances to a surface, positive outside, m, which bound a solid of index `scale`.
+    /// grey. Or distance: distances to a surface, positive outside, m, which is where the volume reflects; or level-set:
+    /// the same, and bounds of a solid of index `scale`. Both are smoothed by 0.75 voxels.
     std::string field;
     float scale = 1.0f;  ///< factor on the grid's values
 };

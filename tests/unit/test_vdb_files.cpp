@@ -90,7 +90,24 @@ TEST(VdbFiles, GridsAreMapped) {
     EXPECT_THAT(volume_error(file, {{"density", "n"}}), HasSubstr("there is no grid 'density'; it has 'sigma_s', 'g'"));
     EXPECT_THAT(volume_error(file, {{"g", "thickness"}}), HasSubstr("unknown field 'thickness'; known are n, n_red"));
     EXPECT_THAT(volume_error(file, {{"sigma_s", "n"}}), HasSubstr("grid 'sigma_s' has vectors, n wants numbers"));
-    EXPECT_THAT(volume_error(file, {{"g", "n", -1.0f}}), HasSubstr("n at voxel (0, 0, 0) is not within 0.01..100"));
+    EXPECT_THAT(volume_error(file, {{"g", "n", -1.0f}}), HasSubstr("n at voxel (0, 0, 0) is not within 0.1..100"));
+}
+
+// Distances say where a volume reflects, beside an index of its own.
+TEST(VdbFiles, DistancesAreSurfaces) {
+    const TemporaryFolder folder;
+    Volume saved = make_volume("luneburg,resolution=16");
+    saved.g.resize(saved.voxel_count());
+    for (std::size_t i = 0; i < saved.g.size(); ++i) saved.g[i] = 0.05f * (float(i % 16) - 7.5f) / 16.0f;  // m
+    save_volume(folder / "lens.vdb", saved);
+    const std::vector<GridMapping> mapping = {{"n", "n"}, {"g", "distance"}};
+    const Volume lens = load_volume(folder / "lens.vdb", mapping);
+    EXPECT_EQ(lens.n, saved.n);
+    EXPECT_TRUE(lens.g.empty());
+    ASSERT_EQ(lens.boundary.size(), saved.voxel_count());
+    const double sigma = 0.75 * double(saved.voxel);
+    for (std::size_t i = 0; i < 16; ++i)
+        EXPECT_NEAR(double(lens.boundary[i]), std::exp(-0.5 * std::pow(double(saved.g[i]) / sigma, 2.0)), 1e-6);
 }
 
 TEST(VdbFiles, DamagedOnesAreRefused) {

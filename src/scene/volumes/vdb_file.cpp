@@ -107,15 +107,20 @@ void visit_values(const fs::path& file, const vdb::GridBase& grid, const vdb::Co
                                quoted(grid.getName()), grid.valueType()));
 }
 
-/// Distances to a surface become a solid of the index that the mapping gives.
-void add_level_set(const fs::path& file, Volume& volume, const MappedGrid& mapped, const vdb::CoordBBox& box) {
+bool is_distance(const std::string& field) { return field == "level-set" || field == "distance"; }
+
+/// Distances to a surface say where it reflects; as a level set they become a solid of the index that the mapping gives.
+void add_distances(const fs::path& file, Volume& volume, const MappedGrid& mapped, const vdb::CoordBBox& box) {
+    const bool is_solid = mapped.mapping.field == "level-set";
     const std::size_t count = volume.voxel_count();
-    volume.n.resize(count);
+    if (is_solid) volume.n.resize(count);
     volume.boundary.resize(count);
     const double sigma = 0.75 * double(volume.voxel);
     const auto number = [&](std::size_t i, float distance) {
         const double d = double(distance) / sigma;
-        volume.n[i] = float(1.0 + (double(mapped.mapping.scale) - 1.0) * smoothed_inside(d, 1.0));
+        if (std::isnan(distance))
+            fail(file, fmt::format("grid {} has values that are not finite", quoted(mapped.mapping.grid)));
+        if (is_solid) volume.n[i] = float(1.0 + (double(mapped.mapping.scale) - 1.0) * smoothed_inside(d, 1.0));
         volume.boundary[i] = float(std::exp(-0.5 * d * d));
     };
     const auto color = [&](std::size_t, glm::vec3) {
@@ -125,7 +130,7 @@ void add_level_set(const fs::path& file, Volume& volume, const MappedGrid& mappe
 }
 
 void add_field(const fs::path& file, Volume& volume, const MappedGrid& mapped, const vdb::CoordBBox& box) {
-    if (mapped.mapping.field == "level-set") return add_level_set(file, volume, mapped, box);
+    if (is_distance(mapped.mapping.field)) return add_distances(file, volume, mapped, box);
     const FieldAccess& field = *find_field(mapped.mapping.field);
     const std::size_t count = volume.voxel_count();
     const float scale = mapped.mapping.scale;
@@ -152,8 +157,8 @@ std::vector<MappedGrid> choose_grids(const fs::path& file, const vdb::GridPtrVec
     for (const auto& grid : grids) present.push_back(quoted(grid->getName()));
     std::vector<MappedGrid> chosen;
     for (const GridMapping& each : mapping) {
-        if (each.field != "level-set" && !find_field(each.field))
-            throw Error(fmt::format("grid {}: unknown field '{}'; known are {}, level-set", quoted(each.grid),
+        if (!is_distance(each.field) && !find_field(each.field))
+            throw Error(fmt::format("grid {}: unknown field '{}'; known are {}, distance, level-set", quoted(each.grid),
                                     one_line(each.field), field_names()));
         const auto found =
             std::find_if(grids.begin(), grids.end(), [&](const auto& grid) { return grid->getName() == each.grid; });
@@ -163,7 +168,8 @@ std::vector<MappedGrid> choose_grids(const fs::path& file, const vdb::GridPtrVec
     }
     if (!mapping.empty()) return chosen;
     for (const auto& grid : grids)
-        if (find_field(grid->getName())) chosen.push_back({grid, {grid->getName(), grid->getName(), 1.0f}});
+        if (find_field(grid->getName()) || grid->getName() == "distance")
+            chosen.push_back({grid, {grid->getName(), grid->getName(), 1.0f}});
     if (chosen.empty())
         fail(file, present.empty()
                        ? "has no grids"

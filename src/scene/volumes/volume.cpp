@@ -74,10 +74,10 @@ void check_volume(const Volume& volume) {
         require(std::isfinite(volume.low[k]) && std::isfinite(volume.high()[k]), "its box is not finite");
     require(volume.n_red.empty() == volume.n_blue.empty() && (volume.n_red.empty() || !volume.n.empty()),
             "the index is given for one colour, or for all three");
-    const auto is_index = [](float n) { return n >= 0.01f && n <= 100.0f; };
-    check_field(volume, "n", volume.n, "within 0.01..100", is_index);
-    check_field(volume, "n_red", volume.n_red, "within 0.01..100", is_index);
-    check_field(volume, "n_blue", volume.n_blue, "within 0.01..100", is_index);
+    const auto is_index = [](float n) { return n >= 0.1f && n <= 100.0f; };
+    check_field(volume, "n", volume.n, "within 0.1..100", is_index);
+    check_field(volume, "n_red", volume.n_red, "within 0.1..100", is_index);
+    check_field(volume, "n_blue", volume.n_blue, "within 0.1..100", is_index);
     const auto amount = [](const auto& value) { return is_amount(value); };
     check_field(volume, "sigma_a", volume.sigma_a, "finite and not negative", amount);
     check_field(volume, "sigma_s", volume.sigma_s, "finite and not negative", amount);
