@@ -129,6 +129,8 @@ public:
     /// of them is next asked for, and techniques that bake (TechniqueInfo::bakes) do so again if glass has moved. If
     /// the device fails in between, the shape is undefined until the next call. A camera that was not set keeps framing what there is.
     void set_positions(const std::vector<MovedMesh>& moved);
+    /// The lights from now on, in place of the scene's. Throws Error, and changes nothing, if one is out of range.
+    void set_lights(const std::vector<Light>& lights);
     void set_environment(const Environment& environment);
     /// Default: the scene's first camera, or one that frames the scene (azimuth 0, elevation 15
     /// degrees, 30 degrees of field, the bounding sphere filling 70% of the height).

@@ -49,6 +49,11 @@ void CpuTracing::set_positions(const std::vector<MovedMesh>& moved) {
     }
 }
 
+void CpuTracing::set_lights(const std::vector<Light>& lights) {
+    tracer_.reset();
+    scene_.lights = lights;
+}
+
 const Tracer& CpuTracing::tracer() {
     if (!tracer_) tracer_.emplace(scene_, TracerOptions{.threads = threads_});
     return *tracer_;

@@ -19,6 +19,7 @@ public:
     /// Throws Error, and moves nothing, if a mesh does not exist, the counts differ, or a number is not finite. The
     /// hierarchy is built anew when it is next asked for.
     void set_positions(const std::vector<MovedMesh>& moved);
+    void set_lights(const std::vector<Light>& lights);
     const Scene& scene() const { return scene_; }
     const Tracer& tracer();
 

@@ -344,6 +344,11 @@ void Renderer::set_positions(const std::vector<MovedMesh>& moved) {
     impl_->scene->move_vertices(impl_->device, impl_->cpu.scene(), meshes);
 }
 
+void Renderer::set_lights(const std::vector<Light>& lights) {
+    check_lights(lights);
+    impl_->cpu.set_lights(lights);
+}
+
 void Renderer::set_environment(const Environment& environment) {
     check_environment(environment);
     impl_->filtered_environment.reset();

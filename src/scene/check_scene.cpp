@@ -133,9 +133,12 @@ void check_scene(const Scene& scene) {
             require(stood_for >= 0 && stood_for < int(scene.objects.size()), what,
                     "an object that it stands for is none");
     }
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        check_light(scene.lights[i], fmt::format("light {} '{}'", i, scene.lights[i].name));
-    }
+    check_lights(scene.lights);
+}
+
+void check_lights(std::span<const Light> lights) {
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        check_light(lights[i], fmt::format("light {} '{}'", i, lights[i].name));
 }
 
 void check_camera(const Camera& camera) {

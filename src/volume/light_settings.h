@@ -25,6 +25,7 @@ struct LightSettings {
     bool keep_folds = true;    ///< false: a patch that has turned over ends there, as in the paper
     std::uint32_t capacity = 1u << 18;   ///< patches at once; at most what a storage buffer holds
     std::uint32_t steps_per_round = 16;  ///< of a patch before lists are compacted
+    std::uint32_t slices = 1;  ///< updates over which a light that moves is traced; until the last the one before is shown
     std::uint32_t rounds = 0;          ///< at most; 0: as many as light needs to cross all volumes one and a half times
     float texel = 1.0f;                ///< of receivers' maps, smallest voxels
     float reach = 3.0f;                ///< of receivers, radii of the sphere around all volumes

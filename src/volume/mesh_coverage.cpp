@@ -48,9 +48,8 @@ class CoverageMaker {
 public:
     CoverageMaker(Workspace& workspace, const Volume& grid, std::uint32_t samples)
         : workspace_(workspace), recorder_(workspace.device()), size_(grid.size), samples_(samples),
-          coverage_(grid.voxel_count()),
-          blocks_(workspace.device(), "blocks of columns", kMostBlocks * sizeof(Block),
-                  vk::BufferUsageFlagBits::eStorageBuffer, true) {
+          coverage_(grid.voxel_count()), blocks_(workspace.device(), "blocks of columns", kMostBlocks * sizeof(Block),
+                                                 vk::BufferUsageFlagBits::eStorageBuffer, true) {
         const vk::DeviceSize row = sizeof(std::int32_t) * vk::DeviceSize(size_.x) * size_.z;
         const vk::DeviceSize most = std::min(kMostBytes, workspace.device().max_storage_binding());
         slab_rows_ = unsigned(std::clamp<vk::DeviceSize>(most / row, 1, size_.y));
@@ -92,7 +91,8 @@ private:
     void add(const glm::uvec3& t, const Slab& slab) {
         Block block{corners_[t.x], corners_[t.y], corners_[t.z], {}, {}, -1, 0, {}};
         block.heights = {heights_[t.x], heights_[t.y], heights_[t.z], 0.0f};
-        const auto ab = glm::i64vec2(block.b) - glm::i64vec2(block.a), ac = glm::i64vec2(block.c) - glm::i64vec2(block.a);
+        const auto ab = glm::i64vec2(block.b) - glm::i64vec2(block.a),
+                   ac = glm::i64vec2(block.c) - glm::i64vec2(block.a);
         const std::int64_t area = ab.x * ac.y - ab.y * ac.x;
         if (area == 0) return;  // along the columns
         if (area < 0) {

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <span>
 
 namespace pellucid {
 
@@ -37,28 +39,33 @@ void SceneVolumes::bring_up_to_date(const Scene& scene, GpuScene& gpu_scene,
         replaced.insert(replaced.end(), object.objects.begin(), object.objects.end());
     gpu_scene.topology->mark_replaced(device_, replaced);
 
-    std::vector<PunctualLight> lights;
-    for (const Light& light : scene.lights) lights.push_back(punctual_light(light));
-    light_count_ = std::uint32_t(lights.size());
-    if (!lights.empty()) {
-        lights_ = Buffer(device_, "lights", lights.size() * sizeof(PunctualLight),
-                         vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
-        upload(device_, lights_, std::as_bytes(std::span(lights)));
-    }
     made_of_ = made_of;
     moves_ = gpu_scene.moves;
 }
 
+void SceneVolumes::bring_lights_up_to_date() {
+    std::vector<PunctualLight> lights;
+    for (const Light& light : tracer_.lights()) lights.push_back(punctual_light(light));
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(lights));
+    if (std::equal(bytes.begin(), bytes.end(), light_bytes_.begin(), light_bytes_.end())) return;
+    light_bytes_.assign(bytes.begin(), bytes.end());
+    if (lights.empty()) return;
+    lights_ = Buffer(device_, "lights", bytes.size(),
+                     vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
+    upload(device_, lights_, bytes);
+}
+
 void SceneVolumes::light(Recorder& recorder, Workspace& workspace, const LightSettings& settings) {
     tracer_.update(recorder, workspace, *scene_, images_, settings, moves_);
+    bring_lights_up_to_date();
 }
 
 std::vector<std::string> SceneVolumes::warnings() const {
     std::vector<std::string> lines = warnings_;
     if (!lit()) {
-        if (light_count_ > 0)
-            lines.push_back(fmt::format("{} light{} not drawn: there is no volume", light_count_,
-                                        light_count_ == 1 ? " is" : "s are"));
+        if (const std::size_t count = scene_->lights.size(); count > 0)
+            lines.push_back(
+                fmt::format("{} light{} not drawn: there is no volume", count, count == 1 ? " is" : "s are"));
         return lines;
     }
     lines.emplace_back("lights shine through volumes and on opaque objects, which cast no shadows");

@@ -24,14 +24,16 @@ public:
     void light(Recorder& recorder, Workspace& workspace, const LightSettings& settings);
 
     const VolumeImages& images() const { return images_; }
-    bool lit() const { return lights_.size() > 0 && images_.count > 0; }
-    std::uint32_t light_count() const { return light_count_; }
+    bool lit() const { return scene_ != nullptr && !scene_->lights.empty() && images_.count > 0; }
+    std::uint32_t light_count() const { return std::uint32_t(tracer_.lights().size()); }
     const Buffer& lights() const { return lights_; }  ///< PunctualLight[] (gpu/punctual_light.glsl)
     const LightVolumes& light_volumes() const { return tracer_.light(); }
     /// What did not go as it should, of the volumes and of the last tracing that has run.
     std::vector<std::string> warnings() const;
 
 private:
+    void bring_lights_up_to_date();
+
     const Device& device_;
     const Scene* scene_ = nullptr;
     std::string made_of_;
@@ -39,7 +41,7 @@ private:
     VolumeImages images_;
     WavefrontTracer tracer_;
     Buffer lights_;
-    std::uint32_t light_count_ = 0;
+    std::vector<std::byte> light_bytes_;  ///< what is in it
     std::vector<std::string> warnings_;
 };
 

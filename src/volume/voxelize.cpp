@@ -79,10 +79,9 @@ public:
             warn_if_open(*solid.object);
             const glm::dmat4 grid_from_world = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 / double(volume_.voxel))) *
                                                glm::translate(glm::dmat4(1.0), -glm::dvec3(volume_.low));
-            std::vector<float> coverage =
-                mesh_coverage(workspace_, volume_, scene_.meshes[std::size_t(solid.object->mesh)],
-                              glm::mat4(grid_from_world * glm::dmat4(solid.object->world_from_object)),
-                              settings_.samples);
+            std::vector<float> coverage = mesh_coverage(
+                workspace_, volume_, scene_.meshes[std::size_t(solid.object->mesh)],
+                glm::mat4(grid_from_world * glm::dmat4(solid.object->world_from_object)), settings_.samples);
             fill(scene_.materials[std::size_t(solid.object->material)], coverage);
             add_boundary(std::move(coverage), boundary);
         }
@@ -93,9 +92,7 @@ public:
     }
 
 private:
-    const Material& material(const Solid& solid) const {
-        return scene_.materials[std::size_t(solid.object->material)];
-    }
+    const Material& material(const Solid& solid) const { return scene_.materials[std::size_t(solid.object->material)]; }
 
     /// The box with room for what smoothing spreads.
     void make_grid() {
@@ -112,9 +109,10 @@ private:
         const double margin = std::ceil(3.0 * double(settings_.smoothing)) + 2.0;
         const double inner = settings_.resolution - 2.0 * margin;
         if (inner < 2.0)
-            throw Error(fmt::format("{} voxels leave no room for {} at either side, which smoothing needs; take a higher "
-                                    "resolution",
-                                    settings_.resolution, margin));
+            throw Error(
+                fmt::format("{} voxels leave no room for {} at either side, which smoothing needs; take a higher "
+                            "resolution",
+                            settings_.resolution, margin));
         const double voxel = longest / inner;
         volume_.name = std::filesystem::path(scene_.source).stem().string();
         volume_.voxel = float(voxel);

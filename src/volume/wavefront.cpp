@@ -148,9 +148,11 @@ std::vector<std::string> LightStatistics::warnings() const {
 
 /// What one tracing needs beside the members.
 struct WavefrontTracer::Tracing {
-    const LightSettings& settings;
+    std::string key;
+    LightSettings settings;
+    std::vector<Light> lights;
     LightPush push;
-    std::uint32_t rounds;
+    std::uint32_t rounds, rounds_done = 0;
     bool overlapping;
 };
 
@@ -213,28 +215,62 @@ void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, const LightSe
     if (settings.tally) tally_copy_ = Buffer(device_, "copy of the tally", tally_bytes, kStorage, true);
 }
 
-void WavefrontTracer::prepare_receivers(const Scene& scene, const LightSettings& settings) {
-    light_.receiver_list = find_receivers(scene, center_, settings.reach * radius_, settings.texel * smallest_voxel_,
-                                          settings.most_texels);
+/// True if they have changed.
+bool WavefrontTracer::prepare_receivers(const Scene& scene, const LightSettings& settings) {
+    std::vector<gpu::LightReceiver> found = find_receivers(scene, center_, settings.reach * radius_,
+                                                           settings.texel * smallest_voxel_, settings.most_texels);
+    const std::size_t bytes = found.size() * sizeof(gpu::LightReceiver);
+    if (light_.receiver_light.size() > 0 && found.size() == light_.receiver_list.size() &&
+        std::memcmp(found.data(), light_.receiver_list.data(), bytes) == 0)
+        return false;
+    light_.receiver_list = std::move(found);
     light_.receivers = filled(device_, "receivers of light", light_.receiver_list);
     const std::uint32_t texels = std::max(1u, texel_count(light_.receiver_list));
     texels_ = Buffer(device_, "power on receivers", vk::DeviceSize(texels) * 48, kStorage);
     light_.receiver_light = Buffer(device_, "light on receivers", vk::DeviceSize(texels) * 32, kStorage);
+    return true;
+}
+
+void WavefrontTracer::prepare_lists(std::uint32_t capacity) {
+    const vk::DeviceSize bytes = vk::DeviceSize(capacity) * sizeof(gpu::LightPatch);
+    if (landed_.size() == bytes) return;
+    patches_[0] = Buffer(device_, "light patches", bytes, kStorage);
+    patches_[1] = Buffer(device_, "other light patches", bytes, kStorage);
+    landed_ = Buffer(device_, "landed light", bytes, kStorage);
+    step_groups_ = Buffer(device_, "groups of light", 12, kStorage);
+    land_groups_ = Buffer(device_, "groups of landed light", 12, kStorage);
 }
 
 bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Scene& scene, const VolumeImages& volumes,
                              const LightSettings& settings, std::uint64_t moves) {
     const std::string of_volumes = volume_key(volumes, settings);
     const std::string key = of_volumes + key_of(scene, settings, moves);
-    if (key == key_) return false;
+    if (of_volumes != volume_key_) pending_.reset();
+    if (!pending_ && key == key_) return false;
     if (settings.kept == KeptLight::kBrightest && !device_.long_atomics())
         throw Error(fmt::format("brightest light in volumes: {} lacks 64-bit atomics (shaderBufferInt64Atomics)",
                                 device_.info().name));
-    if (of_volumes != volume_key_) prepare_volumes(volumes, settings);
+    const Recorder::Scope scope(recorder, "light");
+    if (pending_) {
+        const std::shared_ptr<Tracing> tracing = pending_;
+        trace_rounds(recorder, workspace, volumes, *tracing, tracing->rounds / tracing->settings.slices + 1, 0);
+        if (tracing->rounds_done < tracing->rounds) return true;
+        end(recorder, workspace, *tracing);
+        finish(recorder, workspace, *tracing);
+        pending_.reset();
+        return true;
+    }
+
+    bool at_once = settings.slices <= 1 || settings.tally || key_.empty();
+    if (of_volumes != volume_key_) {
+        prepare_volumes(volumes, settings);
+        at_once = true;
+    }
     volume_key_ = of_volumes;
-    prepare_receivers(scene, settings);
+    at_once = prepare_receivers(scene, settings) || at_once;
     const auto capacity = std::uint32_t(
         std::min<vk::DeviceSize>(settings.capacity, device_.max_storage_binding() / sizeof(gpu::LightPatch)));
+    prepare_lists(capacity);
     front_list_ = make_fronts(scene.lights, records_, {.side = 0.95f * settings.span, .most_patches = capacity});
     if (front_list_.fronts.size() > PELLUCID_MOST_FRONTS || volumes.count >= PELLUCID_NO_VOLUME)
         throw Error(
@@ -248,25 +284,41 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
     for (const VolumeRecord& record : records_) voxels_across += double(glm::length(record.size));
     const double steps = 1.5 * kGuessedIndex * voxels_across / double(settings.step);
     const int exponent = kPowerBits - int(std::ceil(std::log2(std::max(front_list_.most_power, 1e-30))));
-    const Tracing tracing{.settings = settings,
-                          .push = {capacity, volumes.count, std::uint32_t(light_.receiver_list.size()), 0,
-                                   settings.step, settings.span, settings.least_area, settings.steps_per_round,
-                                   std::ldexp(1.0f, std::min(exponent, 120)), settings.finest, settings.weakest},
-                          .rounds = settings.rounds > 0
-                                        ? settings.rounds
-                                        : std::uint32_t(steps / std::max(1u, settings.steps_per_round)) + 48,
-                          .overlapping = volumes.overlapping};
+    const auto tracing = std::make_shared<Tracing>(
+        Tracing{.key = key,
+                .settings = settings,
+                .lights = scene.lights,
+                .push = {capacity, volumes.count, std::uint32_t(light_.receiver_list.size()), 0, settings.step,
+                         settings.span, settings.least_area, settings.steps_per_round,
+                         std::ldexp(1.0f, std::min(exponent, 120)), settings.finest, settings.weakest},
+                .rounds = settings.rounds > 0 ? settings.rounds
+                                              : std::uint32_t(steps / std::max(1u, settings.steps_per_round)) + 48,
+                .overlapping = volumes.overlapping});
 
-    const Recorder::Scope scope(recorder, "light");
     recorder.fill(voxel_light_, 0);
     recorder.fill(tally_, 0);
-    if (!settings.tally) {
-        trace(recorder, workspace, volumes, tracing, 0);
-    } else {
-        trace(recorder, workspace, volumes, tracing, 1);
-        trace(recorder, workspace, volumes, tracing, 2);
+    begin(recorder, workspace, volumes, *tracing);
+    if (!at_once) {
+        pending_ = tracing;
+        trace_rounds(recorder, workspace, volumes, *tracing, tracing->rounds / settings.slices + 1, 0);
+        return true;
+    }
+    trace_rounds(recorder, workspace, volumes, *tracing, tracing->rounds, settings.tally ? 1 : 0);
+    end(recorder, workspace, *tracing);
+    if (settings.tally) {
+        begin(recorder, workspace, volumes, *tracing);
+        tracing->rounds_done = 0;
+        trace_rounds(recorder, workspace, volumes, *tracing, tracing->rounds, 2);
+        end(recorder, workspace, *tracing);
         recorder.copy(tally_, tally_copy_, tally_.size());
     }
+    finish(recorder, workspace, *tracing);
+    return true;
+}
+
+/// What has been added up becomes what is seen.
+void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
+    lights_ = tracing.lights;
     resolve_voxels(recorder, workspace, tracing);
     const Program& resolve_receivers = workspace.compute({"resolve_receivers.comp", kResolveReceivers});
     for (std::uint32_t i = 0; i < light_.receiver_list.size(); ++i) {
@@ -278,11 +330,11 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
                          {std::uint32_t(own.side.w), std::uint32_t(own.up.w)});
     }
     recorder.copy(state_, state_copy_, sizeof(gpu::LightState));
-    recorder.when_done([this, key, scale = double(tracing.push.power_scale), tally = settings.tally] {
-        read_statistics(scale, tally);
-        key_ = key;
-    });
-    return true;
+    recorder.when_done(
+        [this, key = tracing.key, scale = double(tracing.push.power_scale), tally = tracing.settings.tally] {
+            read_statistics(scale, tally);
+            key_ = key;
+        });
 }
 
 void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
@@ -307,20 +359,39 @@ void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, c
     }
 }
 
-void WavefrontTracer::trace(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
-                            const Tracing& tracing, std::uint32_t tally) {
+void WavefrontTracer::begin_round(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
+    recorder.compute(workspace.compute({"begin_round.comp", kBeginRound}),
+                     {updates("State", state_), writes("StepGroups", step_groups_), writes("LandGroups", land_groups_)},
+                     tracing.push, {1, 1});
+}
+
+/// Emits, and puts on receivers what would get there without volumes.
+void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
+                            const Tracing& tracing) {
+    recorder.fill(state_, 0);
+    recorder.fill(texels_, 0);
+    const Program& emit = workspace.compute({"emit_light.comp", kEmitLight});
+    for (std::uint32_t i = 0; i < front_list_.fronts.size(); ++i) {
+        const gpu::LightFront& front = front_list_.fronts[i];
+        LightPush own = tracing.push;
+        own.front = i;
+        recorder.compute(emit,
+                         {reads("Volumes", volumes.records), reads("Fronts", fronts_), updates("State", state_),
+                          writes("PatchesOut", patches_[0])},
+                         own, {std::uint32_t(front.corner.w), std::uint32_t(front.side.w)});
+    }
+    begin_round(recorder, workspace, tracing);
+    recorder.compute_indirect(workspace.compute({"land_light.comp", kLandLight}, {1}),
+                              {reads("Receivers", light_.receivers), updates("State", state_),
+                               reads("Landed", patches_[0]), updates("Texels", texels_)},
+                              tracing.push, step_groups_);
+}
+
+void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
+                                   Tracing& tracing, std::uint32_t rounds, std::uint32_t tally) {
     const auto flag = [](bool value) { return value ? 1u : 0u; };
     const LightPush& push = tracing.push;
-    const vk::DeviceSize list = vk::DeviceSize(push.capacity) * sizeof(gpu::LightPatch);
-    const Buffer* from = &workspace.buffer("light patches", list);
-    const Buffer* to = &workspace.buffer("other light patches", list);
-    const Buffer& landed = workspace.buffer("landed light", list);
-    const Buffer& step_groups = workspace.buffer("groups of light", 12);
-    const Buffer& land_groups = workspace.buffer("groups of landed light", 12);
-    const Program& emit = workspace.compute({"emit_light.comp", kEmitLight});
-    const Program& begin = workspace.compute({"begin_round.comp", kBeginRound});
     const Program& land = workspace.compute({"land_light.comp", kLandLight}, {0});
-    const Program& end = workspace.compute({"end_light.comp", kEndLight});
     std::vector<std::uint32_t> constants = {flag(volumes.absorbs || volumes.scatters),
                                             flag(volumes.scatters),
                                             flag(tracing.overlapping),
@@ -336,7 +407,7 @@ void WavefrontTracer::trace(Recorder& recorder, Workspace& workspace, const Volu
                                           reads("Receivers", light_.receivers),
                                           reads("Fronts", fronts_),
                                           updates("State", state_),
-                                          writes("Landed", landed)};
+                                          writes("Landed", landed_)};
     const bool sums = tracing.settings.kept == KeptLight::kSum;
     step_bindings.push_back(updates(sums ? "Sums" : "Keys", voxel_light_));
     if (!sums) {
@@ -345,40 +416,25 @@ void WavefrontTracer::trace(Recorder& recorder, Workspace& workspace, const Volu
     }
     const Program& step = sums ? workspace.compute({"step_summed_light.comp", kStepSummedLight}, constants)
                                : workspace.compute({"step_brightest_light.comp", kStepBrightestLight}, constants);
-    recorder.fill(state_, 0);
-    recorder.fill(texels_, 0);
-    for (std::uint32_t i = 0; i < front_list_.fronts.size(); ++i) {
-        const gpu::LightFront& front = front_list_.fronts[i];
-        LightPush own = push;
-        own.front = i;
-        recorder.compute(emit,
-                         {reads("Volumes", volumes.records), reads("Fronts", fronts_), updates("State", state_),
-                          writes("PatchesOut", *from)},
-                         own, {std::uint32_t(front.corner.w), std::uint32_t(front.side.w)});
-    }
-    const auto begin_round = [&] {
-        recorder.compute(
-            begin, {updates("State", state_), writes("StepGroups", step_groups), writes("LandGroups", land_groups)},
-            push, {1, 1});
-    };
-    begin_round();
-    recorder.compute_indirect(workspace.compute({"land_light.comp", kLandLight}, {1}),
-                              {reads("Receivers", light_.receivers), updates("State", state_), reads("Landed", *from),
-                               updates("Texels", texels_)},
-                              push, step_groups);
-    for (std::uint32_t round = 0; round < tracing.rounds; ++round) {
+    const std::uint32_t last = std::min(tracing.rounds, tracing.rounds_done + rounds);
+    for (; tracing.rounds_done < last; ++tracing.rounds_done) {
         std::vector<Binding> bindings = step_bindings;
-        bindings.push_back(reads("PatchesIn", *from));
-        bindings.push_back(writes("PatchesOut", *to));
-        recorder.compute_indirect(step, std::span<const Binding>(bindings), push, step_groups);
-        begin_round();
+        bindings.push_back(reads("PatchesIn", patches_[tracing.rounds_done % 2]));
+        bindings.push_back(writes("PatchesOut", patches_[1 - tracing.rounds_done % 2]));
+        recorder.compute_indirect(step, std::span<const Binding>(bindings), push, step_groups_);
+        begin_round(recorder, workspace, tracing);
         recorder.compute_indirect(land,
                                   {reads("Receivers", light_.receivers), updates("State", state_),
-                                   reads("Landed", landed), updates("Texels", texels_)},
-                                  push, land_groups);
-        std::swap(from, to);
+                                   reads("Landed", landed_), updates("Texels", texels_)},
+                                  push, land_groups_);
     }
-    recorder.compute_indirect(end, {updates("State", state_), reads("PatchesIn", *from)}, push, step_groups);
+}
+
+/// Counts what is still on its way.
+void WavefrontTracer::end(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
+    recorder.compute_indirect(workspace.compute({"end_light.comp", kEndLight}),
+                              {updates("State", state_), reads("PatchesIn", patches_[tracing.rounds_done % 2])},
+                              tracing.push, step_groups_);
 }
 
 void WavefrontTracer::read_statistics(double power_scale, bool tally) {

@@ -10,6 +10,7 @@
 
 #include <pellucid/scene.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,37 +36,53 @@ class WavefrontTracer {
 public:
     explicit WavefrontTracer(const Device& device) : device_(device) {}
 
-    /// Records the passes if light, volumes, receivers or settings have changed since the last time; false if not.
+    /// Records the passes if light, volumes, receivers or settings have changed since the last time; false if not. Where
+    /// lights alone have changed, a slice of them: what is traced then is the lights of the first, and all of it is shown
+    /// at once after the last, so that what is seen is `slices` - 1 to 2 `slices` - 2 updates old.
     /// `moves`: GpuScene::moves. Throws Error if the device lacks memory, or for KeptLight::kBrightest 64-bit atomics.
     bool update(Recorder& recorder, Workspace& workspace, const Scene& scene, const VolumeImages& volumes,
                 const LightSettings& settings, std::uint64_t moves = 0);
 
-    /// Traces again at the next update().
-    void forget() { key_.clear(); }
+    /// Traces again at the next update(), at once.
+    void forget() {
+        key_.clear();
+        pending_.reset();
+    }
 
     const LightVolumes& light() const { return light_; }
+    /// Those that are shown: of the last tracing of which all slices were recorded.
+    const std::vector<Light>& lights() const { return lights_; }
     /// Of the last tracing that has run.
     const LightStatistics& statistics() const { return statistics_; }
 
 private:
     struct Tracing;
     void prepare_volumes(const VolumeImages& volumes, const LightSettings& settings);
-    void prepare_receivers(const Scene& scene, const LightSettings& settings);
-    void trace(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes, const Tracing& tracing,
-               std::uint32_t tally);
+    bool prepare_receivers(const Scene& scene, const LightSettings& settings);
+    void prepare_lists(std::uint32_t capacity);
+    void begin_round(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
+    void begin(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes, const Tracing& tracing);
+    void trace_rounds(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes, Tracing& tracing,
+                      std::uint32_t rounds, std::uint32_t tally);
+    void end(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
+    void finish(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
     void resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
     void read_statistics(double power_scale, bool tally);
 
     const Device& device_;
     std::string key_, volume_key_;
+    std::shared_ptr<Tracing> pending_;  ///< of which slices are left
     std::vector<VolumeRecord> records_;
     glm::vec3 center_{0.0f};
     float radius_ = 0.0f, smallest_voxel_ = 1.0f;
     bool coarse_voxels_ = false;
     std::uint64_t voxels_ = 0;
+    Buffer patches_[2], landed_;        ///< gpu::LightPatch
+    Buffer step_groups_, land_groups_;  ///< numbers of workgroups
     Buffer voxel_light_, tally_, texels_, state_, state_copy_, tally_copy_, fronts_;
     LightFronts front_list_;
     LightVolumes light_;
+    std::vector<Light> lights_;
     LightStatistics statistics_;
 };
 

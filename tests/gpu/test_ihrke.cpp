@@ -607,5 +607,60 @@ TEST_F(Ihrke, EvenSmokeScattersLightOnce) {
         }
 }
 
+// Every frame shows the light of one moment, which is 3 to 6 frames ago, as if it had been traced at once; and what changes
+// from frame to frame is what the light itself changes, within 1/255 of the display in the mean.
+TEST_F(Ihrke, MovingLightsAreTracedInSlices) {
+    constexpr int kFrames = 60, kSlices = 4, kLag = kSlices;
+    Scene scene;
+    add(scene, square(), white_ground(), flat_at(-1.2f));
+    place(scene, make_volume("smoothed-sphere,resolution=32"));
+    const auto sun_at = [](int frame) {
+        Light light = sun();
+        light.direction = glm::normalize(glm::vec3(0.3f + 0.004f * float(frame), -1.0f, -0.2f));
+        return std::vector<Light>{light};
+    };
+    scene.lights = sun_at(0);
+    const auto draw_small = [&](double slices) {
+        RenderSettings settings;
+        settings.width = settings.height = 48;
+        settings.technique = "ihrke-2007";
+        settings.parameters = {{"light-slices", slices}, {"branches", 0}};
+        return renderer().render(settings).radiance;
+    };
+    std::vector<Image> shown, exact;
+    for (const int slices : {1, kSlices}) {
+        set(scene, uniform_environment(glm::vec3(0.1f)));
+        std::vector<Image>& pictures = slices == 1 ? exact : shown;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            renderer().set_lights(sun_at(frame));
+            pictures.push_back(draw_small(slices));
+        }
+    }
+    const auto display = [](float radiance) { return std::pow(std::min(double(radiance), 1.0), 1.0 / 2.2); };
+    double flicker = 0.0;
+    int oldest = 0, changes = 0;
+    for (int t = 0; t < kFrames; ++t) {
+        int age = 0;
+        while (age <= t && shown[std::size_t(t)].pixels != exact[std::size_t(t - age)].pixels) ++age;
+        EXPECT_LE(age, t < kSlices ? t : 2 * kSlices - 2) << "frame " << t << " is that of no moment";
+        oldest = std::max(oldest, age);
+        if (t < 2 * kLag) continue;
+        changes += shown[std::size_t(t)].pixels != shown[std::size_t(t - 1)].pixels ? 1 : 0;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < shown[0].pixels.size(); ++i) {
+            const auto change = [&](const std::vector<Image>& frames, int at) {
+                return display(frames[std::size_t(at)].pixels[i]) - display(frames[std::size_t(at - 1)].pixels[i]);
+            };
+            sum += std::abs(change(shown, t) - change(exact, t - kLag));
+        }
+        flicker = std::max(flicker, sum / double(shown[0].pixels.size()));
+    }
+    std::printf("moving light: oldest %d frames, %d changes, flicker %.5f (1/255 is %.5f)\n", oldest, changes, flicker,
+                1.0 / 255.0);
+    EXPECT_GT(oldest, 0);
+    EXPECT_GT(changes, 5);
+    EXPECT_LT(flicker, 1.0 / 255.0);
+}
+
 }  // namespace
 }  // namespace pellucid::test
