@@ -14,7 +14,7 @@ namespace pellucid {
 /// A box of cubic voxels in which the index of refraction varies, and light is absorbed, scattered and emitted.
 ///
 /// Voxel (x, y, z) is number `x + size.x (y + size.y z)`; its values stand at its middle, `low + voxel (x + 1/2, ...)` in the
-/// volume's own frame, and are interpolated linearly in between. An empty field is that of vacuum: index 1, all else 0.
+/// volume's own frame, and are interpolated in between, media linearly. An empty field is that of vacuum: index 1, all else 0.
 /// Light crosses the faces of the box straight on: what is outside goes on as the voxels at the face are.
 struct Volume {
     std::string name;

@@ -119,20 +119,28 @@ LightFronts make_fronts(std::span<const Light> lights, std::span<const VolumeRec
         for (const Draft& d : drafts) sum += floats(d.width / (scale * d.cell)) * floats(d.height / (scale * d.cell));
         return sum;
     };
-    while (total() > double(options.most_patches) && scale < 1e6) scale *= 1.1, result.coarsened = true;
+    const double colors = options.per_color ? 3.0 : 1.0;
+    while (colors * total() > double(options.most_patches) && scale < 1e6) scale *= 1.1, result.coarsened = true;
     for (const Draft& draft : drafts) {
         const Light& light = *draft.light;
         const double across = floats(draft.width / (scale * draft.cell)),
                      along = floats(draft.height / (scale * draft.cell));
         const double share = draft.width / across * (draft.height / along);
-        result.fronts.push_back({.corner = glm::vec4(glm::vec3(draft.corner), float(across)),
-                                 .side = glm::vec4(glm::vec3(draft.side / across), float(along)),
-                                 .up = glm::vec4(glm::vec3(draft.up / along), 0.0f),
-                                 .position = glm::vec4(light.position, float(draft.start)),
-                                 .direction = glm::vec4(light.direction, float(light.kind)),
-                                 .intensity = glm::vec4(light.intensity, float(brightest(light.intensity) * share)),
-                                 .cone = glm::vec4(std::cos(light.inner_cone_angle), std::cos(light.outer_cone_angle),
-                                                   std::bit_cast<float>(draft.volume), 0.0f)});
+        for (std::uint32_t color = options.per_color ? 1 : 0; color <= (options.per_color ? 3u : 0u); ++color) {
+            glm::vec3 intensity(0.0f);
+            for (std::uint32_t c = 0; c < 3; ++c)
+                if (color == 0 || color == c + 1) intensity[int(c)] = light.intensity[int(c)];
+            if (!(brightest(intensity) > 0.0)) continue;
+            result.fronts.push_back(
+                {.corner = glm::vec4(glm::vec3(draft.corner), float(across)),
+                 .side = glm::vec4(glm::vec3(draft.side / across), float(along)),
+                 .up = glm::vec4(glm::vec3(draft.up / along), 0.0f),
+                 .position = glm::vec4(light.position, float(draft.start)),
+                 .direction = glm::vec4(light.direction, float(light.kind)),
+                 .intensity = glm::vec4(intensity, float(brightest(intensity) * share)),
+                 .cone = glm::vec4(std::cos(light.inner_cone_angle), std::cos(light.outer_cone_angle),
+                                   std::bit_cast<float>(draft.volume), std::bit_cast<float>(color))});
+        }
     }
     return result;
 }

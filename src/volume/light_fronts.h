@@ -13,6 +13,7 @@ namespace pellucid {
 struct FrontOptions {
     float side = 0.95f;          ///< of a patch where it comes to its volume, voxels of that
     std::uint32_t most_patches;  ///< of all fronts together
+    bool per_color = false;      ///< a front for each colour, as the index of some volume differs
 };
 
 struct LightFronts {

@@ -33,7 +33,7 @@ struct LightFront {
     vec4 position;   // point and spot: world, m; w: how far from it patches begin, m
     vec4 direction;  // directional and spot: unit, world; w: pellucid::Light::Kind
     vec4 intensity;  // rgb: per steradian, or irradiance; w: first power of a patch, W
-    vec4 cone;       // x, y: cosine of the inner and outer angle of a spot; z: bits of the volume
+    vec4 cone;       // x, y: cosine of the inner and outer angle of a spot; z: bits of the volume; w: of the colour, 0: all
 };
 
 // A planar opaque object that catches light; its map has width x height square texels.

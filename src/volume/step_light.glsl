@@ -119,7 +119,7 @@ void main() {
     }
     VolumeRecord volume = volumes[own];
     LightPlacement placement = placements[own];
-    enter_volume(volume, 0u);
+    enter_volume(volume, floatBitsToUint(fronts[quad.front].cone.w));
     for (int k = 0; k < 4; ++k) {
         quad.x[k] = (volume.voxel_from_world * vec4(quad.x[k], 1.0)).xyz;
         quad.v[k] = mat3(volume.voxel_from_world) * quad.v[k] * volume.voxel;

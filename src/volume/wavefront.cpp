@@ -2,7 +2,7 @@
 // Graphics 26(3), 2007, section 4.2. Differences are told in docs/eikonal.md.
 #include "volume/wavefront.h"
 
-#include "volume/light_receivers.h"
+#include "volume/light_buffers.h"
 #include "volume/light_state.h"
 #include "volume/upload_volumes.h"
 
@@ -63,20 +63,9 @@ struct SumPush {
     float irradiance_scale;
 };
 
-constexpr vk::BufferUsageFlags kStorage =
-    vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
-    vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eIndirectBuffer;
 constexpr double kGuessedIndex = 2.0;  // optical length of a voxel, at most, when rounds are counted
 constexpr double kLeftUnsaid = 0.01;   // share of the power that may be on its way when the rounds end
 constexpr int kPowerBits = 44;         // of all light, in fixed point
-constexpr std::size_t kSumBytes = 56, kKeyBytes = 8, kTallyBytes = 16;  // of a voxel
-
-template <class T>
-Buffer filled(const Device& device, const char* name, const std::vector<T>& values) {
-    Buffer buffer(device, name, std::max<std::size_t>(1, values.size()) * sizeof(T), kStorage);
-    upload(device, buffer, std::as_bytes(std::span(values)));
-    return buffer;
-}
 
 template <class T>
 void append(std::string& key, const T& value) {
@@ -115,17 +104,6 @@ std::string key_of(const Scene& scene, const LightSettings& s, std::uint64_t mov
     return key;
 }
 
-std::vector<VolumeRecord> download_records(const Device& device, const VolumeImages& volumes) {
-    const std::size_t bytes = volumes.count * sizeof(VolumeRecord);
-    const Buffer copy(device, "copy of volumes", bytes, kStorage, true);
-    Recorder recorder(device);
-    recorder.copy(volumes.records, copy, bytes);
-    recorder.submit_and_wait();
-    std::vector<VolumeRecord> records(volumes.count);
-    std::memcpy(records.data(), copy.mapped(), bytes);
-    return records;
-}
-
 }  // namespace
 
 std::vector<std::string> LightStatistics::warnings() const {
@@ -155,91 +133,6 @@ struct WavefrontTracer::Tracing {
     std::uint32_t rounds, rounds_done = 0;
     bool overlapping;
 };
-
-void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, const LightSettings& settings) {
-    const std::size_t voxel_bytes = settings.kept == KeptLight::kSum ? kSumBytes : kKeyBytes;
-    records_ = download_records(device_, volumes);
-    glm::vec3 low(1e30f), high(-1e30f);
-    smallest_voxel_ = 1e30f;
-    std::vector<gpu::LightPlacement> placements;
-    std::vector<glm::uvec3> sizes;
-    for (const VolumeRecord& record : records_) {
-        smallest_voxel_ = std::min(smallest_voxel_, record.voxel);
-        for (unsigned k = 0; k < 8; ++k) {
-            const glm::vec3 at = record.size * glm::vec3(k & 1, k >> 1 & 1, k >> 2);
-            const glm::vec3 world(record.world_from_voxel * glm::vec4(at, 1.0f));
-            low = glm::min(low, world);
-            high = glm::max(high, world);
-        }
-        sizes.emplace_back(record.size);
-    }
-    center_ = 0.5f * (low + high);
-    radius_ = 0.5f * glm::distance(low, high);
-    // Where one buffer cannot hold all voxels, those of the largest volumes are joined, eight in one.
-    std::vector<std::uint32_t> halvings(sizes.size(), 0);
-    const auto count = [](glm::uvec3 s) { return std::uint64_t(s.x) * s.y * s.z; };
-    const auto total = [&] {
-        std::uint64_t sum = 0;
-        for (const glm::uvec3 size : sizes) sum += count(size);
-        return sum;
-    };
-    const std::uint64_t most = device_.max_storage_binding() / (settings.tally ? kTallyBytes : voxel_bytes);
-    coarse_voxels_ = false;
-    while (total() > most) {
-        const auto largest = std::size_t(
-            std::max_element(sizes.begin(), sizes.end(), [&](auto a, auto b) { return count(a) < count(b); }) -
-            sizes.begin());
-        sizes[largest] = (sizes[largest] + 1u) / 2u;
-        ++halvings[largest];
-        coarse_voxels_ = true;
-    }
-    const PackedBoxes boxes = pack_boxes(sizes, device_.limits().maxImageDimension3D);
-    std::uint32_t first = 0;
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-        const glm::uvec3 s = sizes[i], at = boxes.first[i];
-        placements.push_back({first, s.x, s.y, s.z, at.x, at.y, at.z, halvings[i]});
-        first += std::uint32_t(count(s));
-    }
-    voxels_ = first;
-    const vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eStorage | vk::ImageUsageFlagBits::eSampled |
-                                      vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst;
-    const vk::Extent3D extent{boxes.extent.x, boxes.extent.y, boxes.extent.z};
-    light_.irradiance = GpuImage(device_, "irradiance in volumes", vk::Format::eR32G32B32A32Sfloat, extent, usage);
-    light_.direction =
-        GpuImage(device_, "direction of light in volumes", vk::Format::eR16G16B16A16Sfloat, extent, usage);
-    light_.placements = filled(device_, "places of light", placements);
-    light_.placement_list = placements;
-    voxel_light_ = Buffer(device_, "light of voxels", voxels_ * voxel_bytes, kStorage);
-    const std::size_t tally_bytes = settings.tally ? voxels_ * kTallyBytes : kTallyBytes;
-    tally_ = Buffer(device_, "tally of light", tally_bytes, kStorage);
-    if (settings.tally) tally_copy_ = Buffer(device_, "copy of the tally", tally_bytes, kStorage, true);
-}
-
-/// True if they have changed.
-bool WavefrontTracer::prepare_receivers(const Scene& scene, const LightSettings& settings) {
-    std::vector<gpu::LightReceiver> found = find_receivers(scene, center_, settings.reach * radius_,
-                                                           settings.texel * smallest_voxel_, settings.most_texels);
-    const std::size_t bytes = found.size() * sizeof(gpu::LightReceiver);
-    if (light_.receiver_light.size() > 0 && found.size() == light_.receiver_list.size() &&
-        std::memcmp(found.data(), light_.receiver_list.data(), bytes) == 0)
-        return false;
-    light_.receiver_list = std::move(found);
-    light_.receivers = filled(device_, "receivers of light", light_.receiver_list);
-    const std::uint32_t texels = std::max(1u, texel_count(light_.receiver_list));
-    texels_ = Buffer(device_, "power on receivers", vk::DeviceSize(texels) * 48, kStorage);
-    light_.receiver_light = Buffer(device_, "light on receivers", vk::DeviceSize(texels) * 32, kStorage);
-    return true;
-}
-
-void WavefrontTracer::prepare_lists(std::uint32_t capacity) {
-    const vk::DeviceSize bytes = vk::DeviceSize(capacity) * sizeof(gpu::LightPatch);
-    if (landed_.size() == bytes) return;
-    patches_[0] = Buffer(device_, "light patches", bytes, kStorage);
-    patches_[1] = Buffer(device_, "other light patches", bytes, kStorage);
-    landed_ = Buffer(device_, "landed light", bytes, kStorage);
-    step_groups_ = Buffer(device_, "groups of light", 12, kStorage);
-    land_groups_ = Buffer(device_, "groups of landed light", 12, kStorage);
-}
 
 bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Scene& scene, const VolumeImages& volumes,
                              const LightSettings& settings, std::uint64_t moves) {
@@ -271,7 +164,9 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
     const auto capacity = std::uint32_t(
         std::min<vk::DeviceSize>(settings.capacity, device_.max_storage_binding() / sizeof(gpu::LightPatch)));
     prepare_lists(capacity);
-    front_list_ = make_fronts(scene.lights, records_, {.side = 0.95f * settings.span, .most_patches = capacity});
+    front_list_ =
+        make_fronts(scene.lights, records_,
+                    {.side = 0.95f * settings.span, .most_patches = capacity, .per_color = volumes.disperses});
     if (front_list_.fronts.size() > PELLUCID_MOST_FRONTS || volumes.count >= PELLUCID_NO_VOLUME)
         throw Error(
             fmt::format("light in volumes: {} lights and {} volumes are too many (at most {} pairs of one and one)",

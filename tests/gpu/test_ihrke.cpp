@@ -5,6 +5,8 @@
 #include "unit/built_scenes.h"
 #include "unit/built_volumes.h"
 
+#include <pellucid/error.h>
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -636,6 +638,15 @@ TEST_F(Ihrke, MovingLightsAreTracedInSlices) {
             pictures.push_back(draw_small(slices));
         }
     }
+    // Lights that are set are as those of the scene; what is out of range changes nothing.
+    scene.lights = sun_at(kFrames - 1);
+    set(scene, uniform_environment(glm::vec3(0.1f)));
+    EXPECT_EQ(draw_small(1).pixels, exact.back().pixels);
+    std::vector<Light> bad = sun_at(0);
+    bad[0].intensity.r = -1.0f;
+    EXPECT_THROW(renderer().set_lights(bad), Error);
+    EXPECT_EQ(draw_small(1).pixels, exact.back().pixels);
+
     const auto display = [](float radiance) { return std::pow(std::min(double(radiance), 1.0), 1.0 / 2.2); };
     double flicker = 0.0;
     int oldest = 0, changes = 0;

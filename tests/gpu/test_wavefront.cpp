@@ -510,6 +510,37 @@ TEST_F(Wavefront, SurfacesTakeAwayWhatTheyReflect) {
     EXPECT_NEAR(s.reflected.x + s.arrived.x + s.missed.x + s.left.x, s.emitted.x, 1e-4);
 }
 
+// Every colour goes its own way: as through a volume of that colour's index alone. What differs are last digits.
+TEST_F(Wavefront, ColorsPartInDispersiveVolumes) {
+    const Volume dispersive = make_volume("smoothed-sphere,resolution=48,dispersion=4");
+    const auto light_through = [&](const Volume& volume) {
+        Scene scene;
+        place(scene, volume);
+        add_plane(scene, {0.0f, -1.4f, 0.0f}, {2.5f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.5f});
+        scene.lights = {directional({0.1f, -1.0f, 0.0f}, {1.0f, 2.0f, 0.5f})};
+        trace(scene);
+        return receiver_light();
+    };
+    const std::vector<glm::vec4> together = light_through(dispersive);
+    const std::vector<float>* indices[] = {&dispersive.n_red, &dispersive.n, &dispersive.n_blue};
+    double parts = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        Volume plain = dispersive;
+        plain.n = *indices[c];
+        plain.n_red.clear();
+        plain.n_blue.clear();
+        const std::vector<glm::vec4> alone = light_through(plain);
+        double apart = 0.0, total = 0.0;
+        for (std::size_t i = 0; i < alone.size(); ++i) {
+            apart += std::abs(double(alone[i][c] - together[i][c]));
+            total += double(alone[i][c]);
+            parts += std::abs(double(alone[i].g / 2.0f - together[i].r));
+        }
+        EXPECT_LT(apart, 1e-3 * total) << c;
+    }
+    EXPECT_GT(parts, 10.0);
+}
+
 TEST_F(Wavefront, SpotLightsFillTheirCone) {
     Scene scene;
     place(scene, block(64, 2.0f, 1.0f, glm::vec3(0.0f)));
