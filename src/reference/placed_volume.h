@@ -143,7 +143,8 @@ struct CurvedVolumes::Placed {
         return sum;
     }
 
-    glm::dvec3 linear(const std::vector<glm::vec3>& values, const Cell& at) const {
+    template <class T>  // numbers become grey
+    glm::dvec3 linear(const std::vector<T>& values, const Cell& at) const {
         if (values.empty()) return glm::dvec3(0.0);
         glm::dvec3 sum(0.0);
         for (int k = 0; k < 8; ++k) {
@@ -155,16 +156,7 @@ struct CurvedVolumes::Placed {
     }
 
     /// How much surface there is, 0..1.
-    double surface(const glm::dvec3& x) const {
-        const Cell at = cell(x);
-        double sum = 0.0;
-        for (int k = 0; k < 8; ++k) {
-            const glm::ivec3 offset(k & 1, k >> 1 & 1, k >> 2);
-            const glm::dvec3 w = glm::mix(1.0 - at.share, at.share, glm::dvec3(offset));
-            sum += w.x * w.y * w.z * double(volume->boundary[number(at.low + offset)]);
-        }
-        return sum;
-    }
+    double surface(const glm::dvec3& x) const { return linear(volume->boundary, cell(x)).x; }
     /// The index on one side of a surface, from its middle: where it ends, or where the next begins.
     double index_beside(const glm::dvec3& middle, const glm::dvec3& way, int channel) const {
         constexpr double kStep = 0.25, kFarthest = 8.0, kEnds = 0.01;

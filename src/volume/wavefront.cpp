@@ -136,6 +136,8 @@ struct WavefrontTracer::Tracing {
 
 bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Scene& scene, const VolumeImages& volumes,
                              const LightSettings& settings, std::uint64_t moves) {
+    if (settings.tally && settings.kept != KeptLight::kBrightest)
+        throw Error("light in volumes: what comes from several directions is counted beside the brightest alone");
     const std::string of_volumes = volume_key(volumes, settings);
     const std::string key = of_volumes + key_of(scene, settings, moves);
     if (of_volumes != volume_key_) pending_.reset();

@@ -100,14 +100,14 @@ TEST(VdbFiles, DistancesAreSurfaces) {
     saved.g.resize(saved.voxel_count());
     for (std::size_t i = 0; i < saved.g.size(); ++i) saved.g[i] = 0.05f * (float(i % 16) - 7.5f) / 16.0f;  // m
     save_volume(folder / "lens.vdb", saved);
-    const std::vector<GridMapping> mapping = {{"n", "n"}, {"g", "distance"}};
+    const std::vector<GridMapping> mapping = {{"n", "n"}, {"g", "distance", 0.5f}};
     const Volume lens = load_volume(folder / "lens.vdb", mapping);
     EXPECT_EQ(lens.n, saved.n);
     EXPECT_TRUE(lens.g.empty());
     ASSERT_EQ(lens.boundary.size(), saved.voxel_count());
     const double sigma = 0.75 * double(saved.voxel);
     for (std::size_t i = 0; i < 16; ++i)
-        EXPECT_NEAR(double(lens.boundary[i]), std::exp(-0.5 * std::pow(double(saved.g[i]) / sigma, 2.0)), 1e-6);
+        EXPECT_NEAR(double(lens.boundary[i]), std::exp(-0.5 * std::pow(0.5 * double(saved.g[i]) / sigma, 2.0)), 1e-6);
 }
 
 TEST(VdbFiles, DamagedOnesAreRefused) {

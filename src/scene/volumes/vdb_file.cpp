@@ -117,7 +117,7 @@ void add_distances(const fs::path& file, Volume& volume, const MappedGrid& mappe
     volume.boundary.resize(count);
     const double sigma = 0.75 * double(volume.voxel);
     const auto number = [&](std::size_t i, float distance) {
-        const double d = double(distance) / sigma;
+        const double d = double(distance) * (is_solid ? 1.0 : double(mapped.mapping.scale)) / sigma;
         if (std::isnan(distance))
             fail(file, fmt::format("grid {} has values that are not finite", quoted(mapped.mapping.grid)));
         if (is_solid) volume.n[i] = float(1.0 + (double(mapped.mapping.scale) - 1.0) * smoothed_inside(d, 1.0));
