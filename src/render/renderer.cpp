@@ -28,17 +28,6 @@ namespace {
 
 constexpr std::uint32_t kMaxSamples = 1u << 20;
 
-template <class Enum, std::size_t kCount>
-Enum parse_name(std::string_view what, std::string_view name,
-                const std::array<std::pair<std::string_view, Enum>, kCount>& known) {
-    std::vector<std::string_view> names;
-    for (const auto& [text, value] : known) {
-        if (text == name) return value;
-        names.push_back(text);
-    }
-    throw Error(fmt::format("unknown {} '{}'; known: {}", what, name, fmt::join(names, ", ")));
-}
-
 void check_settings(const RenderSettings& settings, const Device& device) {
     const std::uint32_t limit = device.limits().maxImageDimension2D;
     if (settings.width == 0 || settings.height == 0 || settings.width > limit || settings.height > limit) {
@@ -467,28 +456,6 @@ std::string Renderer::lacking(const TechniqueInfo& technique) const {
     return lacking_for(impl_->device, find_technique(technique.name));
 }
 const std::vector<std::string>& Renderer::validation_messages() const { return impl_->device.validation_messages(); }
-
-View parse_view(std::string_view name) {
-    return parse_name<View, 2>("view", name, {{{"radiance", View::kRadiance}, {"analysis", View::kAnalysis}}});
-}
-
-LayerBuilder parse_layer_builder(std::string_view name) {
-    return parse_name<LayerBuilder, 5>("layer builder", name,
-                                       {{{"automatic", LayerBuilder::kAutomatic},
-                                         {"single-pass", LayerBuilder::kSinglePass},
-                                         {"compute", LayerBuilder::kCompute},
-                                         {"depth-peeling", LayerBuilder::kDepthPeeling},
-                                         {"dual-depth-peeling", LayerBuilder::kDualDepthPeeling}}});
-}
-
-ToneMap parse_tonemap(std::string_view name) {
-    return parse_name<ToneMap, 5>("tone map", name,
-                                  {{{"none", ToneMap::kNone},
-                                    {"reinhard", ToneMap::kReinhard},
-                                    {"aces", ToneMap::kAces},
-                                    {"neutral", ToneMap::kNeutral},
-                                    {"krawczyk", ToneMap::kKrawczyk}}});
-}
 
 std::string_view version() { return PELLUCID_VERSION; }
 

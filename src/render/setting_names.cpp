@@ -1,0 +1,51 @@
+// Settings of a renderer by the names that commands use.
+#include <pellucid/error.h>
+#include <pellucid/renderer.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pellucid {
+namespace {
+
+template <class Enum, std::size_t kCount>
+Enum parse_name(std::string_view what, std::string_view name,
+                const std::array<std::pair<std::string_view, Enum>, kCount>& known) {
+    std::vector<std::string_view> names;
+    for (const auto& [text, value] : known) {
+        if (text == name) return value;
+        names.push_back(text);
+    }
+    throw Error(fmt::format("unknown {} '{}'; known: {}", what, name, fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+View parse_view(std::string_view name) {
+    return parse_name<View, 2>("view", name, {{{"radiance", View::kRadiance}, {"analysis", View::kAnalysis}}});
+}
+
+LayerBuilder parse_layer_builder(std::string_view name) {
+    return parse_name<LayerBuilder, 5>("layer builder", name,
+                                       {{{"automatic", LayerBuilder::kAutomatic},
+                                         {"single-pass", LayerBuilder::kSinglePass},
+                                         {"compute", LayerBuilder::kCompute},
+                                         {"depth-peeling", LayerBuilder::kDepthPeeling},
+                                         {"dual-depth-peeling", LayerBuilder::kDualDepthPeeling}}});
+}
+
+ToneMap parse_tonemap(std::string_view name) {
+    return parse_name<ToneMap, 5>("tone map", name,
+                                  {{{"none", ToneMap::kNone},
+                                    {"reinhard", ToneMap::kReinhard},
+                                    {"aces", ToneMap::kAces},
+                                    {"neutral", ToneMap::kNeutral},
+                                    {"krawczyk", ToneMap::kKrawczyk}}});
+}
+
+}  // namespace pellucid
