@@ -72,6 +72,7 @@ struct GpuScene {
     std::vector<glm::vec3> refractive_corners;   ///< corners of the refractive objects' boxes, world
     std::vector<glm::vec3> translucent_corners;  ///< of the translucent ones
     std::optional<SceneTopology> topology;       ///< see prepare_topology()
+    std::unique_ptr<PreparedState> host_finder;  ///< HostFinder (layers/host_finder.h), where a technique asks for it
     std::unique_ptr<PreparedState> volumes;  ///< SceneVolumes (volume/scene_volumes.h), where a technique draws them
     /// What techniques have computed from the scene, by name; kept as long as the scene is.
     std::map<std::string, Buffer, std::less<>> prepared;

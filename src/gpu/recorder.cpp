@@ -78,21 +78,29 @@ const Binding& binding_of(const Program& program, const BindingSlot& slot, std::
 Recorder::Recorder(const Device& device) : device_(device) {
     const auto& handle = device.handle();
     pool_ = handle.createCommandPool({.queueFamilyIndex = device.queue_family()});
-    commands_ = std::move(handle.allocateCommandBuffers({.commandPool = *pool_, .commandBufferCount = 1}).front());
     fence_ = handle.createFence({});
     restart();
 }
 
 void Recorder::restart() {
+    commands_.clear();
+    host_steps_.clear();
     pool_.reset();
     for (const auto& pool : descriptor_pools_) pool.reset();
     descriptor_pool_ = 0;
     scopes_.clear();
+    in_scope_ = false;
     timestamps_ = 0;
     states_.clear();
     when_done_.clear();
+    begin_commands();
+}
+
+void Recorder::begin_commands() {
+    const vk::CommandBufferAllocateInfo one{.commandPool = *pool_, .commandBufferCount = 1};
+    commands_ = std::move(device_.handle().allocateCommandBuffers(one).front());
     commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    // What earlier submissions wrote becomes visible here; from now on states_ knows.
+    // What earlier submissions and the host wrote becomes visible here; from now on states_ knows.
     const vk::MemoryBarrier2 all{.srcStageMask = Stage::eAllCommands,
                                  .srcAccessMask = AccessBit::eMemoryWrite,
                                  .dstStageMask = Stage::eAllCommands,
@@ -345,17 +353,25 @@ void Recorder::write_timestamp(Stage stage) {
     ++timestamps_;
 }
 
+void Recorder::begin_label() {
+    if (device_.debug_labels()) commands_.beginDebugUtilsLabelEXT({.pLabelName = scopes_.back().c_str()});
+}
+
+void Recorder::end_label() {
+    if (device_.debug_labels()) commands_.endDebugUtilsLabelEXT();
+}
+
 Recorder::Scope::Scope(Recorder& recorder, std::string_view name) : recorder_(recorder) {
     recorder_.scopes_.emplace_back(name);
-    if (recorder_.device_.debug_labels()) {
-        recorder_.commands_.beginDebugUtilsLabelEXT({.pLabelName = recorder_.scopes_.back().c_str()});
-    }
+    recorder_.in_scope_ = true;
+    recorder_.begin_label();
     recorder_.write_timestamp(Stage::eAllCommands);
 }
 
 Recorder::Scope::~Scope() {
     recorder_.write_timestamp(Stage::eAllCommands);
-    if (recorder_.device_.debug_labels()) recorder_.commands_.endDebugUtilsLabelEXT();
+    recorder_.end_label();
+    recorder_.in_scope_ = false;
 }
 
 std::vector<PassTime> Recorder::read_times() const {
@@ -381,18 +397,40 @@ std::vector<PassTime> Recorder::read_times() const {
     return times;
 }
 
-std::vector<PassTime> Recorder::submit_and_wait() {
+void Recorder::make_visible_to_host() {
     const vk::MemoryBarrier2 to_host{.srcStageMask = Stage::eAllCommands,
                                      .srcAccessMask = AccessBit::eMemoryWrite,
                                      .dstStageMask = Stage::eHost,
                                      .dstAccessMask = AccessBit::eHostRead};
     commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
-    commands_.end();
-    const vk::CommandBuffer command = *commands_;
-    device_.queue().submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &command}, *fence_);
+}
+
+void Recorder::submit_commands(vk::CommandBuffer commands) {
+    device_.queue().submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &commands}, *fence_);
     while (device_.handle().waitForFences(*fence_, true, ~0ull) == vk::Result::eTimeout) {
     }
     device_.handle().resetFences(*fence_);
+}
+
+void Recorder::on_host(std::function<void()> step) {
+    // Mesa's software driver wants labels to end in the commands in which they begin.
+    if (in_scope_) end_label();
+    make_visible_to_host();
+    commands_.end();
+    host_steps_.push_back({std::move(commands_), std::move(step)});
+    states_.clear();
+    begin_commands();
+    if (in_scope_) begin_label();
+}
+
+std::vector<PassTime> Recorder::submit_and_wait() {
+    make_visible_to_host();
+    commands_.end();
+    for (const HostStep& part : host_steps_) {
+        submit_commands(*part.before);
+        part.step();
+    }
+    submit_commands(*commands_);
     std::vector<PassTime> times = read_times();
     for (const auto& then : when_done_) then();
     restart();

@@ -145,6 +145,10 @@ public:
     void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes,
               vk::DeviceSize destination_offset = 0);
 
+    /// Runs `step` on the host between what is recorded before, whose results it sees in mapped buffers, and what is
+    /// recorded after, which sees what it wrote there. A recording with such steps cannot be part of another's commands.
+    void on_host(std::function<void()> step);
+
     /// Ends the recording, submits it and waits. Returns the time of each scope in recording order;
     /// scopes of one name are added up. The recorder is then empty and ready for the next frame.
     std::vector<PassTime> submit_and_wait();
@@ -180,6 +184,11 @@ private:
                     const RenderTarget& target, std::span<const DrawCall> calls);
     void trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
                      vk::Extent2D rays);
+    void begin_commands();
+    void begin_label();
+    void end_label();
+    void submit_commands(vk::CommandBuffer commands);
+    void make_visible_to_host();
     void synchronise(std::span<const Use> uses);
     void bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
               std::vector<Use>& uses);
@@ -187,14 +196,22 @@ private:
     void write_timestamp(vk::PipelineStageFlagBits2 stage);
     std::vector<PassTime> read_times() const;
 
+    /// Commands, and what the host does once they have run.
+    struct HostStep {
+        vk::raii::CommandBuffer before;
+        std::function<void()> step;
+    };
+
     const Device& device_;
     vk::raii::CommandPool pool_ = nullptr;
     vk::raii::CommandBuffer commands_ = nullptr;
+    std::vector<HostStep> host_steps_;  // before commands_
     vk::raii::Fence fence_ = nullptr;
     std::vector<vk::raii::DescriptorPool> descriptor_pools_;
     std::size_t descriptor_pool_ = 0;
     std::vector<vk::raii::QueryPool> query_pools_;
     std::vector<std::string> scopes_;  // one per pair of timestamps
+    bool in_scope_ = false;
     std::uint32_t timestamps_ = 0;
     std::map<ResourceId, State> states_;
     std::vector<std::function<void()>> when_done_;

@@ -19,7 +19,8 @@ constexpr std::uint32_t kListGroup = 64;    // PELLUCID_LIST_GROUP of pixel_list
 
 const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::string_view name) {
     const vk::DeviceSize pixels = vk::DeviceSize(frame.extent.width) * frame.extent.height;
-    const Buffer& list = frame.workspace.buffer(name, (kHeaderWords + pixels) * sizeof(std::uint32_t));
+    const Buffer& list = frame.workspace.buffer(name, (kHeaderWords + pixels) * sizeof(std::uint32_t),
+                                                frame.workspace.device().is_cpu());
     const vk::DeviceSize row = vk::DeviceSize(kListGroup) * recorder.device().limits().maxComputeWorkGroupCount[0];
     recorder.compute(frame.workspace.compute({"start_list.comp", kStartList}), {writes("PixelList", list)},
                      std::uint32_t((pixels + row - 1) / row), {1, 1});
@@ -33,6 +34,11 @@ const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage
                      {reads("marks", marks), updates("PixelList", list)}, std::array{empty, first_row, row_end},
                      {frame.extent.width, row_end - first_row});
     return list;
+}
+
+std::span<const std::uint32_t> listed_pixels(const std::byte* list) {
+    const auto* words = reinterpret_cast<const std::uint32_t*>(list);
+    return {words + kHeaderWords, words[kHeaderWords - 1]};
 }
 
 }  // namespace pellucid

@@ -28,15 +28,15 @@ bool listed_pixel(out ivec2 texel) {
 
 // Declares a list, begun by start_list.comp, and the function that appends a pixel to it.
 #define PELLUCID_APPENDED_LIST(Block, block_binding, groups, length_, pixels, append) \
-    layout(std430, set = 0, binding = block_binding) buffer Block {                 \
-        uint groups[3];                                                             \
-        uint length_;                                                               \
-        uint pixels[];                                                              \
-    };                                                                              \
-    void append(ivec2 texel) {                                                      \
-        uint i = atomicAdd(length_, 1u);                                            \
-        if (i % (PELLUCID_LIST_GROUP * groups[1]) == 0u) atomicAdd(groups[0], 1u);  \
-        pixels[i] = list_word(texel);                                               \
+    layout(std430, set = 0, binding = block_binding) buffer Block {                   \
+        uint groups[3];                                                               \
+        uint length_;                                                                 \
+        uint pixels[];                                                                \
+    };                                                                                \
+    void append(ivec2 texel) {                                                        \
+        uint i = atomicAdd(length_, 1u);                                              \
+        if (i % (PELLUCID_LIST_GROUP * groups[1]) == 0u) atomicAdd(groups[0], 1u);    \
+        pixels[i] = list_word(texel);                                                 \
     }
 
 #endif

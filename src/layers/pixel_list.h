@@ -2,6 +2,9 @@
 
 #include "gpu/frame.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace pellucid {
@@ -13,5 +16,8 @@ const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage
 
 /// An empty list for a shader to append to (PELLUCID_APPENDED_LIST).
 const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::string_view name);
+
+/// The pixels of a list in host memory, x | y << 16. Lists are mapped on devices that are CPUs.
+std::span<const std::uint32_t> listed_pixels(const std::byte* list);
 
 }  // namespace pellucid

@@ -46,6 +46,23 @@ void take_nearer(inout SurfaceHit hit, SurfaceHit candidate) {
     if (is_nearer(candidate, hit)) hit = candidate;
 }
 
+// Where the line of a ray meets the plane of a triangle.
+struct TriangleHit {
+    float t;
+    vec3 weights;  // of the corners; inside the triangle none is negative
+    bool leaving;
+};
+
+TriangleHit intersect_triangle(uint triangle, vec3 origin, vec3 direction) {
+    int at = 3 * int(triangle);
+    vec4 a = uintBitsToFloat(texelFetch(map_triangles, at)), b = uintBitsToFloat(texelFetch(map_triangles, at + 1)),
+         c = uintBitsToFloat(texelFetch(map_triangles, at + 2));
+    vec3 p = cross(direction, c.xyz), from_corner = origin - a.xyz, q = cross(from_corner, b.xyz);
+    float determinant = dot(b.xyz, p);  // minus the speed along the outward normal
+    vec2 weights = vec2(dot(from_corner, p), dot(direction, q)) / determinant;
+    return TriangleHit(dot(c.xyz, q) / determinant, vec3(1.0 - weights.x - weights.y, weights), determinant < 0.0);
+}
+
 // Keeps [t_low, t_high] where start + t rate >= 0.
 void clip(float start, float rate, inout float t_low, inout float t_high) {
     float t = -start / rate;
@@ -145,21 +162,12 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
             uvec2 record = texelFetch(records, int(block * kRangeBlock - kRangeBlock) + findLSB(passed)).xy;
             passed &= passed - 1u;
             uint triangle = record.x, own_traits = record.y;
-            int at = 3 * int(triangle);
-            vec4 a = uintBitsToFloat(texelFetch(map_triangles, at)), b = uintBitsToFloat(texelFetch(map_triangles, at + 1)),
-                 c = uintBitsToFloat(texelFetch(map_triangles, at + 2));
-            vec3 p = cross(direction, c.xyz), from_corner = origin - a.xyz, q = cross(from_corner, b.xyz);
-            float determinant = dot(b.xyz, p);  // minus the speed along the outward normal
-            vec3 weights;
-            weights.yz = vec2(dot(from_corner, p), dot(direction, q)) / determinant;
-            weights.x = 1.0 - weights.y - weights.z;
-            float t = dot(c.xyz, q) / determinant;
-            float least = min(weights.x, min(weights.y, weights.z));
+            TriangleHit at = intersect_triangle(triangle, origin, direction);
+            float least = min(at.weights.x, min(at.weights.y, at.weights.z));
             // A shell that counts what is met may not be met twice at an edge.
             bool inside = least >= (kCrossing && (own_traits & kCrossesItself) != 0u ? 0.0 : -kSlack);
-            bool leaving = determinant < 0.0;
-            if (inside && t > t_min && t <= t_max && can_meet(own_traits, leaving, triangle))
-                take_nearer(hit, SurfaceHit(t, triangle, own_traits, leaving));
+            if (inside && at.t > t_min && at.t <= t_max && can_meet(own_traits, at.leaving, triangle))
+                take_nearer(hit, SurfaceHit(at.t, triangle, own_traits, at.leaving));
         }
         if (hit.t < kFarthest) break;
         s = s_out;

@@ -4,6 +4,7 @@
 #include "techniques/one_interface/one_interface.h"
 #include "techniques/path/path.h"
 #include "techniques/ray_tracing/ray_tracing.h"
+#include "techniques/ray_tracing_cpu/ray_tracing_cpu.h"
 #include "techniques/reference/reference.h"
 #include "techniques/technique.h"
 #include "techniques/visibility_cube/visibility_cube.h"
@@ -25,8 +26,8 @@ namespace {
 // Every technique, one line each.
 constexpr std::array kTechniques = {
     &kOneInterface, &kKayGreenberg1979, &kWyman2005,      &kOliveiraBrauwers2007, &kIhrke2007,
-    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,           &kPath,
-    &kReference,
+    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,           &kRayTracingCpu,
+    &kPath,         &kReference,
 };
 
 constexpr auto kInfos = [] {

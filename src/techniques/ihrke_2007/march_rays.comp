@@ -8,18 +8,18 @@
 #include "techniques/visibility_layers/path_light.glsl"
 
 // Those of visibility_bindings.glsl go up to 14.
-layout(constant_id = 15) const uint kIntegrator = 1u;  // of optics/eikonal.glsl
-layout(constant_id = 16) const bool kAbsorbs = false;
-layout(constant_id = 17) const bool kBoundaries = false;      // some volume has surfaces, which reflect
-layout(constant_id = 18) const bool kScatters = false;
-layout(constant_id = 19) const bool kEmits = false;
-layout(constant_id = 20) const bool kDisperses = false;
-layout(constant_id = 21) const bool kSurfacesInside = false;  // objects may lie in volumes
-layout(constant_id = 22) const bool kOverlapping = false;     // and volumes in volumes
-layout(constant_id = 25) const bool kLit = false;             // light was traced
-layout(constant_id = 23) const float kStep = 0.5;             // voxels
-layout(constant_id = 26) const bool kCubic = false;            // interpolation of the index
-layout(constant_id = 24) const uint kMostSteps = 8192u;       // from one surface or box to the next
+layout(constant_id = 16) const uint kIntegrator = 1u;  // of optics/eikonal.glsl
+layout(constant_id = 17) const bool kAbsorbs = false;
+layout(constant_id = 18) const bool kBoundaries = false;      // some volume has surfaces, which reflect
+layout(constant_id = 19) const bool kScatters = false;
+layout(constant_id = 20) const bool kEmits = false;
+layout(constant_id = 21) const bool kDisperses = false;
+layout(constant_id = 22) const bool kSurfacesInside = false;  // objects may lie in volumes
+layout(constant_id = 23) const bool kOverlapping = false;     // and volumes in volumes
+layout(constant_id = 26) const bool kLit = false;             // light was traced
+layout(constant_id = 24) const float kStep = 0.5;             // voxels
+layout(constant_id = 27) const bool kCubic = false;            // interpolation of the index
+layout(constant_id = 25) const uint kMostSteps = 8192u;       // from one surface or box to the next
 
 layout(set = 0, binding = 5) uniform texture3D volume_index;
 layout(set = 0, binding = 38) uniform texture3D volume_bricks;

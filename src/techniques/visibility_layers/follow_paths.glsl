@@ -235,6 +235,7 @@ void main() {
     if (!listed_pixel(texel)) return;
     uint i = uint(texel.y) * frame.width + uint(texel.x);
     seed = hash(uvec3(texel, 1u)).x;
+    path_number = i;
     Path path = load_path(i);
     bool goes_on = true;
     forget_crossed();

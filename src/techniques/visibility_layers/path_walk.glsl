@@ -64,11 +64,18 @@ bool can_meet(uint traits, bool leaving, uint triangle) {
 bool in_replaced(uint body) { return kVolumes && body != kAir && (slots[body].material & kReplacedSolid) != 0u; }
 
 #include "layers/object_walk.glsl"
+#include "layers/candidates.glsl"
+
+uint path_number;  // of the path that looks
 
 const float kApart = 16.0;  // coincidences along a ray, which may graze
 
 SurfaceHit find_next(vec3 origin, vec3 direction, float t_min, out float t_end, out bool gave_up, inout uint visits) {
     t_end = kFarthest;
+    if (kFoundOnHost) {
+        gave_up = false;
+        return find_candidate(path_number, origin, direction, t_min);
+    }
     return kMapPerMesh ? find_surface_among_objects(origin, direction, t_min, gave_up, visits)
                        : find_surface(maps[0], origin, direction, t_min, t_end, gave_up, visits);
 }

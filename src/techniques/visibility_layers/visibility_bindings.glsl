@@ -17,6 +17,7 @@ layout(constant_id = 12) const bool kManySlots = false;   // some body has sever
 layout(constant_id = 14) const bool kCrossing = false;    // some shell crosses itself
 layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is one map of all the scene
 layout(constant_id = 9) const bool kTouching = false;     // surfaces of two shells may lie at one place
+layout(constant_id = 15) const bool kFoundOnHost = false; // surfaces are found by the host, in no map
 layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend
 
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };

@@ -1,9 +1,12 @@
 #include "techniques/visibility_layers/visibility_layers.h"
 
+#include "layers/map_building.h"
 #include "layers/pixel_list.h"
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <span>
 
 namespace pellucid {
 namespace {
@@ -41,8 +44,8 @@ enum class Ways { kTransmitted, kTree, kStochastic };
 class Paths {
 public:
     Paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
-          const ParameterValues& parameters, const PathVolumes* volumes)
-        : recorder_(recorder), frame_(frame), layers_(layers), map_(map), volumes_(volumes),
+          const ParameterValues& parameters, const PathVolumes* volumes, const HostFinder* finder)
+        : recorder_(recorder), frame_(frame), layers_(layers), map_(map), volumes_(volumes), finder_(finder),
           topology_(*frame.scene.topology), refraction_(clear_refraction(recorder, frame, true)) {
         const double given = parameters["branches"];
         const bool many = frame.samples > 1;
@@ -56,7 +59,8 @@ public:
         push_.largest_contact = topology_.largest_contact;
         push_.coincidence = 1e-6f * (glm::length(frame.scene.bounds.center) + frame.scene.bounds.radius);
         const std::uint32_t given_surfaces = parameters.whole("surfaces-per-pass");
-        surfaces_per_pass_ = given_surfaces > 0                  ? given_surfaces
+        surfaces_per_pass_ = finder != nullptr                   ? 1
+                             : given_surfaces > 0                ? given_surfaces
                              : frame.workspace.device().is_cpu() ? kSurfacesPerPassOnCpu
                                                                  : kSurfacesPerPass;
         ways_ = parameters.whole("one-branch") != 0             ? Ways::kStochastic
@@ -92,6 +96,7 @@ public:
         for (std::uint32_t pass = 0; pass < passes; ++pass) {
             if (pass == 0 || !at_once) ended_ = &start_pixel_list(recorder_, frame_, "ended paths");
             const Buffer& entering = start_entering();
+            if (finder_ != nullptr) find_on_host(pass == 0);
             follow(pass, entering);
             if (volumes_ != nullptr) volumes_->march(this->pass(), entering, *next_, *ended_);
             if (!at_once) end(*ended_, false);
@@ -99,6 +104,7 @@ public:
         if (at_once) end(*ended_, false);
         end(*next_, true);
         if (ways_ == Ways::kTree) layers_.source.measure_room(recorder_, frame_, "branches", *branches_);
+        if (finder_ != nullptr) layers_.source.measure_room(recorder_, frame_, "candidates", *map_.records);
         Refraction refraction = refraction_;
         if (ways_ != Ways::kTransmitted || push_.whole_picture != 0) refraction.reflected = &reflected_;
         if (push_.whole_picture != 0) refraction.picture = refraction.radiance;
@@ -108,7 +114,7 @@ public:
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::array<std::uint32_t, 15> constants() const {
+    std::vector<std::uint32_t> constants() const {
         const GpuScene& scene = frame_.scene;
         return {words_,
                 scene.object_count == 1 ? 1u : 0u,
@@ -124,22 +130,18 @@ private:
                 volumes_ != nullptr ? 1u : 0u,
                 topology_.many_slots ? 1u : 0u,
                 scene.textured_glass ? 1u : 0u,
-                topology_.crossing ? 1u : 0u};
+                topology_.crossing ? 1u : 0u,
+                finder_ != nullptr ? 1u : 0u};
     }
-    const Program& program(ShaderCode shader) {
-        const auto c = constants();
-        return frame_.workspace.compute(
-            shader, {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8], c[9], c[10], c[11], c[12], c[13], c[14]});
-    }
+    const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 
     PathPass pass() const {
         const GpuScene& scene = frame_.scene;
-        const auto c = constants();
         return {
             recorder_,
             frame_,
             layers_,
-            {c.begin(), c.end()},
+            constants(),
             {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials)},
             {updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
              updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_)},
@@ -148,7 +150,8 @@ private:
              reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
              reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
              reads("Indices", scene.indices), reads("Appearance", scene.appearance), reads("Textures", scene.textures),
-             reads("texture_pages", scene.texture_pages)},
+             reads("texture_pages", scene.texture_pages), reads("candidate_lists", *map_.texels),
+             reads("candidates", *map_.records)},
             {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
             push_};
     }
@@ -205,6 +208,27 @@ private:
                      writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)});
         recorder_.compute(program({"begin_at_eye.comp", kBeginAtEye}), std::span<const Binding>(bindings), push_,
                           frame_.extent);
+    }
+
+    /// Before paths go on: the host finds what those of the list may meet.
+    void find_on_host(bool first) {
+        recorder_.on_host([paths = PathsOnHost{.pixels = {},
+                                               .width = frame_.extent.width,
+                                               .places = reinterpret_cast<const glm::vec4*>(places_.mapped()),
+                                               .ways = reinterpret_cast<const glm::vec4*>(ways_buffer_.mapped()),
+                                               .media = reinterpret_cast<const std::uint32_t*>(media_.mapped()),
+                                               .words = words_,
+                                               .coincidence = push_.coincidence,
+                                               .touching = !topology_.all_alone},
+                           list = next_->mapped(), lists = map_.texels->mapped(), all = map_.records->mapped(),
+                           room = std::size_t(map_.records->size() / sizeof(Candidate)), finder = finder_,
+                           first]() mutable {
+            const CandidatesOnHost candidates{reinterpret_cast<CandidateList*>(lists),
+                                              {reinterpret_cast<Candidate*>(all), room}};
+            if (first) candidates.all.front() = {};
+            paths.pixels = listed_pixels(list);
+            finder->find(paths, candidates);
+        });
     }
 
     void follow(std::uint32_t pass, const Buffer& entering) {
@@ -264,16 +288,18 @@ private:
     const Layers& layers_;
     const SurfaceMap& map_;
     const PathVolumes* volumes_;
+    const HostFinder* finder_;
     const SceneTopology& topology_;
     Refraction refraction_;
     Ways ways_ = Ways::kTransmitted;
     PathPush push_{};
     std::uint32_t words_ = 1;
     std::uint32_t surfaces_per_pass_ = 1;
-    const Buffer& places_ = frame_.workspace.buffer("path places", pixels() * 16);
-    const Buffer& ways_buffer_ = frame_.workspace.buffer("path ways", pixels() * 16);
+    const bool on_host_ = frame_.workspace.device().is_cpu();
+    const Buffer& places_ = frame_.workspace.buffer("path places", pixels() * 16, on_host_);
+    const Buffer& ways_buffer_ = frame_.workspace.buffer("path ways", pixels() * 16, on_host_);
     const Buffer& weights_ = frame_.workspace.buffer("path weights", pixels() * 16);
-    const Buffer& media_ = frame_.workspace.buffer("path media", pixels() * 4 * (words_of(topology_) + 1));
+    const Buffer& media_ = frame_.workspace.buffer("path media", pixels() * 4 * (words_of(topology_) + 1), on_host_);
     const Buffer& waiting_ = frame_.workspace.buffer("waiting branches", pixels() * 8);
     const Buffer* branches_ = nullptr;
     const GpuImage& reflected_ =
@@ -299,7 +325,23 @@ void prepare_paths(const Preparation& preparation, const ParameterValues&) {
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
                         const ParameterValues& parameters, const PathVolumes* volumes) {
     const Recorder::Scope scope(recorder, "trace");
-    return Paths(recorder, frame, layers, map, parameters, volumes).follow();
+    return Paths(recorder, frame, layers, map, parameters, volumes, nullptr).follow();
+}
+
+Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const HostFinder& finder,
+                        const ParameterValues& parameters) {
+    const Recorder::Scope scope(recorder, "trace");
+    const std::uint64_t pixels = std::uint64_t(frame.extent.width) * frame.extent.height;
+    const std::uint32_t room = layers.source.room("candidates", std::uint32_t(pixels + pixels / 4 + 1024));
+    const Buffer& lists =
+        frame.workspace.buffer("candidate lists", pixels * sizeof(CandidateList), true, kMapPairFormat);
+    const Buffer& candidates =
+        frame.workspace.buffer("candidates", std::uint64_t(room) * sizeof(Candidate), true, kMapPairFormat);
+    // What takes the place of a map has its triangles alone; what else shaders declare is bound, and not looked at.
+    const Buffer& triangles = finder.triangles();
+    const SurfaceMap map{&triangles, &triangles,  &finder.normals(), &lists,
+                         &triangles, &candidates, &triangles,        nullptr};
+    return Paths(recorder, frame, layers, map, parameters, nullptr, &finder).follow();
 }
 
 constexpr Technique kVisibilityLayers{

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/recorder.h"
+#include "layers/host_finder.h"
 #include "techniques/technique.h"
 
 #include <array>
@@ -83,5 +84,8 @@ void prepare_paths(const Preparation& preparation, const ParameterValues& parame
 /// one place or where the eye is in a solid, from the eye on.
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
                         const ParameterValues& parameters, const PathVolumes* volumes = nullptr);
+/// The same where `finder`, which is up to date, finds the surfaces. Needs a device whose memory is the host's.
+Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const HostFinder& finder,
+                        const ParameterValues& parameters);
 
 }  // namespace pellucid

@@ -1,0 +1,307 @@
+// Wald, Woop, Benthin, Johnson, Ernst: Embree, a kernel framework for efficient CPU ray tracing, ACM Transactions on
+// Graphics 33(4), 2014.
+#include "layers/host_finder.h"
+
+#include "layers/map_building.h"
+
+#include <pellucid/error.h>
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace pellucid {
+namespace {
+
+// Twins in object_traits.glsl.
+constexpr std::uint32_t kKindMask = 3, kRefractiveKind = 2, kClosed = 4, kTouchesOthers = 8, kCavity = 64,
+                        kSingleSided = 128, kCrossesItself = 256, kSlotShift = 9;
+// Twins in follow_paths.glsl: how far along a flat ray surfaces at one place may be apart, and how far behind.
+constexpr float kGrazing = 512.0f, kBehind = 32.0f, kSpacings = 4.8e-7f;
+
+constexpr std::size_t kGrain = 128;  // paths that one task takes
+
+struct DeviceDeleter {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneDeleter {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+struct Placed {
+    std::vector<glm::vec3> positions;  ///< world; one more than there are, as Embree reads 16 bytes at the last
+    std::uint32_t first_triangle = 0;  ///< over all objects
+    float sense = 1.0f;                ///< -1: mirrored, so that normals by winding point inwards
+};
+
+struct Hit {
+    float t;
+    Candidate surface;
+    bool leaving;
+};
+
+/// What a ray of Embree is for. Embree hands out the address of its first member.
+struct Search {
+    RTCIntersectContext embree{};
+    const std::vector<Placed>* objects = nullptr;
+    const std::vector<std::uint32_t>* traits = nullptr;  ///< per triangle over all objects
+    const std::uint32_t* media = nullptr;                ///< of the path
+    std::uint32_t standing = 0;
+    std::vector<Hit>* all = nullptr;  ///< takes everything that is met instead of the nearest that can be
+    bool shells_alone = false;        ///< of that, closed shells of glass
+};
+
+bool is_closed_shell(std::uint32_t traits) { return (traits & (kKindMask | kClosed)) == (kRefractiveKind | kClosed); }
+
+/// Twin of can_meet() in path_walk.glsl, before the path has crossed anything here.
+bool can_meet(const Search& search, std::uint32_t traits, bool leaving, std::uint32_t triangle) {
+    if (!is_closed_shell(traits)) return triangle != search.standing && !(leaving && (traits & kSingleSided) != 0);
+    if ((traits & kCrossesItself) != 0) return triangle != search.standing;
+    const std::uint32_t slot = traits >> kSlotShift;
+    return ((search.media[slot / 32] >> slot % 32 & 1) != 0) == (leaving != ((traits & kCavity) != 0));
+}
+
+void accept_hit(const RTCFilterFunctionNArguments* args) {
+    auto& search = *reinterpret_cast<Search*>(args->context);
+    const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
+    const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+    const Placed& object = (*search.objects)[hit.geomID];
+    const std::uint32_t triangle = object.first_triangle + hit.primID;
+    const std::uint32_t traits = (*search.traits)[triangle];
+    const bool leaving = object.sense * (hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z) > 0.0f;
+    if (search.all != nullptr) {
+        if (!search.shells_alone || is_closed_shell(traits))
+            search.all->push_back({ray.tfar, {triangle, traits}, leaving});
+        args->valid[0] = 0;
+    } else if (!can_meet(search, traits, leaving, triangle)) {
+        args->valid[0] = 0;
+    }
+}
+
+void check_embree(RTCDevice device) {
+    const RTCError code = rtcGetDeviceError(device);
+    if (code == RTC_ERROR_NONE) return;
+    throw Error(fmt::format("Embree cannot build the hierarchy of the scene's triangles: {}",
+                            code == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : fmt::format("error {}", int(code))));
+}
+
+}  // namespace
+
+struct HostFinder::Hierarchy {
+    std::unique_ptr<RTCDeviceTy, DeviceDeleter> device;
+    std::unique_ptr<RTCSceneTy, SceneDeleter> scene;
+    std::vector<Placed> objects;
+    std::vector<std::uint32_t> traits;
+    Buffer triangles, normals;
+    float largest_contact = 0.0f;
+    std::uint64_t moves = 0;
+    bool deforming = false;
+
+    void place(std::uint32_t object, const Scene& from, const GpuScene& gpu_scene);
+    void build(const Scene& from);
+    void name_traits(const GpuScene& gpu_scene);
+
+    Search search() const {
+        Search search{.objects = &objects, .traits = &traits};
+        rtcInitIntersectContext(&search.embree);
+        search.embree.filter = accept_hit;
+        return search;
+    }
+    RTCRayHit shoot(Search& search, const glm::vec3& origin, const glm::vec3& direction, float from, float to) const;
+    void find_from(Search& search, const glm::vec3& place, const glm::vec3& way, const PathsOnHost& paths,
+                   std::vector<Hit>& nearby, std::vector<Candidate>& found) const;
+};
+
+/// World positions, the device's triangles (surface_map.glsl), and their normals.
+void HostFinder::Hierarchy::place(std::uint32_t object, const Scene& from, const GpuScene& gpu_scene) {
+    const Object& own = from.objects[object];
+    const Mesh& mesh = from.meshes[std::size_t(own.mesh)];
+    Placed& placed = objects[object];
+    placed.first_triangle = gpu_scene.first_triangles[object];
+    placed.sense = glm::determinant(glm::mat3(own.world_from_object)) < 0.0f ? -1.0f : 1.0f;
+    placed.positions.resize(mesh.positions.size() + 1);
+    const glm::mat3 normals_from_object = glm::transpose(glm::inverse(glm::mat3(own.world_from_object)));
+    auto* corners = reinterpret_cast<glm::vec4*>(triangles.mapped());
+    auto* corner_normals = reinterpret_cast<glm::vec4*>(normals.mapped());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.positions.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+            placed.positions[i] = glm::vec3(own.world_from_object * glm::vec4(mesh.positions[i], 1.0f));
+    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.triangles.size(), 4096), [&](const auto& range) {
+        for (std::size_t t = range.begin(); t != range.end(); ++t) {
+            glm::uvec3 c = mesh.triangles[t];
+            if (placed.sense < 0.0f) std::swap(c.y, c.z);
+            const std::size_t at = 3 * (placed.first_triangle + t);
+            const glm::vec3 a = placed.positions[c.x];
+            corners[at] = glm::vec4(a, 0.0f);
+            corners[at + 1] = glm::vec4(placed.positions[c.y] - a, 0.0f);
+            corners[at + 2] = glm::vec4(placed.positions[c.z] - a, 0.0f);
+            for (int k = 0; k < 3; ++k)
+                corner_normals[at + std::size_t(k)] = glm::vec4(normals_from_object * mesh.normals[c[k]], 0.0f);
+        }
+    });
+}
+
+void HostFinder::Hierarchy::build(const Scene& from) {
+    scene.reset(rtcNewScene(device.get()));
+    const unsigned flags = unsigned(RTC_SCENE_FLAG_ROBUST) | unsigned(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION) |
+                           (deforming ? unsigned(RTC_SCENE_FLAG_DYNAMIC) : 0u);
+    rtcSetSceneFlags(scene.get(), RTCSceneFlags(flags));
+    // Only in a scene of low quality does Embree keep a hierarchy per object, which it can refit.
+    rtcSetSceneBuildQuality(scene.get(), deforming ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const std::vector<glm::uvec3>& corners = from.meshes[std::size_t(from.objects[i].mesh)].triangles;
+        const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, objects[i].positions.data(),
+                                   0, sizeof(glm::vec3), objects[i].positions.size() - 1);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(), 0,
+                                   sizeof(glm::uvec3), corners.size());
+        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene.get(), geometry, unsigned(i));
+        rtcReleaseGeometry(geometry);
+    }
+}
+
+void HostFinder::Hierarchy::name_traits(const GpuScene& gpu_scene) {
+    const std::vector<std::uint32_t>& of_objects = gpu_scene.topology->trait_words();
+    const std::vector<std::uint32_t>& of_shells = gpu_scene.topology->shell_words();
+    traits.resize(gpu_scene.triangle_count);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const GpuMesh& mesh = gpu_scene.meshes[gpu_scene.mesh_of_object[i]];
+        for (std::uint32_t t = 0; t < mesh.triangle_count; ++t)
+            traits[objects[i].first_triangle + t] =
+                of_objects[i] + (of_shells.empty() ? 0u : of_shells[mesh.first_corner / 3 + t]);
+    }
+    largest_contact = gpu_scene.topology->largest_contact;
+}
+
+HostFinder::HostFinder() : hierarchy_(std::make_unique<Hierarchy>()) {}
+HostFinder::~HostFinder() = default;
+
+const Buffer& HostFinder::triangles() const { return hierarchy_->triangles; }
+const Buffer& HostFinder::normals() const { return hierarchy_->normals; }
+
+void HostFinder::bring_up_to_date(const Device& device, const Scene& scene, const GpuScene& gpu_scene) {
+    Hierarchy& own = *hierarchy_;
+    const bool first = !own.device;
+    if (!first && own.moves == gpu_scene.moves) return;
+    if (first) {
+        own.device.reset(rtcNewDevice(nullptr));
+        if (!own.device) throw Error(fmt::format("Embree cannot start: error {}", int(rtcGetDeviceError(nullptr))));
+        own.objects.resize(scene.objects.size());
+        const vk::DeviceSize bytes = std::max<std::uint64_t>(gpu_scene.triangle_count, 1) * kMapTriangleSize;
+        const auto usage = vk::BufferUsageFlagBits::eStorageBuffer;
+        own.triangles = Buffer(device, "triangles for the host's finder", bytes, usage, true, kMapFormat);
+        own.normals = Buffer(device, "normals for the host's finder", bytes, usage, true, kMapFormat);
+    }
+    // What has moved once is likely to move again.
+    const bool rebuild = first || !own.deforming;
+    own.deforming = gpu_scene.moves > 0;
+    for (std::uint32_t i = 0; i < own.objects.size(); ++i) {
+        if (!first && gpu_scene.meshes[gpu_scene.mesh_of_object[i]].moves <= own.moves) continue;
+        own.place(i, scene, gpu_scene);
+        if (rebuild) continue;
+        const RTCGeometry geometry = rtcGetGeometry(own.scene.get(), i);
+        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+        rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+        rtcCommitGeometry(geometry);
+    }
+    if (rebuild) own.build(scene);
+    rtcCommitScene(own.scene.get());
+    check_embree(own.device.get());
+    own.name_traits(gpu_scene);
+    own.moves = gpu_scene.moves;
+}
+
+/// What lies between two distances; Embree looks at none that is negative.
+RTCRayHit HostFinder::Hierarchy::shoot(Search& search, const glm::vec3& origin, const glm::vec3& direction, float from,
+                                       float to) const {
+    const glm::vec3 start = origin + from * direction;
+    RTCRayHit ray{};
+    ray.ray.org_x = start.x, ray.ray.org_y = start.y, ray.ray.org_z = start.z;
+    ray.ray.dir_x = direction.x, ray.ray.dir_y = direction.y, ray.ray.dir_z = direction.z;
+    ray.ray.tfar = to - from;
+    ray.ray.mask = 0xffffffffu;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene.get(), &search.embree, &ray);
+    ray.ray.tfar += from;
+    return ray;
+}
+
+/// Appends the candidates of one path.
+void HostFinder::Hierarchy::find_from(Search& search, const glm::vec3& place, const glm::vec3& way,
+                                      const PathsOnHost& paths, std::vector<Hit>& nearby,
+                                      std::vector<Candidate>& found) const {
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    float from = -paths.coincidence;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        const RTCRayHit ray = shoot(search, place, way, from, kFar);
+        if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+        const std::uint32_t triangle = objects[ray.hit.geomID].first_triangle + ray.hit.primID;
+        found.push_back({triangle, traits[triangle]});
+        const float t = ray.ray.tfar;
+        if (paths.touching && (traits[triangle] & kTouchesOthers) != 0) {
+            const glm::vec3 at = place + t * way;
+            const float farthest = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+            const float apart = std::max(largest_contact, kSpacings * farthest);
+            nearby.clear();
+            search.all = &nearby;
+            shoot(search, place, way, t - kBehind * apart, t + kGrazing * apart);
+            search.all = nullptr;
+            for (const Hit& hit : nearby)
+                if (hit.surface.triangle != triangle) found.push_back(hit.surface);
+        }
+        if (t > paths.coincidence) return;
+        from = paths.coincidence;
+    }
+}
+
+void HostFinder::find(const PathsOnHost& paths, const CandidatesOnHost& candidates) const {
+    std::atomic<std::uint32_t> next{1};
+    const auto room = std::uint32_t(candidates.all.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, paths.pixels.size(), kGrain), [&](const auto& range) {
+        Search search = hierarchy_->search();
+        std::vector<Hit> nearby;
+        std::vector<Candidate> found;
+        std::vector<std::uint32_t> ends;
+        found.reserve(2 * range.size());
+        ends.reserve(range.size());
+        const auto number_of = [&](std::size_t i) {
+            return std::size_t(paths.pixels[i] >> 16) * paths.width + (paths.pixels[i] & 0xffffu);
+        };
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const std::size_t path = number_of(i);
+            search.media = paths.media + path * (paths.words + 1);
+            search.standing = std::bit_cast<std::uint32_t>(paths.places[path].w);
+            hierarchy_->find_from(search, glm::vec3(paths.places[path]), glm::vec3(paths.ways[path]), paths, nearby,
+                                  found);
+            ends.push_back(std::uint32_t(found.size()));
+        }
+        const std::uint32_t first = next.fetch_add(std::uint32_t(found.size()));
+        const bool fits = first + found.size() <= room;
+        if (fits) std::copy(found.begin(), found.end(), candidates.all.begin() + first);
+        std::uint32_t begin = 0;
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const std::uint32_t end = ends[i - range.begin()];
+            candidates.lists[number_of(i)] = {first + begin, fits ? end - begin : 0};
+            begin = end;
+        }
+    });
+    std::uint32_t& most = candidates.all.front().triangle;
+    most = std::max(most, next.load());
+}
+
+void HostFinder::find_media(const PathsOnHost& paths, std::uint32_t* media) const { (void)paths, (void)media; }
+
+}  // namespace pellucid

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "gpu/gpu_scene.h"
+#include "layers/surface_map.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace pellucid {
+
+/// Paths that look for the next surface, as path_state.glsl keeps them, in memory that the host shares with the device.
+struct PathsOnHost {
+    std::span<const std::uint32_t> pixels;  ///< those of the list, x | y << 16
+    std::uint32_t width;                    ///< of the picture; path `x + width y` is of pixel (x, y)
+    const glm::vec4* places;                ///< world, m; w: bits of the triangle on which the path stands
+    const glm::vec4* ways;                  ///< unit, world
+    const std::uint32_t* media;             ///< per path `words`, whose bits say what it is inside of, and its mark
+    std::uint32_t words;
+    float coincidence;  ///< m, by so much places are uncertain
+    bool touching;      ///< surfaces of several shells may lie at one place
+};
+
+/// A surface that a path may meet; twin of a texel of `candidates` in candidates.glsl.
+struct Candidate {
+    std::uint32_t triangle, traits;
+};
+/// Where those of a path lie; twin of a texel of `candidate_lists`.
+struct CandidateList {
+    std::uint32_t first, count;
+};
+/// What a finder hands to the device. The first Candidate counts how many there were at most in any search of the frame.
+struct CandidatesOnHost {
+    CandidateList* lists;  ///< per path
+    std::span<Candidate> all;
+};
+
+/// Finds the surfaces that paths meet by Embree, on all cores of the host, where that shares its memory with the device:
+/// on software drivers.
+///
+/// It names candidates: the nearest surface that the path can meet and, where others may lie at the same place, those; and
+/// where the nearest lies behind the path, within rounding, also the next. The device intersects them itself
+/// (candidates.glsl), so a path goes the same way, bit for bit, whoever has found its surfaces.
+class HostFinder final : public PreparedState {
+public:
+    HostFinder();
+    ~HostFinder() override;
+
+    /// Builds the hierarchy of the scene's triangles, or refits it where vertices have moved. `scene` has to stay where it
+    /// is. Needs GpuScene::topology. Throws Error if there is not enough memory.
+    void bring_up_to_date(const Device& device, const Scene& scene, const GpuScene& gpu_scene);
+
+    /// What stands for a map of the view: its triangles alone, in the world.
+    const Buffer& triangles() const;
+    const Buffer& normals() const;
+
+    /// Finds candidates of all paths. Where there is no room for them, a path has none, and they are counted.
+    void find(const PathsOnHost& paths, const CandidatesOnHost& candidates) const;
+    /// Finds what paths are inside of where they start, and writes it to `media` (as in PathsOnHost): the first surface of
+    /// each slot on their way says it; of a shell that crosses itself, all of its surfaces.
+    void find_media(const PathsOnHost& paths, std::uint32_t* media) const;
+
+private:
+    struct Hierarchy;
+    std::unique_ptr<Hierarchy> hierarchy_;
+};
+
+}  // namespace pellucid

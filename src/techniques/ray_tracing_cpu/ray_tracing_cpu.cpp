@@ -1,0 +1,41 @@
+// The paths of visibility-layers, whose surfaces Embree finds on the host.
+#include "techniques/ray_tracing_cpu/ray_tracing_cpu.h"
+
+#include "techniques/visibility_layers/visibility_layers.h"
+
+#include <memory>
+
+namespace pellucid {
+namespace {
+
+void prepare(const Preparation& preparation, const ParameterValues& parameters) {
+    prepare_paths(preparation, parameters);
+    GpuScene& scene = preparation.gpu_scene;
+    if (!scene.host_finder) scene.host_finder = std::make_unique<HostFinder>();
+    static_cast<HostFinder&>(*scene.host_finder).bring_up_to_date(preparation.device, preparation.scene, scene);
+}
+
+Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
+    return follow_paths(recorder, frame, layers, static_cast<const HostFinder&>(*frame.scene.host_finder), parameters);
+}
+
+}  // namespace
+
+constexpr Technique kRayTracingCpu{
+    .info = {.name = "ray-tracing-cpu",
+             .summary = "every interface, found by Embree on the processor, on devices that are one",
+             .source = {"Ingo Wald, Sven Woop, Carsten Benthin, Gregory S. Johnson, Manfred Ernst",
+                        "Embree: A Kernel Framework for Efficient CPU Ray Tracing",
+                        "ACM Transactions on Graphics 33(4)", 2014, "4"},
+             .parameters = kPathParameters,
+             .many_media = true,
+             .whole_scene = true},
+    .lacking = [](const Device& device) -> std::string {
+        return device.is_cpu() ? "" : "a device that is a processor (a software driver)";
+    },
+    .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
+    .prepare = prepare,
+    .record = record,
+};
+
+}  // namespace pellucid

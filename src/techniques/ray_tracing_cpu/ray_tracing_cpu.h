@@ -1,0 +1,9 @@
+#pragma once
+
+#include "techniques/technique.h"
+
+namespace pellucid {
+
+extern const Technique kRayTracingCpu;
+
+}  // namespace pellucid
