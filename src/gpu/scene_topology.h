@@ -40,9 +40,10 @@ struct SceneTopology {
     /// Finds the solids that the eye is in, by solid angles (van Oosterom & Strackee 1983). Rays that do not all start at
     /// one point, of an orthographic camera or at a near plane, find their own where there are solids.
     void look_from(const Device& device, const Scene& scene, const Camera& camera);
-    /// What `traits` and `shell_traits` hold, but for marks.
+    /// What `traits`, `shell_traits` and `slots` hold, but for marks.
     const std::vector<std::uint32_t>& trait_words() const { return trait_words_; }
     const std::vector<std::uint32_t>& shell_words() const { return shell_words_; }
+    const std::vector<std::uint32_t>& slot_words() const { return slot_words_; }
 
 private:
     struct Box {

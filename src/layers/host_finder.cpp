@@ -12,11 +12,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace pellucid {
@@ -24,11 +26,13 @@ namespace {
 
 // Twins in object_traits.glsl.
 constexpr std::uint32_t kKindMask = 3, kRefractiveKind = 2, kClosed = 4, kTouchesOthers = 8, kCavity = 64,
-                        kSingleSided = 128, kCrossesItself = 256, kSlotShift = 9;
+                        kSingleSided = 128, kCrossesItself = 256, kSlotShift = 9, kCavitySlot = 0x80000000,
+                        kSameShell = 0x20000000;
 // Twins in follow_paths.glsl: how far along a flat ray surfaces at one place may be apart, and how far behind.
 constexpr float kGrazing = 512.0f, kBehind = 32.0f, kSpacings = 4.8e-7f;
 
-constexpr std::size_t kGrain = 128;  // paths that one task takes
+constexpr std::size_t kGrain = 256;  // paths that one task takes
+constexpr int kPacket = 16;          // that are traced together
 
 struct DeviceDeleter {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -43,48 +47,83 @@ struct Placed {
     float sense = 1.0f;                ///< -1: mirrored, so that normals by winding point inwards
 };
 
+struct Ray {
+    glm::vec3 origin, direction;
+};
+
 struct Hit {
     float t;
     Candidate surface;
     bool leaving;
 };
 
-/// What a ray of Embree is for. Embree hands out the address of its first member.
+/// A path that looks for a surface.
+struct Query {
+    const std::uint32_t* media;
+    std::uint32_t standing;
+};
+
+/// What rays of Embree are for, which hands out the address of the first member.
 struct Search {
     RTCIntersectContext embree{};
     const std::vector<Placed>* objects = nullptr;
     const std::vector<std::uint32_t>* traits = nullptr;  ///< per triangle over all objects
-    const std::uint32_t* media = nullptr;                ///< of the path
-    std::uint32_t standing = 0;
+    std::array<Query, kPacket> queries{};                ///< by the numbers of rays
     std::vector<Hit>* all = nullptr;  ///< takes everything that is met instead of the nearest that can be
-    bool shells_alone = false;        ///< of that, closed shells of glass
 };
 
 bool is_closed_shell(std::uint32_t traits) { return (traits & (kKindMask | kClosed)) == (kRefractiveKind | kClosed); }
 
 /// Twin of can_meet() in path_walk.glsl, before the path has crossed anything here.
-bool can_meet(const Search& search, std::uint32_t traits, bool leaving, std::uint32_t triangle) {
-    if (!is_closed_shell(traits)) return triangle != search.standing && !(leaving && (traits & kSingleSided) != 0);
-    if ((traits & kCrossesItself) != 0) return triangle != search.standing;
+bool can_meet(const Query& path, std::uint32_t traits, bool leaving, std::uint32_t triangle) {
+    if (!is_closed_shell(traits)) return triangle != path.standing && !(leaving && (traits & kSingleSided) != 0);
+    if ((traits & kCrossesItself) != 0) return triangle != path.standing;
     const std::uint32_t slot = traits >> kSlotShift;
-    return ((search.media[slot / 32] >> slot % 32 & 1) != 0) == (leaving != ((traits & kCavity) != 0));
+    return ((path.media[slot / 32] >> slot % 32 & 1) != 0) == (leaving != ((traits & kCavity) != 0));
 }
 
-void accept_hit(const RTCFilterFunctionNArguments* args) {
-    auto& search = *reinterpret_cast<Search*>(args->context);
-    const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
-    const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-    const Placed& object = (*search.objects)[hit.geomID];
-    const std::uint32_t triangle = object.first_triangle + hit.primID;
-    const std::uint32_t traits = (*search.traits)[triangle];
-    const bool leaving = object.sense * (hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z) > 0.0f;
-    if (search.all != nullptr) {
-        if (!search.shells_alone || is_closed_shell(traits))
-            search.all->push_back({ray.tfar, {triangle, traits}, leaving});
-        args->valid[0] = 0;
-    } else if (!can_meet(search, traits, leaving, triangle)) {
-        args->valid[0] = 0;
+void accept_hits(const RTCFilterFunctionNArguments* args) {
+    const auto& search = *reinterpret_cast<const Search*>(args->context);
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0) continue;
+        const Placed& object = (*search.objects)[RTCHitN_geomID(args->hit, n, i)];
+        const std::uint32_t triangle = object.first_triangle + RTCHitN_primID(args->hit, n, i);
+        const std::uint32_t traits = (*search.traits)[triangle];
+        const float along = RTCHitN_Ng_x(args->hit, n, i) * RTCRayN_dir_x(args->ray, n, i) +
+                            RTCHitN_Ng_y(args->hit, n, i) * RTCRayN_dir_y(args->ray, n, i) +
+                            RTCHitN_Ng_z(args->hit, n, i) * RTCRayN_dir_z(args->ray, n, i);
+        const bool leaving = object.sense * along > 0.0f;
+        if (search.all != nullptr) {
+            search.all->push_back({RTCRayN_tfar(args->ray, n, i), {triangle, traits}, leaving});
+            args->valid[i] = 0;
+        } else if (!can_meet(search.queries[RTCRayN_id(args->ray, n, i)], traits, leaving, triangle)) {
+            args->valid[i] = 0;
+        }
     }
+}
+
+/// Takes a path to the other side of a shell; twin of step_across() in cross_surface.glsl.
+void step_across(std::span<const std::uint32_t> slot_words, std::uint32_t* media, std::uint32_t traits, bool leaving) {
+    const auto inside = [&](std::uint32_t slot) { return (media[slot / 32] >> slot % 32 & 1) != 0; };
+    const auto cavity = [&](std::uint32_t slot) { return (slot_words[4 * slot + 3] & kCavitySlot) != 0; };
+    std::uint32_t slot = traits >> kSlotShift;
+    if ((traits & kCrossesItself) == 0) {
+        if (inside(slot) != (leaving == ((traits & kCavity) != 0))) media[slot / 32] ^= 1u << slot % 32;
+        return;
+    }
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    std::uint32_t changed = kNone;
+    for (bool more = true; more; ++slot) {
+        const bool passed = inside(slot) != cavity(slot);
+        if (leaving ? passed : !passed && changed == kNone) changed = slot;
+        more = (slot_words[4 * slot + 3] & kSameShell) != 0;
+    }
+    if (changed != kNone && inside(changed) != (leaving == cavity(changed))) media[changed / 32] ^= 1u << changed % 32;
+}
+
+std::size_t number_of(const PathsOnHost& paths, std::size_t i) {
+    return std::size_t(paths.pixels[i] >> 16) * paths.width + (paths.pixels[i] & 0xffffu);
 }
 
 void check_embree(RTCDevice device) {
@@ -101,6 +140,7 @@ struct HostFinder::Hierarchy {
     std::unique_ptr<RTCSceneTy, SceneDeleter> scene;
     std::vector<Placed> objects;
     std::vector<std::uint32_t> traits;
+    std::span<const std::uint32_t> slot_words;  ///< SceneTopology's
     Buffer triangles, normals;
     float largest_contact = 0.0f;
     std::uint64_t moves = 0;
@@ -113,12 +153,14 @@ struct HostFinder::Hierarchy {
     Search search() const {
         Search search{.objects = &objects, .traits = &traits};
         rtcInitIntersectContext(&search.embree);
-        search.embree.filter = accept_hit;
+        search.embree.filter = accept_hits;
         return search;
     }
-    RTCRayHit shoot(Search& search, const glm::vec3& origin, const glm::vec3& direction, float from, float to) const;
-    void find_from(Search& search, const glm::vec3& place, const glm::vec3& way, const PathsOnHost& paths,
-                   std::vector<Hit>& nearby, std::vector<Candidate>& found) const;
+    RTCRayHit shoot(Search& search, const Ray& ray, float from, float to) const;
+    void add_nearby(Search& search, const Ray& ray, const PathsOnHost& paths, Candidate surface, float t,
+                    std::vector<Candidate>& found) const;
+    void find_packet(Search& search, std::span<const std::size_t> numbers, const PathsOnHost& paths,
+                     std::vector<Candidate>& found, std::vector<std::uint32_t>& ends) const;
 };
 
 /// World positions, the device's triangles (surface_map.glsl), and their normals.
@@ -182,6 +224,7 @@ void HostFinder::Hierarchy::name_traits(const GpuScene& gpu_scene) {
             traits[objects[i].first_triangle + t] =
                 of_objects[i] + (of_shells.empty() ? 0u : of_shells[mesh.first_corner / 3 + t]);
     }
+    slot_words = gpu_scene.topology->slot_words();
     largest_contact = gpu_scene.topology->largest_contact;
 }
 
@@ -224,46 +267,76 @@ void HostFinder::bring_up_to_date(const Device& device, const Scene& scene, cons
 }
 
 /// What lies between two distances; Embree looks at none that is negative.
-RTCRayHit HostFinder::Hierarchy::shoot(Search& search, const glm::vec3& origin, const glm::vec3& direction, float from,
-                                       float to) const {
-    const glm::vec3 start = origin + from * direction;
-    RTCRayHit ray{};
-    ray.ray.org_x = start.x, ray.ray.org_y = start.y, ray.ray.org_z = start.z;
-    ray.ray.dir_x = direction.x, ray.ray.dir_y = direction.y, ray.ray.dir_z = direction.z;
-    ray.ray.tfar = to - from;
-    ray.ray.mask = 0xffffffffu;
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene.get(), &search.embree, &ray);
-    ray.ray.tfar += from;
-    return ray;
+RTCRayHit HostFinder::Hierarchy::shoot(Search& search, const Ray& ray, float from, float to) const {
+    const glm::vec3 start = ray.origin + from * ray.direction;
+    RTCRayHit hit{};
+    hit.ray.org_x = start.x, hit.ray.org_y = start.y, hit.ray.org_z = start.z;
+    hit.ray.dir_x = ray.direction.x, hit.ray.dir_y = ray.direction.y, hit.ray.dir_z = ray.direction.z;
+    hit.ray.tfar = to - from;
+    hit.ray.mask = ~0u;
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene.get(), &search.embree, &hit);
+    hit.ray.tfar += from;
+    return hit;
 }
 
-/// Appends the candidates of one path.
-void HostFinder::Hierarchy::find_from(Search& search, const glm::vec3& place, const glm::vec3& way,
-                                      const PathsOnHost& paths, std::vector<Hit>& nearby,
-                                      std::vector<Candidate>& found) const {
+/// Appends what lies at one place with a surface at `t`.
+void HostFinder::Hierarchy::add_nearby(Search& search, const Ray& ray, const PathsOnHost& paths, Candidate surface,
+                                       float t, std::vector<Candidate>& found) const {
+    found.push_back(surface);
+    if (!paths.touching || (surface.traits & kTouchesOthers) == 0) return;
+    const glm::vec3 at = ray.origin + t * ray.direction;
+    const float farthest = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+    const float apart = std::max(largest_contact, kSpacings * farthest);
+    std::vector<Hit> nearby;
+    search.all = &nearby;
+    shoot(search, ray, t - kBehind * apart, t + kGrazing * apart);
+    search.all = nullptr;
+    for (const Hit& hit : nearby)
+        if (hit.surface.triangle != surface.triangle) found.push_back(hit.surface);
+}
+
+/// Appends the candidates of paths; `ends` gets their number after each.
+void HostFinder::Hierarchy::find_packet(Search& search, std::span<const std::size_t> numbers, const PathsOnHost& paths,
+                                        std::vector<Candidate>& found, std::vector<std::uint32_t>& ends) const {
     constexpr float kFar = std::numeric_limits<float>::infinity();
-    float from = -paths.coincidence;
-    for (int attempt = 0; attempt < 2; ++attempt) {
-        const RTCRayHit ray = shoot(search, place, way, from, kFar);
-        if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
-        const std::uint32_t triangle = objects[ray.hit.geomID].first_triangle + ray.hit.primID;
-        found.push_back({triangle, traits[triangle]});
-        const float t = ray.ray.tfar;
-        if (paths.touching && (traits[triangle] & kTouchesOthers) != 0) {
-            const glm::vec3 at = place + t * way;
-            const float farthest = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
-            const float apart = std::max(largest_contact, kSpacings * farthest);
-            nearby.clear();
-            search.all = &nearby;
-            shoot(search, place, way, t - kBehind * apart, t + kGrazing * apart);
-            search.all = nullptr;
-            for (const Hit& hit : nearby)
-                if (hit.surface.triangle != triangle) found.push_back(hit.surface);
+    std::array<Ray, kPacket> rays;
+    alignas(64) RTCRayHitNt<kPacket> packet{};
+    alignas(64) std::array<int, kPacket> valid{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::size_t path = numbers[i];
+        search.queries[i] = {paths.media + path * (paths.words + 1),
+                             std::bit_cast<std::uint32_t>(paths.places[path].w)};
+        rays[i] = {glm::vec3(paths.places[path]), glm::vec3(paths.ways[path])};
+        const glm::vec3 start = rays[i].origin - paths.coincidence * rays[i].direction;
+        packet.ray.org_x[i] = start.x, packet.ray.org_y[i] = start.y, packet.ray.org_z[i] = start.z;
+        packet.ray.dir_x[i] = rays[i].direction.x;
+        packet.ray.dir_y[i] = rays[i].direction.y;
+        packet.ray.dir_z[i] = rays[i].direction.z;
+        packet.ray.tfar[i] = kFar;
+        packet.ray.mask[i] = ~0u;
+        packet.ray.id[i] = unsigned(i);
+        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        valid[i] = -1;
+    }
+    rtcIntersect16(valid.data(), scene.get(), &search.embree, reinterpret_cast<RTCRayHit16*>(&packet));
+    const auto surface_of = [&](unsigned object, unsigned triangle) {
+        const std::uint32_t number = objects[object].first_triangle + triangle;
+        return Candidate{number, traits[number]};
+    };
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
+            const float t = packet.ray.tfar[i] - paths.coincidence;
+            add_nearby(search, rays[i], paths, surface_of(packet.hit.geomID[i], packet.hit.primID[i]), t, found);
+            if (t <= paths.coincidence) {  // as if it were behind: the next one, too
+                search.queries[0] = search.queries[i];
+                const RTCRayHit next = shoot(search, rays[i], paths.coincidence, kFar);
+                if (next.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+                    add_nearby(search, rays[i], paths, surface_of(next.hit.geomID, next.hit.primID), next.ray.tfar,
+                               found);
+            }
         }
-        if (t > paths.coincidence) return;
-        from = paths.coincidence;
+        ends.push_back(std::uint32_t(found.size()));
     }
 }
 
@@ -272,36 +345,64 @@ void HostFinder::find(const PathsOnHost& paths, const CandidatesOnHost& candidat
     const auto room = std::uint32_t(candidates.all.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, paths.pixels.size(), kGrain), [&](const auto& range) {
         Search search = hierarchy_->search();
-        std::vector<Hit> nearby;
+        std::vector<std::size_t> numbers;
         std::vector<Candidate> found;
         std::vector<std::uint32_t> ends;
+        numbers.reserve(range.size());
         found.reserve(2 * range.size());
         ends.reserve(range.size());
-        const auto number_of = [&](std::size_t i) {
-            return std::size_t(paths.pixels[i] >> 16) * paths.width + (paths.pixels[i] & 0xffffu);
-        };
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            const std::size_t path = number_of(i);
-            search.media = paths.media + path * (paths.words + 1);
-            search.standing = std::bit_cast<std::uint32_t>(paths.places[path].w);
-            hierarchy_->find_from(search, glm::vec3(paths.places[path]), glm::vec3(paths.ways[path]), paths, nearby,
-                                  found);
-            ends.push_back(std::uint32_t(found.size()));
-        }
+        for (std::size_t i = range.begin(); i != range.end(); ++i) numbers.push_back(number_of(paths, i));
+        for (std::size_t i = 0; i < numbers.size(); i += kPacket)
+            hierarchy_->find_packet(search,
+                                    std::span(numbers).subspan(i, std::min<std::size_t>(kPacket, numbers.size() - i)),
+                                    paths, found, ends);
         const std::uint32_t first = next.fetch_add(std::uint32_t(found.size()));
         const bool fits = first + found.size() <= room;
         if (fits) std::copy(found.begin(), found.end(), candidates.all.begin() + first);
         std::uint32_t begin = 0;
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            const std::uint32_t end = ends[i - range.begin()];
-            candidates.lists[number_of(i)] = {first + begin, fits ? end - begin : 0};
-            begin = end;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            candidates.lists[numbers[i]] = {first + begin, fits ? ends[i] - begin : 0};
+            begin = ends[i];
         }
     });
     std::uint32_t& most = candidates.all.front().triangle;
     most = std::max(most, next.load());
 }
 
-void HostFinder::find_media(const PathsOnHost& paths, std::uint32_t* media) const { (void)paths, (void)media; }
+/// Twin of find_media() in path_walk.glsl.
+void HostFinder::find_media(const PathsOnHost& paths) const {
+    const Hierarchy& own = *hierarchy_;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, paths.pixels.size(), kGrain), [&](const auto& range) {
+        Search search = own.search();
+        std::vector<Hit> hits;
+        std::vector<std::uint32_t> decided(paths.words);
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const std::size_t path = number_of(paths, i);
+            const Ray ray{glm::vec3(paths.places[path]), glm::vec3(paths.ways[path])};
+            hits.clear();
+            search.all = &hits;
+            own.shoot(search, ray, 0.0f, std::numeric_limits<float>::infinity());
+            std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.t < b.t; });
+            std::uint32_t* media = paths.media + path * (paths.words + 1);
+            std::fill_n(media, paths.words, 0);
+            std::fill(decided.begin(), decided.end(), 0);
+            std::map<std::uint32_t, int> windings;  // of shells that cross themselves, by their traits
+            for (const Hit& hit : hits) {
+                const std::uint32_t traits = hit.surface.traits, slot = traits >> kSlotShift, bit = 1u << slot % 32;
+                if (!is_closed_shell(traits)) continue;
+                if ((traits & kCrossesItself) != 0) {
+                    windings[traits] += hit.leaving ? 1 : -1;
+                } else if ((decided[slot / 32] & bit) == 0) {
+                    decided[slot / 32] |= bit;
+                    if (hit.leaving != ((traits & kCavity) != 0)) media[slot / 32] |= bit;
+                }
+            }
+            for (auto [traits, winding] : windings) {
+                for (; winding > 0; --winding) step_across(own.slot_words, media, traits, false);
+                for (; winding < 0; ++winding) step_across(own.slot_words, media, traits, true);
+            }
+        }
+    });
+}
 
 }  // namespace pellucid

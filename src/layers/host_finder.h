@@ -16,7 +16,7 @@ struct PathsOnHost {
     std::uint32_t width;                    ///< of the picture; path `x + width y` is of pixel (x, y)
     const glm::vec4* places;                ///< world, m; w: bits of the triangle on which the path stands
     const glm::vec4* ways;                  ///< unit, world
-    const std::uint32_t* media;             ///< per path `words`, whose bits say what it is inside of, and its mark
+    std::uint32_t* media;                   ///< per path `words`, whose bits say what it is inside of, and its mark
     std::uint32_t words;
     float coincidence;  ///< m, by so much places are uncertain
     bool touching;      ///< surfaces of several shells may lie at one place
@@ -57,9 +57,9 @@ public:
 
     /// Finds candidates of all paths. Where there is no room for them, a path has none, and they are counted.
     void find(const PathsOnHost& paths, const CandidatesOnHost& candidates) const;
-    /// Finds what paths are inside of where they start, and writes it to `media` (as in PathsOnHost): the first surface of
-    /// each slot on their way says it; of a shell that crosses itself, all of its surfaces.
-    void find_media(const PathsOnHost& paths, std::uint32_t* media) const;
+    /// Finds what paths are inside of where they start: the first surface of each slot on their way says it; of a shell
+    /// that crosses itself, all of its surfaces.
+    void find_media(const PathsOnHost& paths) const;
 
 private:
     struct Hierarchy;

@@ -39,6 +39,24 @@ private:
     std::optional<Renderer> renderer_;
 };
 
+/// Tests of what holds for several techniques; each skips what the device lacks for one.
+class TechniqueTest : public RendererTest, public ::testing::WithParamInterface<const char*> {
+protected:
+    void SetUp() override {
+        RendererTest::SetUp();
+        if (IsSkipped()) return;
+        if (const std::string lacking = renderer().lacking(find_technique(GetParam())); !lacking.empty())
+            GTEST_SKIP() << "the device lacks " << lacking;
+    }
+};
+
+/// The technique's name as a test's.
+inline std::string technique_test_name(const ::testing::TestParamInfo<const char*>& info) {
+    std::string name = info.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
 inline Environment uniform_environment(glm::vec3 radiance = glm::vec3(1.0f)) {
     Environment environment;
     environment.kind = Environment::Kind::kUniform;

@@ -9,6 +9,8 @@ namespace {
 class Arrangements : public RendererTest {
 protected:
     TraceArrangement with(const std::string& technique, const ParameterMap& parameters = {}) {
+        const std::string lacking = renderer().lacking(find_technique(technique));
+        if (!lacking.empty()) return {};
         return [this, technique, parameters](const Scene& scene, const Camera& camera, std::uint32_t size) {
             renderer().set_scene(scene);
             renderer().set_camera(camera);
@@ -24,6 +26,11 @@ protected:
 
 TEST_F(Arrangements, VisibilityLayersAgreesWithClosedForms) { expect_agreement(with("visibility-layers"), 64); }
 TEST_F(Arrangements, VisibilityCubeAgreesWithClosedForms) { expect_agreement(with("visibility-cube"), 64); }
+TEST_F(Arrangements, RayTracingCpuAgreesWithClosedForms) {
+    const TraceArrangement trace = with("ray-tracing-cpu");
+    if (!trace) GTEST_SKIP() << "the device is no CPU";
+    expect_agreement(trace, 64);
+}
 
 // As surfaces: voxels have neither of a scene's details.
 TEST_F(Arrangements, IhrkeAgreesWithClosedForms) {
@@ -32,6 +39,11 @@ TEST_F(Arrangements, IhrkeAgreesWithClosedForms) {
 
 TEST_F(Arrangements, VisibilityLayersAgreesOnEveryKind) { expect_agreement_on_kinds(with("visibility-layers"), 64); }
 TEST_F(Arrangements, VisibilityCubeAgreesOnEveryKind) { expect_agreement_on_kinds(with("visibility-cube"), 64); }
+TEST_F(Arrangements, RayTracingCpuAgreesOnEveryKind) {
+    const TraceArrangement trace = with("ray-tracing-cpu");
+    if (!trace) GTEST_SKIP() << "the device is no CPU";
+    expect_agreement_on_kinds(trace, 64);
+}
 
 }  // namespace
 }  // namespace pellucid::test

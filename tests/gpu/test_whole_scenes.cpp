@@ -139,8 +139,10 @@ struct Alike {
     int ends_opaque = 0;  ///< pixels whose exact path ends on something opaque behind glass
 };
 
-class WholeScenes : public RendererTest {
+template <class Base>
+class WholeScenesOf : public Base {
 protected:
+    using Base::renderer;
     /// The glass fills the picture's height to 70%.
     void set(const Scene& scene, const Environment& environment) {
         Scene solids = scene;
@@ -164,9 +166,9 @@ protected:
         settings.paths = samples == 1;
         return renderer().render(settings);
     }
-    Alike compare(const Scene& scene) {
+    Alike compare(const Scene& scene, const char* technique) {
         set(scene, uniform_environment());
-        const auto exact = trace(), found = draw("visibility-layers").paths;
+        const auto exact = trace(), found = draw(technique).paths;
         const PixelFootprint footprint{0.0f, 2.0f * std::tan(0.5f * camera_.vertical_fov) / float(kSize)};
         Alike alike;
         for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -182,6 +184,13 @@ protected:
 
     Camera camera_;
 };
+class WholeScenes : public WholeScenesOf<RendererTest> {};
+
+/// What holds whoever finds the surfaces of paths.
+class EveryFinder : public WholeScenesOf<TechniqueTest> {};
+INSTANTIATE_TEST_SUITE_P(WholeScenes, EveryFinder,
+                         testing::Values("visibility-layers", "visibility-cube", "ray-tracing-cpu"),
+                         technique_test_name);
 
 struct Case {
     const char* name;
@@ -191,12 +200,12 @@ struct Case {
 
 // What is missing is chaos: a path of many events in which the last digits of single precision grow to a degree. The
 // exact tracer, whose rays are shifted by 0.0001 pixels, agrees with itself no better on such pixels.
-TEST_F(WholeScenes, PathsThroughManySolidsEndAsTheyShould) {
+TEST_P(EveryFinder, PathsThroughManySolidsEndAsTheyShould) {
     const Case cases[] = {{"two balls", two_balls(), 0.99}, {"linked rings", linked_rings(), 0.98},
                           {"bubbles", bubbles(), 0.99},     {"cavity", cavity(), 0.99},
                           {"nested", nested(), 0.99},       {"touching", touching(), 0.99}};
     for (const Case& test : cases) {
-        const Alike alike = compare(test.scene);
+        const Alike alike = compare(test.scene, GetParam());
         EXPECT_GE(alike.share, test.least) << test.name;
         EXPECT_GT(alike.glass, 1000) << test.name;
         RecordProperty(test.name, fmt::format("{:.4f} of {}", alike.share, alike.glass));
@@ -204,13 +213,13 @@ TEST_F(WholeScenes, PathsThroughManySolidsEndAsTheyShould) {
 }
 
 // What is missing before walls: the wall's part above the picture is seen by the exact tracer alone.
-TEST_F(WholeScenes, PathsEndOnOpaqueThingsInsideBehindAndBefore) {
+TEST_P(EveryFinder, PathsEndOnOpaqueThingsInsideBehindAndBefore) {
     const Case cases[] = {{"opaque", with_opaque(), 0.99},
                           {"balls before walls", before_walls(two_balls()), 0.98},
                           {"rings before walls", before_walls(linked_rings()), 0.97},
                           {"nested before walls", before_walls(nested()), 0.98}};
     for (const Case& test : cases) {
-        const Alike alike = compare(test.scene);
+        const Alike alike = compare(test.scene, GetParam());
         EXPECT_GE(alike.share, test.least) << test.name;
         EXPECT_GT(alike.glass, 400) << test.name;
         EXPECT_GT(alike.ends_opaque, alike.glass / 10) << test.name;
@@ -240,11 +249,11 @@ TEST_F(WholeScenes, PathsThatLeaveThePictureSaySo) {
 }
 
 // A path that comes to a lattice ends on it or, through a hole, on what is behind: never on a hole.
-TEST_F(WholeScenes, HolesAreSeenThroughGlass) {
+TEST_P(EveryFinder, HolesAreSeenThroughGlass) {
     const Scene scene = before_walls(two_balls());
     set(scene, uniform_environment());
     int on_lattice = 0, on_wall = 0;
-    for (const RefractedPath& path : draw("visibility-layers").paths) {
+    for (const RefractedPath& path : draw(GetParam()).paths) {
         if (path.events == 0) continue;
         on_wall += path.object == 3 ? 1 : 0;
         if (path.object != 2) continue;
@@ -261,14 +270,14 @@ TEST_F(WholeScenes, HolesAreSeenThroughGlass) {
 
 // In the dark, all light is that of the fields: what the exact path leaves of the very texel. One part in a thousand
 // is more than single precision needs for a few interfaces.
-TEST_F(WholeScenes, UnlitColorsAreExact) {
+TEST_P(EveryFinder, UnlitColorsAreExact) {
     constexpr int kFields = 12;
     Scene scene = two_balls();
     add_picture(scene, fields(kFields, kFields), at({0, 0, -4.0f}, glm::vec3(2.0f)));
     set(scene, uniform_environment(glm::vec3(0.0f)));
     const Image image = fields(kFields, kFields);
     const auto exact = trace();
-    const RenderResult drawn = draw("visibility-layers");
+    const RenderResult drawn = draw(GetParam());
     int through_glass = 0, wrong = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
         const RefractedPath& path = exact[i];
@@ -295,7 +304,7 @@ TEST_F(WholeScenes, UnlitColorsAreExact) {
 
 // Nothing absorbs, so glass is invisible where light is the same from everywhere: no branch is lost or counted twice,
 // whatever is cut off. 1e-3: some hundred products and sums in single precision, and samples' weights.
-TEST_F(WholeScenes, WhiteFurnace) {
+TEST_P(EveryFinder, WhiteFurnace) {
     const Case cases[] = {{"two balls", two_balls(), 0}, {"linked rings", linked_rings(), 0},
                           {"bubbles", bubbles(), 0},     {"cavity", cavity(), 0},
                           {"nested", nested(), 0},       {"touching", touching(), 0}};
@@ -303,7 +312,7 @@ TEST_F(WholeScenes, WhiteFurnace) {
     for (const Case& test : cases) {
         set(test.scene, uniform_environment());
         for (std::size_t way = 0; way < std::size(ways); ++way) {
-            const Image image = draw("visibility-layers", 2, ways[way]).radiance;
+            const Image image = draw(GetParam(), 2, ways[way]).radiance;
             const auto [least, most] = std::minmax_element(image.pixels.begin(), image.pixels.end());
             EXPECT_NEAR(*least, 1.0f, 1e-3f) << test.name << ", parameters " << way;
             EXPECT_NEAR(*most, 1.0f, 1e-3f) << test.name << ", parameters " << way;

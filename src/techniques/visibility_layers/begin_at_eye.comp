@@ -29,7 +29,10 @@ void main() {
     path.position += eye_depth / along_axis * path.direction;
     bool in_medium = false;
     for (uint w = 0u; w < kMediumWords; ++w) media[w] = eye_media[w];
-    if (eye_differs != 0u) find_media(path.position, path.direction);
+    if (eye_differs != 0u) {
+        in_medium = kFoundOnHost;  // unless the host finds that it is not
+        if (!kFoundOnHost) find_media(path.position, path.direction);
+    }
     for (uint w = 0u; w < kMediumWords; ++w) in_medium = in_medium || media[w] != 0u;
     uint first = imageLoad(layer_triangle, at).r;
     bool begins = in_medium;

@@ -216,17 +216,18 @@ private:
                                                .width = frame_.extent.width,
                                                .places = reinterpret_cast<const glm::vec4*>(places_.mapped()),
                                                .ways = reinterpret_cast<const glm::vec4*>(ways_buffer_.mapped()),
-                                               .media = reinterpret_cast<const std::uint32_t*>(media_.mapped()),
+                                               .media = reinterpret_cast<std::uint32_t*>(media_.mapped()),
                                                .words = words_,
                                                .coincidence = push_.coincidence,
                                                .touching = !topology_.all_alone},
                            list = next_->mapped(), lists = map_.texels->mapped(), all = map_.records->mapped(),
                            room = std::size_t(map_.records->size() / sizeof(Candidate)), finder = finder_,
-                           first]() mutable {
+                           eye_differs = topology_.eye_differs, first]() mutable {
             const CandidatesOnHost candidates{reinterpret_cast<CandidateList*>(lists),
                                               {reinterpret_cast<Candidate*>(all), room}};
             if (first) candidates.all.front() = {};
             paths.pixels = listed_pixels(list);
+            if (first && eye_differs) finder->find_media(paths);
             finder->find(paths, candidates);
         });
     }
