@@ -3,10 +3,20 @@
 
 #include "techniques/visibility_layers/visibility_layers.h"
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
 namespace pellucid {
 namespace {
+
+/// Those of paths, but for how many surfaces a dispatch takes them to: that is one, as the host searches in between.
+constexpr auto kParameters = [] {
+    std::array<ParameterInfo, kPathParameters.size() - 1> all{};
+    std::copy_if(kPathParameters.begin(), kPathParameters.end(), all.begin(),
+                 [](const ParameterInfo& parameter) { return parameter.name != "surfaces-per-pass"; });
+    return all;
+}();
 
 void prepare(const Preparation& preparation, const ParameterValues& parameters) {
     prepare_paths(preparation, parameters);
@@ -27,7 +37,7 @@ constexpr Technique kRayTracingCpu{
              .source = {"Ingo Wald, Sven Woop, Carsten Benthin, Gregory S. Johnson, Manfred Ernst",
                         "Embree: A Kernel Framework for Efficient CPU Ray Tracing",
                         "ACM Transactions on Graphics 33(4)", 2014, "4"},
-             .parameters = kPathParameters,
+             .parameters = kParameters,
              .many_media = true,
              .whole_scene = true},
     .lacking = [](const Device& device) -> std::string {

@@ -58,11 +58,9 @@ public:
         push_.eye_depth = topology_.eye_depth;
         push_.largest_contact = topology_.largest_contact;
         push_.coincidence = 1e-6f * (glm::length(frame.scene.bounds.center) + frame.scene.bounds.radius);
-        const std::uint32_t given_surfaces = parameters.whole("surfaces-per-pass");
-        surfaces_per_pass_ = finder != nullptr                   ? 1
-                             : given_surfaces > 0                ? given_surfaces
-                             : frame.workspace.device().is_cpu() ? kSurfacesPerPassOnCpu
-                                                                 : kSurfacesPerPass;
+        surfaces_per_pass_ = finder != nullptr ? 1 : parameters.whole("surfaces-per-pass");
+        if (surfaces_per_pass_ == 0)
+            surfaces_per_pass_ = frame.workspace.device().is_cpu() ? kSurfacesPerPassOnCpu : kSurfacesPerPass;
         ways_ = parameters.whole("one-branch") != 0             ? Ways::kStochastic
                 : push_.most_branches > 0 || volumes != nullptr ? Ways::kTree
                                                                 : Ways::kTransmitted;
