@@ -4,17 +4,19 @@
 // The nearest surface that a ray meets among those that the host has found on a path's way (host_finder.h).
 //
 // Needs: what layers/surface_walk.glsl needs, whose arithmetic this is.
+#include "layers/surface_walk.glsl"
+
 layout(set = 0, binding = 44) uniform utextureBuffer candidate_lists;  // per path: the first, and how many
 layout(set = 0, binding = 45) uniform utextureBuffer candidates;       // triangle, traits
 
-// Beyond `t_min` and before walk_limit, m.
-SurfaceHit find_candidate(uint path_number, vec3 origin, vec3 direction, float t_min) {
-    uvec2 own = texelFetch(candidate_lists, int(path_number)).xy;
+// Beyond `t_min`, m.
+SurfaceHit find_candidate(vec3 origin, vec3 direction, float t_min, Search search) {
+    uvec2 own = texelFetch(candidate_lists, int(search.pixel)).xy;
     SurfaceHit hit = kNoHit;
     for (uint k = 0u; k < own.y; ++k) {
         uvec2 candidate = texelFetch(candidates, int(own.x + k)).xy;
         TriangleHit at = intersect_triangle(candidate.x, origin, direction);
-        if (at.t > t_min && at.t <= walk_limit && can_meet(candidate.y, at.leaving, candidate.x))
+        if (at.t > t_min && at.t <= search.limit && can_meet(search, candidate.y, at.leaving, candidate.x))
             take_nearer(hit, SurfaceHit(at.t, candidate.x, candidate.y, at.leaving));
     }
     return hit;

@@ -6,8 +6,9 @@
 // Every object whose box the ray meets nearer than the best hit so far is walked, in the order of the scene: what a
 // ray costs grows with the objects whose boxes lie on its way, and with the number of objects by a box test each.
 //
-// Needs: frame, kMapPerMesh (otherwise there is one map of all the scene), objects (ObjectRecord[]), traits (per object), and what surface_walk.glsl needs; can_meet() is asked
-// with triangles numbered over all objects.
+// Needs: frame, objects (ObjectRecord[]), traits (per object), and what surface_walk.glsl needs; can_meet() is asked with
+// triangles numbered over all objects.
+#include "layers/surface_walk.glsl"
 
 // Twin of MappedObject in mesh_maps.cpp.
 struct MappedObject {
@@ -18,46 +19,32 @@ struct MappedObject {
 };
 layout(std430, set = 0, binding = 26) readonly buffer MappedObjects { MappedObject mapped_objects[]; };
 
-uint walked_traits;  // of the object that is being walked
-uint walked_shift;   // from a triangle of its mesh to its own
-
-bool can_meet_walked(uint record_traits, bool leaving, uint triangle) {
-    return kMapPerMesh ? can_meet(walked_traits + record_traits, leaving, triangle + walked_shift)
-                       : can_meet(record_traits, leaving, triangle);
-}
-#define can_meet can_meet_walked
-#include "layers/surface_walk.glsl"
-#undef can_meet
-
 // The nearest surface beyond `t_min`, m.
-SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, out bool gave_up, inout uint visits) {
+SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, inout Search search) {
     SurfaceHit nearest = kNoHit;
-    gave_up = false;
     for (uint i = 0u; i < frame.object_count; ++i) {
         MappedObject mapped = mapped_objects[i];
         // The direction is not made a unit vector, so that distances are the world's.
         mat3 object_from_world = transpose(mat3(objects[i].world_from_object_normal));
         vec3 from = object_from_world * (origin - objects[i].world_from_object[3].xyz);
         vec3 way = object_from_world * direction;
-        float near = t_min, far = min(nearest.t, walk_limit);
+        float near = t_min, far = min(nearest.t, search.limit);
         for (int k = 0; k < 3; ++k) {
             clip(from[k] - mapped.low[k], way[k], near, far);
             clip(mapped.high[k] - from[k], -way[k], near, far);
         }
         if (near > far) continue;
-        walked_traits = traits[i];
-        walked_shift = objects[i].first_triangle - mapped.first_triangle;
+        search.object_traits = traits[i];
+        search.first_triangle = objects[i].first_triangle - mapped.first_triangle;
         // Texels are as wide in every map of a mesh: the way is shortest along the axis nearest to it.
         vec3 along = abs(way);
         uint axis = along.x > along.y ? (along.x > along.z ? 0u : 2u) : (along.y > along.z ? 1u : 2u);
-        bool gave_up_here;
         float t_end;
-        SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, t_min, t_end, gave_up_here, visits);
-        gave_up = gave_up || gave_up_here;
+        SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, t_min, search, t_end);
         // A transform that mirrors turns the triangles' winding and their outward normals alike: `leaving` holds.
-        if (hit.t < nearest.t)
-            nearest = SurfaceHit(hit.t, hit.triangle + walked_shift, walked_traits + hit.traits, hit.leaving);
+        if (hit.t < nearest.t) nearest = hit;
     }
+    search.object_traits = search.first_triangle = 0u;
     return nearest;
 }
 

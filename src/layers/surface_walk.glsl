@@ -7,8 +7,8 @@
 // coordinate. At a node of the pyramid none of whose depth ranges the ray passes, it skips the node and climbs;
 // otherwise it descends. In a texel the records whose ranges it passes are intersected exactly.
 //
-// Needs: maps, map_triangles, texels, ranges, records, pyramid (surface_map.glsl), kCrossing, and
-// bool can_meet(uint traits, bool leaving, uint triangle): whether a surface may be met in that sense.
+// Needs: maps, map_triangles, texels, ranges, records, pyramid (surface_map.glsl), kCrossing; struct Search (path_walk.glsl),
+// and bool can_meet(Search search, uint traits, bool leaving, uint triangle): whether it may meet a surface in that sense.
 #include "layers/surface_map.glsl"
 #include "gpu/object_traits.glsl"
 
@@ -19,7 +19,6 @@ const float kFarthest = 1e30;
 // word, after 65,535 turns, and eight invocations at a time take the turns of each in step.
 const uint kMostTurns = 65535u, kTogether = 8u, kTurnsPerVisit = 2u;
 const uint kMostVisits = 8000u;
-uint most_visits = kMostVisits;
 
 struct MapRay {
     vec3 a, way;          // map space; from a on all of the way
@@ -34,8 +33,6 @@ struct SurfaceHit {
     uint traits;
     bool leaving;    // along the outward normal
 };
-
-float walk_limit = kFarthest;  // m, how far rays go
 
 const SurfaceHit kNoHit = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
 
@@ -71,10 +68,10 @@ void clip(float start, float rate, inout float t_low, inout float t_high) {
     if (rate == 0.0 && start < 0.0) t_high = -1.0;
 }
 
-// False: the ray does not enter the map.
-bool map_ray(MapRecord map, vec3 origin, vec3 direction, out MapRay ray) {
+// As far as `limit`, m. False: the ray does not enter the map.
+bool map_ray(MapRecord map, vec3 origin, vec3 direction, float limit, out MapRay ray) {
     vec4 p = map.map_from_space * vec4(origin, 1.0), r = map.map_from_space * vec4(direction, 0.0);
-    float low = 0.0, high = walk_limit;
+    float low = 0.0, high = limit;
     clip(p.w - map.near_w, r.w, low, high);
     clip(p.x, r.x, low, high);
     clip(p.y, r.y, low, high);
@@ -100,13 +97,12 @@ float way_at(MapRay ray, float t) {
     return share * ray.w_b / (share * ray.w_b + (1.0 - share) * ray.w_a);
 }
 
-// The nearest surface beyond `t_min`, m; `t_end` is where the map ends on the way, kFarthest if that is at its far side. Nodes and records looked at are added to `visits`; a ray for which there are too many gives up.
-SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, out float t_end, out bool gave_up,
-                        inout uint visits) {
+// The nearest surface beyond `t_min`, m; `t_end` is where the map ends on the way, kFarthest if that is at its far side.
+// Nodes and records looked at are counted; a search for which there are too many gives up.
+SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, inout Search search, out float t_end) {
     SurfaceHit hit = kNoHit;
     MapRay ray;
-    gave_up = false;
-    bool in_map = map_ray(map, origin, direction, ray);
+    bool in_map = map_ray(map, origin, direction, search.limit, ray);
     t_end = !in_map ? 0.0 : ray.to_far ? kFarthest : ray.t_b;
     if (!in_map) return hit;
     vec2 inverse = 1.0 / mix(ray.way.xy, vec2(1e-9), lessThan(abs(ray.way.xy), vec2(1e-9)));
@@ -117,12 +113,12 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
     float s = 0.0;
     ivec2 texel = ivec2(clamp(ray.a.xy, vec2(0.0), last_texel));
     int order = texel_order(map, texel);
-    while (s < 1.0 && visits < most_visits) {
+    while (s < 1.0 && search.visits < search.most_visits) {
         int low, high;
         float s_out;
         bool at_leaf = false;
-        while (s < 1.0 && !at_leaf && visits < most_visits) {
-            ++visits;
+        while (s < 1.0 && !at_leaf && search.visits < search.most_visits) {
+            ++search.visits;
             int side = 1 << level;
             vec2 to_edge = (vec2((texel & -side) + (ahead & side)) - ray.a.xy) * inverse;
             s_out = min(min(to_edge.x, to_edge.y) + nudge, 1.0);
@@ -149,8 +145,8 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         t_max += 1e-5 * abs(t_max);
         uvec2 own = texelFetch(texels, int(map.first_head) + order).xy;
         uint block = own.x / kRangeBlock, end = (own.x + own.y + kRangeBlock - 1u) / kRangeBlock;
-        visits += own.y;
-        if (visits > most_visits) break;
+        search.visits += own.y;
+        if (search.visits > search.most_visits) break;
         uint passed = 0u;  // of a block, those whose ranges the ray passes: a bit each
         for (;;) {
             while (passed == 0u && block < end) {
@@ -161,12 +157,12 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
             if (passed == 0u) break;
             uvec2 record = texelFetch(records, int(block * kRangeBlock - kRangeBlock) + findLSB(passed)).xy;
             passed &= passed - 1u;
-            uint triangle = record.x, own_traits = record.y;
-            TriangleHit at = intersect_triangle(triangle, origin, direction);
+            uint triangle = record.x + search.first_triangle, own_traits = record.y + search.object_traits;
+            TriangleHit at = intersect_triangle(record.x, origin, direction);
             float least = min(at.weights.x, min(at.weights.y, at.weights.z));
             // A shell that counts what is met may not be met twice at an edge.
             bool inside = least >= (kCrossing && (own_traits & kCrossesItself) != 0u ? 0.0 : -kSlack);
-            if (inside && at.t > t_min && at.t <= t_max && can_meet(own_traits, at.leaving, triangle))
+            if (inside && at.t > t_min && at.t <= t_max && can_meet(search, own_traits, at.leaving, triangle))
                 take_nearer(hit, SurfaceHit(at.t, triangle, own_traits, at.leaving));
         }
         if (hit.t < kFarthest) break;
@@ -174,7 +170,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         texel = ivec2(clamp(ray.a.xy + s * ray.way.xy, vec2(0.0), last_texel));
         order = texel_order(map, texel);
     }
-    gave_up = hit.t == kFarthest && visits >= most_visits;
+    search.gave_up = search.gave_up || (hit.t == kFarthest && search.visits >= search.most_visits);
     return hit;
 }
 

@@ -39,39 +39,39 @@ const float kAirIndex = 1.01;        // up to it a ray has left the glass
 const float kReachGrows = 4.0;       // how far surfaces are looked for, in the way since the last time
 const float kStraight = 1.0 - 1e-6;  // cosine up to which a ray still goes the way in which it has looked for surfaces
 
-void leave_boundary(uint i, inout Path path, Boundary boundary, vec3 began, vec3 x, vec3 v, VolumeRecord volume,
+void branch_from(PathState state, vec3 place, vec3 way, vec3 weight, uint mark) {
+    state.path.position = place;
+    state.path.direction = way;
+    state.path.transmittance = weight;
+    state.mark = mark & ~(kMainPath | kEntersVolume);
+    push_branch(state, branch_capacity);
+}
+
+void leave_boundary(inout PathState state, Boundary boundary, vec3 began, vec3 x, vec3 v, VolumeRecord volume,
                     mat3 world_from_voxel) {
     Passage passage = pass_surface(boundary, x, v);
     if (!passage.exists) return;
-    ++path.events;
+    ++state.path.events;
     if (passage.reflected) {
-        ++path.reflections;
+        ++state.path.reflections;
         return;
     }
-    vec3 reflected = path.transmittance * passage.reflectance;
-    if (!kTree || !may_branch(i, reflected)) return;  // its light goes on with what is transmitted, so that none is lost
-    Path branch = path;
-    branch.position = (volume.world_from_voxel * vec4(began, 1.0)).xyz;
-    branch.direction = normalize(world_from_voxel * reflect_direction(normalize(boundary.v), passage.normal));
-    branch.transmittance = reflected;
-    uint own = mark;
-    mark &= ~(kMainPath | kEntersVolume);
-    push_branch(i, branch, branch_capacity);
-    mark = own;
-    path.transmittance *= 1.0 - passage.reflectance;
+    vec3 reflected = state.path.transmittance * passage.reflectance;
+    if (!kTree || !may_branch(state.pixel, reflected)) return;  // its light goes on with what is transmitted: none is lost
+    vec3 way = normalize(world_from_voxel * reflect_direction(normalize(boundary.v), passage.normal));
+    branch_from(state, (volume.world_from_voxel * vec4(began, 1.0)).xyz, way, reflected, state.mark);
+    state.path.transmittance *= 1.0 - passage.reflectance;
 }
 
 // In dispersive volumes every colour goes a way of its own: green's is the path's.
-void part_colors(uint i, inout Path path) {
-    uint own = mark;
+void part_colors(inout PathState state) {
     for (uint other = 1u; other <= 3u; other += 2u) {
-        Path branch = path;
-        branch.transmittance *= vec3(other == 1u, 0.0, other == 3u);
-        mark = (own & ~(kChannelMask | kMainPath | kEntersVolume)) | other;
-        push_branch(i, branch, branch_capacity);
+        vec3 only = vec3(other == 1u, 0.0, other == 3u);
+        branch_from(state, state.path.position, state.path.direction, only * state.path.transmittance,
+                    (state.mark & ~kChannelMask) | other);
     }
-    mark = (own & ~kChannelMask) | 2u;
-    path.transmittance *= vec3(0.0, 1.0, 0.0);
+    state.mark = (state.mark & ~kChannelMask) | 2u;
+    state.path.transmittance *= vec3(0.0, 1.0, 0.0);
 }
 
 // Along an inner normal's side: past the smoothed surface that a ray has entered at the mesh, whose voxels say again
@@ -87,14 +87,14 @@ void pass_entry(inout CurvedRay ray, vec3 direction) {
 }
 
 // False: the path ends here, because it has run out of steps.
-bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
+bool march(ivec2 texel, uint own, bool from_mesh, inout PathState state) {
     VolumeRecord volume = volumes[own];
-    if (kDisperses && (volume.flags & kDispersiveVolume) != 0u && (mark & kChannelMask) == 0u) part_colors(i, path);
-    enter_volume(volume, mark & kChannelMask);
+    if (kDisperses && (volume.flags & kDispersiveVolume) != 0u && !has_mark(state, kChannelMask)) part_colors(state);
+    enter_volume(volume, state.mark & kChannelMask);
     mat3 world_from_voxel = mat3(volume.world_from_voxel) / volume.voxel;
     CurvedRay ray;
-    ray.x = clamp(voxel_position(volume, path.position), vec3(0.0), volume.size);
-    ray.v = voxel_direction(volume, path.direction);
+    ray.x = clamp(voxel_position(volume, state.path.position), vec3(0.0), volume.size);
+    ray.v = voxel_direction(volume, state.path.direction);
     bool is_held = proxy == kSharpInterfaces && (volume.flags & kMeshVolume) != 0u;
     bool has_mesh = proxy == 1u && (volume.flags & kMeshVolume) != 0u;
     if (kSurfacesInside && has_mesh && from_mesh) pass_entry(ray, ray.v);
@@ -108,8 +108,10 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
     float until_surface = kFarthest, since_look = 0.0, reach = kFarthest;  // voxels
     vec3 looked_along = vec3(0.0);
     float t_min = -coincidence, short_of = 0.5 * kApart * coincidence / volume.voxel;
-    uint visits = 0u, steps = 0u;
-    most_visits = min(kMostVisits, (kMostTurns - min(kMostSteps, 60000u)) / (kTogether * kTurnsPerVisit));
+    uint steps = 0u;
+    Search search;
+    begin_search(state.media, state.standing, state.pixel, search);
+    search.most_visits = min(kMostVisits, (kMostTurns - min(kMostSteps, 60000u)) / (kTogether * kTurnsPerVisit));
     bool inside = true;
     bool in_air = has_mesh && !from_mesh;  // where a mesh says what the ray meets next
     for (; inside && steps < kMostSteps; ++steps) {
@@ -124,13 +126,11 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
             if (in_air || turned || since_look + kStep > reach) {
                 if (in_air) reach = kFarthest;
                 else if (looked_along != vec3(0.0)) reach = kReachGrows * max(since_look, max(kStep, 1.0));
-                walk_limit = min(reach * volume.voxel, kFarthest);
-                meets_replaced = in_air ? kMeetAll : has_mesh || proxy == 0u ? kMeetNone : kMeetEntering;
-                bool gave_up;
+                search.limit = min(reach * volume.voxel, kFarthest);
+                search.replaced = in_air ? kMeetAll : has_mesh || proxy == 0u ? kMeetNone : kMeetEntering;
                 SurfaceHit hit = find_surface_among_objects((volume.world_from_voxel * vec4(ray.x, 1.0)).xyz,
-                                                            world_from_voxel * direction, t_min, gave_up, visits);
-                walk_limit = kFarthest;
-                if (gave_up) steps = kMostSteps;
+                                                            world_from_voxel * direction, t_min, search);
+                if (search.gave_up) steps = kMostSteps;
                 t_min = 0.0;
                 since_look = 0.0;
                 until_surface = hit.t < kFarthest ? max(hit.t, 0.0) / volume.voxel : kFarthest;
@@ -147,7 +147,7 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
             if (in_air) {
                 clip_to_box(volume, ray.x, direction, near, share);
                 next.x = ray.x + clamp(to_surface, 0.0, max(share, 0.0)) * direction;
-                path.length_inside += distance(next.x, ray.x) * volume.voxel;
+                state.path.length_inside += distance(next.x, ray.x) * volume.voxel;
                 ray = CurvedRay(next.x, ray.v);
                 break;
             }
@@ -166,7 +166,7 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
             next = CurvedRay(ray.x + way, mix(ray.v, next.v, share));
         }
         float travelled = length(way);
-        path.length_inside += travelled * volume.voxel;
+        state.path.length_inside += travelled * volume.voxel;
         vec3 middle = ray.x + 0.5 * way;
         vec4 absorption = vec4(0.0);
         vec4 scattering = vec4(0.0);
@@ -178,13 +178,13 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
             if (kEmits) added += volume_value(volume_emission, middle).rgb;
             if (kScatters && kLit) added += scattered_radiance(own, middle, -normalize(ray.v), scattering);
             // What is carried along a bent ray is L / n^2 (the paper leaves that out).
-            add_light(texel, path.transmittance * mean_transmittance(depth) * (n_entry * n_entry / dot(ray.v, ray.v)) * added * travelled);
+            add_light(texel, state.mark, state.path.transmittance * mean_transmittance(depth) * (n_entry * n_entry / dot(ray.v, ray.v)) * added * travelled);
         }
-        path.transmittance *= left;
+        state.path.transmittance *= left;
         if (kBoundaries && !is_held) {
             if (passes_boundary(boundary, absorption.a, inside)) {
                 boundary.open = false;
-                leave_boundary(i, path, boundary, boundary_began, next.x, next.v, volume, world_from_voxel);
+                leave_boundary(state, boundary, boundary_began, next.x, next.v, volume, world_from_voxel);
             }
             if (absorption.a > kBoundaryEnds && !boundary.open) {
                 boundary = open_boundary(ray.x, ray.v, absorption.a);
@@ -195,9 +195,9 @@ bool march(ivec2 texel, uint i, uint own, bool from_mesh, inout Path path) {
         ray = next;
         if (kOverlapping && inside && inside_smaller(own, (volume.world_from_voxel * vec4(ray.x, 1.0)).xyz)) inside = false;
     }
-    path.position = (volume.world_from_voxel * vec4(ray.x, 1.0)).xyz;
-    path.direction = normalize(world_from_voxel * ray.v);
-    mark |= kCrossedVolume;
+    state.path.position = (volume.world_from_voxel * vec4(ray.x, 1.0)).xyz;
+    state.path.direction = normalize(world_from_voxel * ray.v);
+    state.mark |= kCrossedVolume;
     return steps < kMostSteps || !inside;
 }
 
@@ -205,18 +205,19 @@ void main() {
     ivec2 texel;
     if (!listed_pixel(texel)) return;
     uint i = uint(texel.y) * frame.width + uint(texel.x);
-    Path path = load_path(i);
-    mark &= ~kEntersVolume;
-    bool from_mesh = in_replaced(filling_body());
+    PathState state;
+    load_path(i, 0u, state);
+    state.mark &= ~kEntersVolume;
+    bool from_mesh = in_replaced(filling_body(state.media));
     if (from_mesh && proxy != kSharpInterfaces) {
-        for (uint w = 0u; w < kMediumWords; ++w) media[w] = 0u;  // from here on the volume knows what is there
-        standing = PELLUCID_NO_TRIANGLE;
+        clear_media(state.media);  // from here on the volume knows what is there
+        state.standing = PELLUCID_NO_TRIANGLE;
     }
     float straight;
-    uint own = next_volume(path.position, path.direction, volumes_of(from_mesh, proxy), straight);
-    bool goes_on = own == kNoVolume || march(texel, i, own, from_mesh, path);
-    if (!goes_on) path.status = kStatusStepLimit;
-    save_path(i, path);
+    uint own = next_volume(state.path.position, state.path.direction, volumes_of(from_mesh, proxy), straight);
+    bool goes_on = own == kNoVolume || march(texel, own, from_mesh, state);
+    if (!goes_on) state.path.status = kStatusStepLimit;
+    save_path(state);
     if (goes_on) append_next(texel);
     else append_ended(texel);
 }

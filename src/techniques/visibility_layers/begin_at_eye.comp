@@ -22,18 +22,19 @@ void main() {
     ivec3 at = ivec3(texel, 0);
     uint i = uint(texel.y) * frame.width + uint(texel.x);
     waiting[i] = uvec2(0u);
+    PathState state;
     Path path = camera_path(vec2(texel) + 0.5);
     float along_axis = -path.direction.z;
     path.position = (frame.world_from_view * vec4(path.position, 1.0)).xyz;
     path.direction = normalize(mat3(frame.world_from_view) * path.direction);
     path.position += eye_depth / along_axis * path.direction;
     bool in_medium = false;
-    for (uint w = 0u; w < kMediumWords; ++w) media[w] = eye_media[w];
+    for (uint w = 0u; w < kMediumWords; ++w) state.media.words[w] = eye_media[w];
     if (eye_differs != 0u) {
         in_medium = kFoundOnHost;  // unless the host finds that it is not
-        if (!kFoundOnHost) find_media(path.position, path.direction);
+        if (!kFoundOnHost) find_media(path.position, path.direction, state.media);
     }
-    for (uint w = 0u; w < kMediumWords; ++w) in_medium = in_medium || media[w] != 0u;
+    for (uint w = 0u; w < kMediumWords; ++w) in_medium = in_medium || state.media.words[w] != 0u;
     uint first = imageLoad(layer_triangle, at).r;
     bool begins = in_medium;
     if (first != PELLUCID_NO_TRIANGLE)
@@ -47,8 +48,10 @@ void main() {
     imageStore(path_radiance, at, vec4(0.0, 0.0, 0.0, shades || ((kStochastic || kTree) && begins) ? 1.0 : 0.0));
     imageStore(reflected_radiance, at, vec4(0.0));
     if (!begins) return;
-    mark = kMainPath;
-    standing = PELLUCID_NO_TRIANGLE;
-    save_path(i, path);
+    state.path = path;
+    state.mark = kMainPath;
+    state.standing = PELLUCID_NO_TRIANGLE;
+    state.pixel = i;
+    save_path(state);
     append_next(texel);
 }

@@ -23,16 +23,19 @@ void main() {
     ivec2 texel;
     if (!listed_pixel(texel)) return;
     uint i = uint(texel.y) * frame.width + uint(texel.x);
-    seed = hash(uvec3(texel, 1u)).x;
     waiting[i] = uvec2(0u);
     imageStore(path_radiance, ivec3(texel, 0), vec4(0.0, 0.0, 0.0, kStochastic || kTree ? 1.0 : 0.0));
     imageStore(reflected_radiance, ivec3(texel, 0), vec4(0.0));
     Ray view = camera_ray(vec2(texel) + 0.5);
-    Path path = camera_path(vec2(texel) + 0.5);
-    path.position = (frame.world_from_view * vec4(view.origin, 1.0)).xyz;
-    path.direction = mat3(frame.world_from_view) * view.direction;
-    for (uint w = 0u; w < kMediumWords; ++w) media[w] = 0u;
-    mark = kMainPath;
+    PathState state;
+    state.path = camera_path(vec2(texel) + 0.5);
+    state.path.position = (frame.world_from_view * vec4(view.origin, 1.0)).xyz;
+    state.path.direction = mat3(frame.world_from_view) * view.direction;
+    clear_media(state.media);
+    state.standing = PELLUCID_NO_TRIANGLE;
+    state.mark = kMainPath;
+    state.pixel = i;
+    state.seed = sample_seed(texel);
 
     uint first = imageLoad(layer_triangle, ivec3(texel, 0)).r;
     uint triangle = triangle_index(first), object = object_of(triangle);
@@ -40,20 +43,21 @@ void main() {
     if (kManySlots) own_traits += shell_traits[triangle - objects[object].first_triangle + objects[object].first_corner / 3u];
     bool leaving = back_face(first);
     if (!leaving || (own_traits & kClosed) == 0u) {  // else the near plane has cut off what comes before
-        Surface surface = surface_at(triangle, object, path.position, path.direction);
-        path.position = surface.position;
-        standing = triangle;
-        correct_side(own_traits, leaving);
-        uint before = filling_body();
-        note_here();
-        step_across(own_traits, leaving);
-        note_there();
-        uint beyond = filling_body();
-        if (is_interface(before, beyond))
-            meet_boundary(i, path, surface, leaving, filling_iors(before), filling_iors(beyond), !leaving);
-    } else {
-        standing = PELLUCID_NO_TRIANGLE;
+        Crossing crossing;
+        crossing.surface = surface_at(triangle, object, state.path.position, state.path.direction);
+        crossing.leaving = leaving;
+        crossing.first = !leaving;
+        state.path.position = crossing.surface.position;
+        state.standing = triangle;
+        correct_side(state.media, own_traits, leaving);
+        copy_media(state.media, crossing.here);
+        step_across(state.media, own_traits, leaving);
+        copy_media(state.media, crossing.there);
+        uint before = filling_body(crossing.here), beyond = filling_body(crossing.there);
+        crossing.n_i = filling_iors(before);
+        crossing.n_t = filling_iors(beyond);
+        if (is_interface(before, beyond)) cross_boundary(state, crossing);
     }
-    save_path(i, path);
+    save_path(state);
     append_next(texel);
 }

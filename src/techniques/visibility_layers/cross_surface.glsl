@@ -82,140 +82,172 @@ float surface_roughness(Surface surface) {
 bool refracts_apart(vec3 iors) { return kDispersive && (iors.r != iors.g || iors.b != iors.g); }
 
 // Whether a path that carries so much may branch once more.
-bool may_branch(uint i, vec3 weight) {
-    return waiting[i].y < most_branches && max(weight.r, max(weight.g, weight.b)) > threshold;
+bool may_branch(uint pixel, vec3 weight) {
+    return waiting[pixel].y < most_branches && max(weight.r, max(weight.g, weight.b)) > threshold;
 }
 
-// What the path is inside of on this side and on the other side of the boundary at hand.
-uint media_here[kMediumWords], media_there[kMediumWords];
+// The boundary of two media at which a path stands.
+struct Crossing {
+    Surface surface;
+    bool leaving;       // the shell that is met, along its outward normal
+    bool first;         // by a view ray, from the open
+    Media here, there;  // what the path is inside of on its side and on the other
+    vec3 n_i, n_t;      // indices of refraction of both, per channel
+};
 
 // After the direction has changed at a boundary: the interpolated normal can send a path to the other side of the
 // triangle than it means to. It is where it goes.
-void settle(vec3 direction, Surface surface, bool leaving) {
-    bool through = (dot(direction, surface.geometric) > 0.0) == leaving;
-    for (uint w = 0u; w < kMediumWords; ++w) media[w] = through ? media_there[w] : media_here[w];
+void settle(inout PathState state, Crossing crossing) {
+    bool through = (dot(state.path.direction, crossing.surface.geometric) > 0.0) == crossing.leaving;
+    for (uint w = 0u; w < kMediumWords; ++w)
+        state.media.words[w] = through ? crossing.there.words[w] : crossing.here.words[w];
 }
 
-void branch_off(uint i, Path path, vec3 direction, vec3 weight, uint own_mark, Surface surface, bool leaving) {
-    uint marked = mark;
-    mark = own_mark;
-    path.direction = direction;
-    path.transmittance = weight;
-    settle(direction, surface, leaving);
-    push_branch(i, path, branch_capacity);
-    mark = marked;
+void branch_off(PathState state, Crossing crossing, vec3 direction, vec3 weight, uint mark) {
+    state.path.direction = direction;
+    state.path.transmittance = weight;
+    state.mark = mark;
+    settle(state, crossing);
+    push_branch(state, branch_capacity);
 }
 
-// Meets the boundary between two media: refracts, or reflects totally. What is reflected besides branches off; where
-// it carries too little for that, its light goes on with what is refracted, so that none is lost.
-void meet_boundary(uint i, inout Path path, Surface surface, bool leaving, vec3 n_i, vec3 n_t, bool first) {
-    vec3 n = leaving ? -surface.normal : surface.normal;
-    uint channel = mark & kChannelMask;
-    uint c = channel == 0u ? 1u : channel - 1u;  // the direction is green's, unless the path has another channel
-    float eta = n_i[c] / n_t[c];
-    bool by_facets = kRough && (kStochastic || kTree);  // of rough glass, one way between them per sample
+// How light meets a boundary: what all ways from there have in common.
+struct Meeting {
+    vec3 normal;        // unit, on the path's side; of rough glass that of a facet
+    vec3 incident;      // the path's direction
+    vec3 carried;       // and transmittance
+    uint channel;       // and channel, kChannelMask; its direction is green's, unless it has another
+    float cosine;
+    float eta;
+    bool total;         // reflection
+    float reflectance;
+    vec3 onward;        // direction of what is refracted, or totally reflected
+    vec3 tint;          // what the surface leaves of what passes
+    bool rough;         // the path goes from facet to facet
     Facets facets;
-    float roughness = kRough ? surface_roughness(surface) : 0.0;
-    bool rough = by_facets && roughness > 0.0 && first_facet(n, path, roughness, facets, n);
-    float cos_theta_i = -dot(path.direction, n);
-    path.side_conflict = path.side_conflict || cos_theta_i < 0.0;
-    ++path.events;
-    vec3 incident = path.direction, carried = path.transmittance, refracted;
-    bool total = !refract_direction(incident, n, eta, refracted);
-    float reflectance = total ? 1.0 : fresnel_dielectric(cos_theta_i, eta);
-    float alpha = by_facets ? 0.0 : roughness * roughness;
-    float bending = 0.5 * (max(n_i[c], n_t[c]) / min(n_i[c], n_t[c]) - 1.0);  // of a facet's tilt, beside reflection
-    if (total) ++path.reflections;
-    path.direction = refracted;  // under total reflection that is the reflected direction
-    vec3 tint = leaving || first ? vec3(1.0) : surface_tint(surface).rgb;
+    float alpha;        // of the lobe that stands for facets elsewhere
+    float bending;      // of a facet's tilt, beside reflection
+};
 
-    if (kStochastic) {
-        bool beyond = !total && random_number(path.events) >= reflectance;
-        if (!total && !beyond) path.direction = reflect_direction(incident, n);
-        if (rough) path.direction = leave_facets(path.direction, eta, facets, beyond);
-        if (beyond) path.transmittance *= tint;
-        else if (first) mark |= kOuterBranch;
-    } else if (total) {
+// Of rough glass, each sample meets one facet.
+Meeting meet(inout PathState state, Crossing crossing) {
+    Meeting m;
+    m.normal = crossing.leaving ? -crossing.surface.normal : crossing.surface.normal;
+    m.channel = state.mark & kChannelMask;
+    uint color = m.channel == 0u ? 1u : m.channel - 1u;
+    float n_i = crossing.n_i[color], n_t = crossing.n_t[color];
+    m.eta = n_i / n_t;
+    m.bending = 0.5 * (max(n_i, n_t) / min(n_i, n_t) - 1.0);
+    float roughness = kRough ? surface_roughness(crossing.surface) : 0.0;
+    bool by_facets = kRough && (kStochastic || kTree);
+    m.rough = by_facets && roughness > 0.0 &&
+              first_facet(m.normal, state.path, state.seed, roughness, m.facets, m.normal);
+    m.alpha = by_facets ? 0.0 : roughness * roughness;
+    m.incident = state.path.direction;
+    m.carried = state.path.transmittance;
+    m.cosine = -dot(m.incident, m.normal);
+    m.total = !refract_direction(m.incident, m.normal, m.eta, m.onward);
+    m.reflectance = m.total ? 1.0 : fresnel_dielectric(m.cosine, m.eta);
+    m.tint = crossing.leaving || crossing.first ? vec3(1.0) : surface_tint(crossing.surface).rgb;
+    state.path.side_conflict = state.path.side_conflict || m.cosine < 0.0;
+    ++state.path.events;
+    if (m.total) ++state.path.reflections;
+    return m;
+}
+
+// Goes on in a direction; through facets, where the surface is rough.
+void go_from(inout PathState state, Meeting m, vec3 direction, bool beyond, bool first) {
+    state.path.direction = m.rough ? leave_facets(direction, m.eta, m.facets, beyond) : direction;
+    if (beyond) state.path.transmittance *= m.tint;
+    else if (first) state.mark |= kOuterBranch;
+}
+
+// Red and blue leave a dispersive path on ways of their own; it goes on as green.
+void branch_colors(inout PathState state, Crossing crossing, Meeting m) {
+    bool apart = m.channel == 0u && (refracts_apart(crossing.n_i) || refracts_apart(crossing.n_t));
+    if (!apart || !may_branch(state.pixel, m.carried)) return;
+    for (uint other = 0u; other < 3u; other += 2u) {
+        vec3 way;
+        float eta = crossing.n_i[other] / crossing.n_t[other];
+        if (!refract_direction(m.incident, m.normal, eta, way)) continue;  // what is reflected has it all
+        bool beyond = true;
+        if (m.rough) way = leave_facets(way, eta, m.facets, beyond);
+        uint mark = (state.mark & ~(kChannelMask | kMainPath)) | (other + 1u);
+        if (!beyond && crossing.first) mark |= kOuterBranch;
+        vec3 only = vec3(other == 0u, 0.0, other == 2u);
+        vec3 weight = m.carried * only * (1.0 - fresnel_dielectric(m.cosine, eta)) * (beyond ? m.tint : vec3(1.0));
+        branch_off(state, crossing, way, weight, mark);
+    }
+    state.mark |= 2u;
+}
+
+// What is reflected branches off; where it carries too little for that, its light goes on with what is refracted, so that
+// none is lost.
+void branch_reflection(inout PathState state, Crossing crossing, Meeting m) {
+    bool parted = (state.mark & kChannelMask) != m.channel;  // red and blue reflect a little less and more
+    vec3 reflectances = vec3(m.reflectance);
+    if (parted) {
+        reflectances.r = fresnel_dielectric(m.cosine, crossing.n_i.r / crossing.n_t.r);
+        reflectances.b = fresnel_dielectric(m.cosine, crossing.n_i.b / crossing.n_t.b);
+    }
+    vec3 reflected = m.carried * reflectances;
+    if (may_branch(state.pixel, reflected)) {
+        vec3 way = reflect_direction(m.incident, m.normal);
         bool beyond = false;
-        if (rough) path.direction = leave_facets(path.direction, eta, facets, beyond);
-        if (beyond) path.transmittance *= tint;
+        if (m.rough) way = leave_facets(way, m.eta, m.facets, beyond);
+        if (beyond) reflected *= m.tint;
+        uint mark = (state.mark & ~(kChannelMask | kMainPath)) | m.channel;
+        if (crossing.first && !beyond) mark |= kOuterBranch;
+        branch_off(state, crossing, way, reflected, widened(mark, m.alpha));
+        state.path.transmittance *= 1.0 - m.reflectance;
+    }
+    if (parted) state.path.transmittance *= vec3(0.0, 1.0, 0.0);
+}
+
+// Takes a path past the boundary between two media, or back from it.
+void cross_boundary(inout PathState state, Crossing crossing) {
+    Meeting m = meet(state, crossing);
+    if (kStochastic) {
+        bool beyond = !m.total && random_number(state.seed, state.path.events) >= m.reflectance;
+        vec3 way = m.total || beyond ? m.onward : reflect_direction(m.incident, m.normal);
+        go_from(state, m, way, beyond, crossing.first);
+    } else if (m.total) {
+        go_from(state, m, m.onward, false, false);
     } else {
         if (kTree) {
-            bool apart = channel == 0u && refracts_apart(n_i) || refracts_apart(n_t) && channel == 0u;
-            if (apart && may_branch(i, carried)) {
-                for (uint other = 0u; other < 3u; other += 2u) {
-                    vec3 way;
-                    float other_eta = n_i[other] / n_t[other], cosine = cos_theta_i;
-                    if (!refract_direction(incident, n, other_eta, way)) continue;  // the reflection below has it all
-                    vec3 only = vec3(other == 0u, 0.0, other == 2u);
-                    uint own = (mark & ~(kChannelMask | kMainPath)) | (other + 1u);
-                    bool beyond = true;
-                    if (rough) way = leave_facets(way, other_eta, facets, beyond);
-                    if (!beyond && first) own |= kOuterBranch;
-                    vec3 weight = carried * only * (1.0 - fresnel_dielectric(cosine, other_eta));
-                    branch_off(i, path, way, weight * (beyond ? tint : vec3(1.0)), own, surface, leaving);
-                }
-                mark |= 2u;
-            }
-            vec3 reflected = carried * reflectance;
-            if ((mark & kChannelMask) != channel) {  // red and blue reflect a little less and more
-                reflected = carried * vec3(fresnel_dielectric(cos_theta_i, n_i.r / n_t.r), reflectance,
-                                           fresnel_dielectric(cos_theta_i, n_i.b / n_t.b));
-            }
-            if (may_branch(i, reflected)) {
-                vec3 way = reflect_direction(incident, n);
-                bool beyond = false;
-                if (rough) way = leave_facets(way, eta, facets, beyond);
-                if (beyond) reflected *= tint;
-                uint own = (mark & ~(kChannelMask | kMainPath)) | channel | (first && !beyond ? kOuterBranch : 0u);
-                uint kept = mark;
-                mark = own;
-                widen(alpha);
-                own = mark;
-                mark = kept;
-                branch_off(i, path, way, reflected, own, surface, leaving);
-                path.transmittance *= 1.0 - reflectance;
-            }
-            if ((mark & kChannelMask) != channel) path.transmittance *= vec3(0.0, 1.0, 0.0);
+            branch_colors(state, crossing, m);
+            branch_reflection(state, crossing, m);
         } else {
-            path.transmittance *= 1.0 - reflectance;
+            state.path.transmittance *= 1.0 - m.reflectance;
         }
-        bool beyond = true;
-        if (rough) path.direction = leave_facets(path.direction, eta, facets, beyond);
-        if (beyond) path.transmittance *= tint;
-        else if (first) mark |= kOuterBranch;
+        go_from(state, m, m.onward, true, crossing.first);
     }
-    if (alpha > 0.0) widen(total ? alpha : alpha * bending);
-    settle(path.direction, surface, leaving);
+    if (m.alpha > 0.0) state.mark = widened(state.mark, m.total ? m.alpha : m.alpha * m.bending);
+    settle(state, crossing);
 }
 
 const uint kNoSlot = 0xffffffffu;
 
-// Takes the path to the other side of a shell. Of one that is not closed its normal alone says where the path is.
-void step_across(uint traits, bool leaving) {
+// Takes a path to the other side of a shell.
+void step_across(inout Media media, uint traits, bool leaving) {
     if (!kCrossing || (traits & kCrossesItself) == 0u) {
-        set_inside(slot_of(traits), leaving == ((traits & kCavity) != 0u));
+        set_inside(media, slot_of(traits), leaving == ((traits & kCavity) != 0u));
         return;
     }
     // The shell's slots are the steps of its winding number, from the least: those are passed that lie below it.
     uint changed = kNoSlot, slot = slot_of(traits);
     for (bool more = true; more; ++slot) {
         uint medium = slots[slot].medium;
-        bool passed = inside_slot(slot) != ((medium & kCavitySlot) != 0u);
+        bool passed = is_inside(media, slot) != ((medium & kCavitySlot) != 0u);
         if (leaving ? passed : (!passed && changed == kNoSlot)) changed = slot;
         more = (medium & kSameShell) != 0u;
     }
-    if (changed != kNoSlot) set_inside(changed, leaving == ((slots[changed].medium & kCavitySlot) != 0u));
+    if (changed != kNoSlot) set_inside(media, changed, leaving == ((slots[changed].medium & kCavitySlot) != 0u));
 }
-void note_here() {
-    for (uint w = 0u; w < kMediumWords; ++w) media_here[w] = media[w];
-}
-void note_there() {
-    for (uint w = 0u; w < kMediumWords; ++w) media_there[w] = media[w];
-}
-// Of an open surface: what its normal says.
-void correct_side(uint traits, bool leaving) {
-    if ((traits & kClosed) == 0u) set_inside(slot_of(traits), leaving);
+
+// Of an open surface its normal alone says where the path is.
+void correct_side(inout Media media, uint traits, bool leaving) {
+    if ((traits & kClosed) == 0u) set_inside(media, slot_of(traits), leaving);
 }
 
 #endif

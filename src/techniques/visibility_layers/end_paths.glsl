@@ -45,8 +45,9 @@ struct OpaqueLight {
 };
 
 // Of the opaque surface that the path stands on.
-OpaqueLight opaque_light(Path path) {
-    uint object = object_of(standing);
+OpaqueLight opaque_light(PathState state) {
+    Path path = state.path;
+    uint standing = state.standing, object = object_of(standing);
     ObjectRecord o = objects[object];
     uint corner = o.first_corner + 3u * (standing - o.first_triangle);
     uvec3 v = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);
@@ -68,7 +69,7 @@ OpaqueLight opaque_light(Path path) {
     vec3 light = opaque_material_radiance(material, base.rgb, texcoords.xy, texcoords.zw,
                                           faceforward(normal, path.direction, normal), -path.direction);
     // Paths carry radiance over n^2: what a surface emits into a medium, and what lamps in it throw, is divided by that.
-    float ior = filling_iors(filling_body()).g;
+    float ior = filling_iors(filling_body(state.media)).g;
     if (ior != 1.0 && (material.flags & PELLUCID_MATERIAL_UNLIT) == 0u)
         light -= (1.0 - 1.0 / (ior * ior)) * emitted_radiance(material, texcoords.xy, texcoords.zw);
     bool unlit = (material.flags & PELLUCID_MATERIAL_UNLIT) != 0u;
@@ -85,41 +86,41 @@ OpaqueLight opaque_light(Path path) {
 
 // One direction of those from which the surface has been lit, to see what is there instead of the environment. What it
 // then finds counts, less what was assumed: surfaces that stand alone stay as they are, without noise.
-void bounce(ivec2 texel, uint i, Path path, OpaqueLight light) {
-    vec3 weight = path.transmittance * light.diffuse;
-    if ((mark & kBounced) != 0u || waiting[i].y >= most_branches || !(max(weight.r, max(weight.g, weight.b)) > threshold)) return;
-    seed = hash(uvec3(texel, 77u + waiting[i].y)).x;
-    vec2 u = random_numbers(path.events);
+void bounce(ivec2 texel, PathState state, OpaqueLight light) {
+    vec3 weight = state.path.transmittance * light.diffuse;
+    uint branches_before = waiting[state.pixel].y;
+    if (has_mark(state, kBounced) || branches_before >= most_branches || !(max(weight.r, max(weight.g, weight.b)) > threshold)) return;
+    vec2 u = random_numbers(hash(uvec3(texel, 77u + branches_before)).x, state.path.events);
     float radius = sqrt(u.x), angle = 6.283185307 * u.y;
     vec3 across = normalize(abs(light.normal.z) < 0.9 ? cross(light.normal, vec3(0.0, 0.0, 1.0))
                                                       : cross(light.normal, vec3(1.0, 0.0, 0.0)));
-    Path ray = path;
-    ray.direction = radius * cos(angle) * across + radius * sin(angle) * cross(light.normal, across) +
+    vec3 way = radius * cos(angle) * across + radius * sin(angle) * cross(light.normal, across) +
                     sqrt(max(1.0 - u.x, 0.0)) * light.normal;
-    ray.transmittance = weight;
-    uint own = mark;
-    mark = (mark & ~(kMainPath | kMetOpaque)) | kBounced;
-    if (push_branch(i, ray, branch_capacity)) {
-        mark = own;
-        add_light(texel, -weight * bounce_light(ray.direction));
-    }
-    mark = own;
+    uint mark = state.mark;
+    state.path.direction = way;
+    state.path.transmittance = weight;
+    state.mark = (mark & ~(kMainPath | kMetOpaque)) | kBounced;
+    if (push_branch(state, branch_capacity)) add_light(texel, mark, -weight * bounce_light(way));
 }
 
-vec3 environment_light(Path path) {
-    if ((mark & kBounced) != 0u) return bounce_light(path.direction);
-    if (kRough && spread() > 0.0) return filtered_environment_radiance(path.direction, sqrt(spread()));
-    return environment_radiance(path.direction);
+// What the environment sends along a path.
+vec3 environment_light(PathState state) {
+    vec3 direction = state.path.direction;
+    float spread = kRough ? spread_of(state.mark) : 0.0;
+    if (has_mark(state, kBounced)) return state.path.transmittance * bounce_light(direction);
+    if (spread > 0.0) return state.path.transmittance * filtered_environment_radiance(direction, sqrt(spread));
+    return state.path.transmittance * environment_radiance(direction);
 }
 
-void store_result(ivec2 texel, Path path) {
+void store_result(ivec2 texel, PathState state) {
     ivec3 at = ivec3(texel, 0);
-    float object = (mark & kMetOpaque) != 0u ? float(object_of(standing)) : kEndsInEnvironment;
+    Path path = state.path;
+    float object = has_mark(state, kMetOpaque) ? float(object_of(state.standing)) : kEndsInEnvironment;
     imageStore(exit_direction, at, vec4(path.direction, path.length_inside));
     imageStore(exit_position, at, vec4(path.position, object));
     imageStore(transmittance, at, vec4(path.transmittance, 1.0));
     // A path that has crossed a volume without a surface has met something, too.
-    if (kVolumes && (mark & kCrossedVolume) != 0u) path.events = max(path.events, 1u);
+    if (kVolumes && has_mark(state, kCrossedVolume)) path.events = max(path.events, 1u);
     imageStore(path_events, at, uvec4(pack_events(path)));
 }
 
@@ -127,29 +128,28 @@ void main() {
     ivec2 texel;
     if (!listed_pixel(texel)) return;
     uint i = uint(texel.y) * frame.width + uint(texel.x);
-    Path path = load_path(i);
-    if (kOpaqueObjects && closing == 0u && (mark & kMetOpaque) != 0u) {
-        OpaqueLight light = opaque_light(path);
+    PathState state;
+    load_path(i, 0u, state);
+    if (kOpaqueObjects && closing == 0u && has_mark(state, kMetOpaque)) {
+        OpaqueLight light = opaque_light(state);
         if (light.alpha < 0.0) {  // a hole: the path goes on
-            mark &= ~kMetOpaque;
-            save_path(i, path);
+            state.mark &= ~kMetOpaque;
+            save_path(state);
             append_next(texel);
             return;
         }
-        if ((mark & kMainPath) != 0u) store_result(texel, path);
-        add_light(texel, path.transmittance * light.radiance);
-        if (kTree) bounce(texel, i, path, light);
+        if (has_mark(state, kMainPath)) store_result(texel, state);
+        add_light(texel, state.mark, state.path.transmittance * light.radiance);
+        if (kTree) bounce(texel, state, light);
     } else {
-        if ((mark & kMainPath) != 0u) {
-            if (closing != 0u) path.status = kStatusEventLimit;
-            store_result(texel, path);
-        }
-        if (kTree || kStochastic || whole_picture != 0u) add_light(texel, path.transmittance * environment_light(path));
+        if (closing != 0u && has_mark(state, kMainPath)) state.path.status = kStatusEventLimit;
+        if (has_mark(state, kMainPath)) store_result(texel, state);
+        if (kTree || kStochastic || whole_picture != 0u) add_light(texel, state.mark, environment_light(state));
     }
     if (closing != 0u) {
-        while (pop_branch(i, path)) add_light(texel, path.transmittance * environment_light(path));
-    } else if (pop_branch(i, path)) {
-        save_path(i, path);
+        while (pop_branch(state)) add_light(texel, state.mark, environment_light(state));
+    } else if (pop_branch(state)) {
+        save_path(state);
         append_next(texel);
     }
 }

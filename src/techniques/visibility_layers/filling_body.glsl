@@ -5,16 +5,16 @@
 #include "gpu/object_traits.glsl"
 
 // The body that fills the place, by its first slot: of those around the path the one that displaces the others.
-uint filling_body() {
+uint filling_body(Media media) {
     for (uint w = kMediumWords; w-- > 0u;) {
-        uint bits = media[w];
+        uint bits = media.words[w];
         while (bits != 0u) {
             uint slot = w * 32u + uint(findMSB(bits));
             if (!kManySlots) return slot;
             SlotRecord record = slots[slot];
             int winding = 0;
             for (uint s = record.first; s < record.first + record.count; ++s)
-                if (inside_slot(s)) winding += (slots[s].medium & kCavitySlot) != 0u ? -1 : 1;
+                if (is_inside(media, s)) winding += (slots[s].medium & kCavitySlot) != 0u ? -1 : 1;
             if (winding > 0) return record.first;
             // On to the next body: its slots are lower.
             bits = record.first <= w * 32u ? 0u : bits & ((1u << (record.first - w * 32u)) - 1u);

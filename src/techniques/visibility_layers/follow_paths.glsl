@@ -81,28 +81,36 @@ float contact_distance(uint object_a, uint object_b, vec3 place) {
     return max(max(boxes[object_a].contact, boxes[object_b].contact), spacings);
 }
 
-// A surface at the same place as one that the path stands on; of the kind that is looked for.
-bool find_touching(uint object, vec3 place, vec3 direction, out SurfaceHit touching, out Surface surface) {
+// A surface that a path meets.
+struct MetSurface {
+    SurfaceHit hit;
+    uint object;
+    Surface surface;
+};
+
+MetSurface met_surface(SurfaceHit hit, vec3 origin, vec3 direction) {
+    uint object = object_of(hit.triangle);
+    return MetSurface(hit, object, surface_at(hit.triangle, object, origin, direction));
+}
+
+// A surface at the same place as another, of the kind that is wanted.
+bool find_touching(MetSurface other, vec3 direction, Search search, out MetSurface touching) {
     const float kGrazing = 512.0;  // along a ray that lies flatter than one in so many, surfaces are not seen to touch
     const float kBehind = 32.0;    // rounding puts places on a flat ray as far off
-    float t_end, apart = contact_distance(object, object, place);
-    for (int k = 0; k < 2; ++k) {  // the other may be the larger one
-        bool gave_up;
-        uint visits = 0u;
-        walk_limit = kGrazing * apart;
-        touching = find_next(place, direction, -kBehind * apart, t_end, gave_up, visits);
-        walk_limit = kFarthest;
-        if (k == 0 && touching.t == kFarthest) {
-            apart = max(apart, largest_contact);
-        } else {
-            break;
-        }
+    vec3 place = other.surface.position;
+    float t_end, apart = contact_distance(other.object, other.object, place);
+    for (int k = 0; k < 2; ++k) {  // the one that is found may be the larger
+        search.visits = 0u;
+        search.limit = kGrazing * apart;
+        touching.hit = find_next(place, direction, -kBehind * apart, search, t_end);
+        if (k == 1 || touching.hit.t < kFarthest) break;
+        apart = max(apart, largest_contact);
     }
-    if (touching.t == kFarthest) return false;
-    uint other = object_of(touching.triangle);
-    surface = surface_at(touching.triangle, other, place, direction);
-    float across = abs(dot(direction, surface.geometric)) / max(length(surface.geometric), 1e-30);
-    return abs(touching.t) * across <= contact_distance(object, other, place);
+    if (touching.hit.t == kFarthest) return false;
+    touching = met_surface(touching.hit, place, direction);
+    vec3 normal = touching.surface.geometric;
+    float across = abs(dot(direction, normal)) / max(length(normal), 1e-30);
+    return abs(touching.hit.t) * across <= contact_distance(other.object, touching.object, place);
 }
 
 // Of the bodies whose media meet, the one that displaces the other has the boundary.
@@ -111,122 +119,134 @@ bool has_boundary(uint body, uint other, uint before, uint beyond) {
     return meets && (!other_meets || body > other);
 }
 
-// Takes the path to the next surface, and past it. False: it ends there, or nowhere.
-bool go_on(uint i, inout Path path) {
-    uint body = filling_body();
-    if (in_replaced(body) && proxy != kSharpInterfaces) {
-        mark |= kEntersVolume;
-        return false;
-    }
-    meets_replaced = kVolumes && proxy != 0u ? kMeetEntering : kMeetNone;
+// The next surface on a path.
+SurfaceHit find_ahead(PathState state, bool in_body, inout Search search, out float t_end) {
     SurfaceHit hit;
-    bool gave_up;
-    float t_end;
-    uint visits = 0u;
     float t_min = -coincidence;
     for (int attempt = 0; attempt < 2; ++attempt) {
-        hit = find_next(path.position, path.direction, t_min, t_end, gave_up, visits);
+        hit = find_next(state.path.position, state.path.direction, t_min, search, t_end);
         // Reflected where its solid touches something opaque, which the path then has behind it. And of a shell that
         // crosses itself, neighbours of the triangle that the path stands on are that surface still.
-        bool behind = body != kAir && (hit.traits & kKindMask) == kOpaqueKind;
-        bool crossed = kCrossing && (hit.traits & kCrossesItself) != 0u && standing != PELLUCID_NO_TRIANGLE;
+        bool behind = in_body && (hit.traits & kKindMask) == kOpaqueKind;
+        bool crossed = kCrossing && (hit.traits & kCrossesItself) != 0u && state.standing != PELLUCID_NO_TRIANGLE;
         if (hit.t > coincidence || !(behind || crossed)) break;
         t_min = coincidence;
     }
-    // A path enters the volume that it meets first, in the open or of the solid that it is in. One that stands at a surface
-    // crosses that before.
-    if (kVolumes && (body == kAir || in_replaced(body)) && hit.t > kApart * coincidence) {
-        float straight;
-        uint volume = next_volume(path.position, path.direction, volumes_of(in_replaced(body), proxy), straight);
-        if (volume != kNoVolume && straight < hit.t) {
-            path.position += straight * path.direction;
-            mark |= kEntersVolume;
-            return false;
-        }
+    return hit;
+}
+
+// Whether a path enters a volume before a surface at `t`, and if so takes it there. It enters the one that it meets first,
+// in the open or of the solid that it is in; where it stands at a surface, it crosses that before.
+bool enters_volume(inout PathState state, uint body, float t) {
+    if (!(body == kAir || in_replaced(body)) || t <= kApart * coincidence) return false;
+    float straight;
+    uint of_kind = volumes_of(in_replaced(body), proxy);
+    uint volume = next_volume(state.path.position, state.path.direction, of_kind, straight);
+    if (volume == kNoVolume || straight >= t) return false;
+    state.path.position += straight * state.path.direction;
+    return true;
+}
+
+// Of a path that meets nothing.
+uint status_of_end(Path path, bool in_body, bool gave_up, float t_end) {
+    if (gave_up) return kStatusStepLimit;
+    if (!kMapPerMesh && t_end < kFarthest && meets_boxes(path.position + t_end * path.direction, path.direction))
+        return kStatusLeftScreen;
+    return in_body ? kStatusMissingLayer : path.status;
+}
+
+// What a solid stands on is outside of it: a path in it that has found something opaque leaves the solid first.
+void take_wall_first(vec3 direction, Search search, inout MetSurface met) {
+    MetSurface wall;
+    search.wanted = kFindShells;
+    if (find_touching(met, direction, search, wall) && wall.hit.leaving) met = wall;
+}
+
+// Crosses all boundaries that lie at one place: the order in which they are found is chance. `met` becomes the one that
+// parts the media of both sides, or what is opaque where the path cannot go on.
+void cross_touching(vec3 direction, Search search, Media here, inout MetSurface met, inout Media media) {
+    const int kMostTouching = 16;
+    uint before = filling_body(here);
+    MetSurface other, at = met;
+    bool leaves = met.hit.leaving;
+    search.wanted = kFindShells;
+    for (int n = 0; n < kMostTouching; ++n) {
+        copy_media(media, search.media);
+        if (!find_touching(at, direction, search, other)) break;
+        step_across(media, other.hit.traits, other.hit.leaving);
+        note_crossed(search, other.hit.traits);
+        leaves = leaves || other.hit.leaving;
+        if (has_boundary(body_of(other.hit.traits), body_of(met.hit.traits), before, filling_body(media))) met = other;
+    }
+    search.wanted = kFindOpaque;
+    if (kOpaqueObjects && !leaves && find_touching(at, direction, search, other)) {
+        met = other;  // the solid stands on that
+        copy_media(here, media);
+    }
+}
+
+// Takes a path that has met glass to its other side, which may be no boundary of media.
+void pass_glass(inout PathState state, MetSurface met, Media here, uint before, uint beyond) {
+    Crossing crossing;
+    crossing.surface = met.surface;
+    crossing.leaving = met.hit.leaving;
+    crossing.first = whole_picture == 0u && state.path.events == 0u && has_mark(state, kMainPath) && before == kAir;
+    copy_media(here, crossing.here);
+    copy_media(state.media, crossing.there);
+    crossing.n_i = iors_at(before, met.surface.position);
+    crossing.n_t = iors_at(beyond, met.surface.position);
+    cross_boundary(state, crossing);
+}
+
+// Takes a path to the next surface, and past it. False: it ends there, or nowhere, or enters a volume.
+bool go_on(inout PathState state) {
+    uint body = filling_body(state.media);
+    if (in_replaced(body) && proxy != kSharpInterfaces) {
+        state.mark |= kEntersVolume;
+        return false;
+    }
+    Search search;
+    begin_search(state.media, state.standing, state.pixel, search);
+    if (kVolumes && proxy != 0u) search.replaced = kMeetEntering;
+    float t_end;
+    SurfaceHit hit = find_ahead(state, body != kAir, search, t_end);
+    if (kVolumes && enters_volume(state, body, hit.t)) {
+        state.mark |= kEntersVolume;
+        return false;
     }
     if (hit.t == kFarthest) {
-        if (gave_up) path.status = kStatusStepLimit;
-        else if (!kMapPerMesh && t_end < kFarthest && meets_boxes(path.position + t_end * path.direction, path.direction))
-            path.status = kStatusLeftScreen;
-        else if (body != kAir) path.status = kStatusMissingLayer;
+        state.path.status = status_of_end(state.path, body != kAir, search.gave_up, t_end);
         return false;
     }
-    bool glass = refractive(hit.traits);
-    uint object = object_of(hit.triangle);
-    Surface surface = surface_at(hit.triangle, object, path.position, path.direction);
-    float straight = distance(path.position, surface.position);
+    MetSurface met = met_surface(hit, state.path.position, state.path.direction);
+    float straight = distance(state.path.position, met.surface.position);
     bool may_touch = kTouching && (hit.traits & kTouchesOthers) != 0u;
-    if (kTouching && may_touch && !glass && body != kAir) {
-        // What a solid stands on is outside of it: the path leaves the solid first.
-        SurfaceHit wall;
-        Surface wall_surface;
-        looks_for = kFindShells;
-        if (find_touching(object, surface.position, path.direction, wall, wall_surface) && wall.leaving) {
-            hit = wall;
-            surface = wall_surface;
-            object = object_of(hit.triangle);
-            glass = true;
-        }
-        looks_for = kFindAll;
-    }
+    if (kTouching && may_touch && !refractive(hit.traits) && body != kAir)
+        take_wall_first(state.path.direction, search, met);
     uint before = body, beyond = body;
-    if (glass) {
-        correct_side(hit.traits, hit.leaving);
-        before = filling_body();
-        note_here();
-        step_across(hit.traits, hit.leaving);
-        note_crossed(hit.traits);
-        // Where boundaries lie at one place, the order in which they are found is chance: all are crossed at once.
-        if (kTouching && may_touch) {
-            const int kMostTouching = 16;
-            uint at_object = object;
-            vec3 place = surface.position;
-            bool leaves = hit.leaving;
-            looks_for = kFindShells;
-            beyond = filling_body();
-            for (int n = 0; n < kMostTouching; ++n) {
-                SurfaceHit other;
-                Surface other_surface;
-                if (!find_touching(at_object, place, path.direction, other, other_surface)) break;
-                step_across(other.traits, other.leaving);
-                note_crossed(other.traits);
-                beyond = filling_body();
-                leaves = leaves || other.leaving;
-                if (has_boundary(body_of(other.traits), body_of(hit.traits), before, beyond)) {
-                    hit = other;
-                    surface = other_surface;
-                }
-            }
-            looks_for = kFindOpaque;
-            SurfaceHit wall;
-            Surface wall_surface;
-            if (kOpaqueObjects && !leaves && find_touching(at_object, place, path.direction, wall, wall_surface)) {
-                hit = wall;  // it stands on that
-                surface = wall_surface;
-                glass = false;
-                for (uint w = 0u; w < kMediumWords; ++w) media[w] = media_here[w];
-            }
-            looks_for = kFindAll;
-        }
-        forget_crossed();
-        note_there();
-        beyond = filling_body();
+    Media here;
+    copy_media(state.media, here);
+    if (refractive(met.hit.traits)) {
+        correct_side(state.media, met.hit.traits, met.hit.leaving);
+        copy_media(state.media, here);
+        step_across(state.media, met.hit.traits, met.hit.leaving);
+        note_crossed(search, met.hit.traits);
+        if (kTouching && may_touch) cross_touching(state.path.direction, search, here, met, state.media);
+        before = filling_body(here);
+        beyond = filling_body(state.media);
     }
-    bool meets = glass && is_interface(before, beyond);
-    if (meets && path.events >= max_events) {
-        path.status = kStatusEventLimit;
+    bool meets = refractive(met.hit.traits) && is_interface(before, beyond);
+    if (meets && state.path.events >= max_events) {
+        state.path.status = kStatusEventLimit;
         return false;
     }
-    if (body != kAir) travel(path, straight, filling_material(body).sigma_a.rgb);
-    path.position = surface.position;
-    standing = hit.triangle;
-    bool ends = (hit.traits & kKindMask) == kOpaqueKind;
-    if (ends) mark |= kMetOpaque;
-    else if (!glass) pass_pane(path, surface);
-    else if (meets) {
-        bool first = whole_picture == 0u && path.events == 0u && (mark & kMainPath) != 0u && before == kAir;
-        meet_boundary(i, path, surface, hit.leaving, iors_at(before, surface.position), iors_at(beyond, surface.position), first);
-    }
+    if (body != kAir) travel(state.path, straight, filling_material(body).sigma_a.rgb);
+    state.path.position = met.surface.position;
+    state.standing = met.hit.triangle;
+    bool ends = (met.hit.traits & kKindMask) == kOpaqueKind;
+    if (ends) state.mark |= kMetOpaque;
+    else if (meets) pass_glass(state, met, here, before, beyond);
+    else if (!refractive(met.hit.traits)) pass_pane(state.path, met.surface);
     return !ends;
 }
 
@@ -234,15 +254,13 @@ void main() {
     ivec2 texel;
     if (!listed_pixel(texel)) return;
     uint i = uint(texel.y) * frame.width + uint(texel.x);
-    seed = hash(uvec3(texel, 1u)).x;
-    path_number = i;
-    Path path = load_path(i);
+    PathState state;
+    load_path(i, sample_seed(texel), state);
     bool goes_on = true;
-    forget_crossed();
-    for (uint k = 0u; k < kSurfacesPerPass && goes_on; ++k) goes_on = go_on(i, path);
-    save_path(i, path);
+    for (uint k = 0u; k < kSurfacesPerPass && goes_on; ++k) goes_on = go_on(state);
+    save_path(state);
     if (goes_on) append_next(texel);
-    else if (kVolumes && (mark & kEntersVolume) != 0u) append_entering(texel);
+    else if (kVolumes && has_mark(state, kEntersVolume)) append_entering(texel);
     else append_ended(texel);
 }
 

@@ -2,9 +2,7 @@
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_MICROFACETS_GLSL
 
 // Random choices of a path, and the facets of rough glass: Heitz, "Sampling the GGX distribution of visible normals",
-// JCGT 2018. Needs: frame, seed (of the sample and pixel), optics/interface.glsl.
-
-uint seed;
+// JCGT 2018. Needs: frame, optics/interface.glsl.
 
 // Jarzynski & Olano, "Hash functions for GPU rendering", JCGT 2020: pcg3d.
 uvec3 hash(uvec3 v) {
@@ -19,11 +17,13 @@ uvec3 hash(uvec3 v) {
     return v;
 }
 
+uint sample_seed(ivec2 texel) { return hash(uvec3(texel, 1u)).x; }
+
 // 0 to below 1; every event of every sample has its own, so that choices along a path do not depend on each other.
-vec2 random_numbers(uint event) {
+vec2 random_numbers(uint seed, uint event) {
     return vec2(hash(uvec3(seed, event, 2u * frame.sample_index)).xy >> 8u) / 16777216.0;
 }
-float random_number(uint event) {
+float random_number(uint seed, uint event) {
     return float(hash(uvec3(seed, event, 2u * frame.sample_index + 1u)).z >> 8u) / 16777216.0;
 }
 
@@ -33,7 +33,7 @@ struct Facets {
     mat3 world_from_surface;  // z: the macroscopic normal on the side that the path comes from
     float alpha;
     float level;              // share of the surface that lies lower, 0..1, seen from the side that the light is on
-    uint event;               // of the path; and how many random numbers it has taken
+    uint seed, event;         // of the path; and how many random numbers it has taken
     uint draws;
 };
 const int kMostFacets = 64;
@@ -41,7 +41,7 @@ const float kLowestLevel = 1e-7;  // about the distance from 1 to the float belo
 
 float next_random(inout Facets facets) {
     ++facets.draws;
-    return float(hash(uvec3(seed ^ facets.draws * 0x9e3779b9u, facets.event, 2u * frame.sample_index)).z >> 8u) / 16777216.0;
+    return float(hash(uvec3(facets.seed ^ facets.draws * 0x9e3779b9u, facets.event, 2u * frame.sample_index)).z >> 8u) / 16777216.0;
 }
 
 // A facet's normal that is visible along w, whose z may have either sign; in the surface's frame.
@@ -80,14 +80,14 @@ bool reaches_facet(vec3 way, inout Facets facets) {
 
 // Takes a path to the first facet that it meets; its normal, in the world. False: it comes from below the surface, which
 // the interpolated normal may say.
-bool first_facet(vec3 normal, Path path, float roughness, out Facets facets, out vec3 facet_normal) {
+bool first_facet(vec3 normal, Path path, uint seed, float roughness, out Facets facets, out vec3 facet_normal) {
     vec3 across = normalize(abs(normal.z) < 0.9 ? cross(normal, vec3(0.0, 0.0, 1.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
-    facets = Facets(mat3(across, cross(normal, across), normal), max(roughness * roughness, 1e-4), 1.0, path.events, 0u);
+    facets = Facets(mat3(across, cross(normal, across), normal), max(roughness * roughness, 1e-4), 1.0, seed, path.events, 0u);
     vec3 way = path.direction * facets.world_from_surface;
     facet_normal = normal;
     if (way.z >= 0.0) return false;
     reaches_facet(way, facets);
-    facet_normal = normalize(facets.world_from_surface * visible_normal(-way, facets.alpha, random_numbers(path.events)));
+    facet_normal = normalize(facets.world_from_surface * visible_normal(-way, facets.alpha, random_numbers(seed, path.events)));
     return true;
 }
 

@@ -12,22 +12,39 @@ layout(std430, set = 0, binding = 13) buffer PathMedia { uint path_media[]; };  
 layout(std430, set = 0, binding = 23) buffer Waiting { uvec2 waiting[]; };
 layout(std430, set = 0, binding = 24) buffer Branches { uint branch_count, branch_reserved[3]; uvec4 branches[]; };
 
-// Where a path is: a bit per slot (object_traits.glsl) for whether it is inside a shell of that slot.
-uint media[kMediumWords];
+// What a path is inside of: a bit per slot (object_traits.glsl) for whether it is inside a shell of that slot.
+// A specialization constant sizes it, so GLSL passes it to functions but does not assign it.
+struct Media {
+    uint words[kMediumWords];
+};
 
-bool inside_slot(uint slot) { return (media[slot / 32u] >> slot % 32u & 1u) != 0u; }
+uint media_word(Media media, uint slot) { return media.words[kMediumWords == 1u ? 0u : slot / 32u]; }
+bool is_inside(Media media, uint slot) { return (media_word(media, slot) >> slot % 32u & 1u) != 0u; }
 
-void set_inside(uint slot, bool inside) {
-    uint bit = 1u << slot % 32u;
-    media[slot / 32u] = inside ? media[slot / 32u] | bit : media[slot / 32u] & ~bit;
+void set_inside(inout Media media, uint slot, bool inside) {
+    uint bit = 1u << slot % 32u, word = media_word(media, slot);
+    media.words[kMediumWords == 1u ? 0u : slot / 32u] = inside ? word | bit : word & ~bit;
+}
+
+void clear_media(out Media media) {
+    for (uint w = 0u; w < kMediumWords; ++w) media.words[w] = 0u;
+}
+void copy_media(Media from, out Media media) {
+    for (uint w = 0u; w < kMediumWords; ++w) media.words[w] = from.words[w];
 }
 
 const uint kAir = 0xffffffffu;
 
-uint standing;  // the triangle that the path stands on
+// A path on its way.
+struct PathState {
+    Path path;      // world space
+    Media media;
+    uint standing;  // the triangle that it stands on
+    uint mark;      // bits of the kinds below, and how far rough surfaces have spread it
+    uint pixel;     // its number
+    uint seed;      // of its random choices
+};
 
-// What is known of a path besides: its colour channel, where it belongs, and how far rough surfaces have spread it.
-uint mark;
 const uint kChannelMask = 3u;   // 0: all channels, 1 to 3: red, green, blue
 const uint kMainPath = 4u;      // the one that Refraction is about
 const uint kOuterBranch = 8u;   // reflected by the first surface, before the glass
@@ -36,62 +53,70 @@ const uint kBounced = 32u;      // scattered by an opaque surface: it looks for 
 const uint kEntersVolume = 64u; // it stands at the box of a volume
 const uint kCrossedVolume = 128u;
 
-float spread() { return float(mark >> 16) / 65535.0; }  // alpha of the lobe that it stands for, 0..1
-void widen(float alpha) {
-    float sum = min(sqrt(spread() * spread() + alpha * alpha), 1.0);
-    mark = (mark & 0xffffu) | uint(sum * 65535.0 + 0.5) << 16;
+bool has_mark(PathState state, uint bits) { return (state.mark & bits) != 0u; }
+
+// Alpha of the lobe that a mark stands for, 0..1.
+float spread_of(uint mark) { return float(mark >> 16) / 65535.0; }
+uint widened(uint mark, float alpha) {
+    float sum = min(sqrt(spread_of(mark) * spread_of(mark) + alpha * alpha), 1.0);
+    return (mark & 0xffffu) | uint(sum * 65535.0 + 0.5) << 16;
 }
 
 Path unpack_path(vec4 place, vec4 way, vec4 weight) {
     uint word = floatBitsToUint(weight.w);
-    standing = floatBitsToUint(place.w);
     return Path(place.xyz, way.xyz, weight.rgb, way.w, word & 0xfffu, (word >> 12) & 0xfffu, (word >> 24) & 0xfu,
                 ((word >> 28) & 1u) != 0u);
 }
 
-Path load_path(uint i) {
-    for (uint w = 0u; w < kMediumWords; ++w) media[w] = path_media[i * (kMediumWords + 1u) + w];
-    mark = path_media[i * (kMediumWords + 1u) + kMediumWords];
-    return unpack_path(path_places[i], path_ways[i], path_weights[i]);
+// The path of pixel i that is on its way.
+void load_path(uint i, uint seed, out PathState state) {
+    state.path = unpack_path(path_places[i], path_ways[i], path_weights[i]);
+    for (uint w = 0u; w < kMediumWords; ++w) state.media.words[w] = path_media[i * (kMediumWords + 1u) + w];
+    state.standing = floatBitsToUint(path_places[i].w);
+    state.mark = path_media[i * (kMediumWords + 1u) + kMediumWords];
+    state.pixel = i;
+    state.seed = seed;
 }
 
-void save_path(uint i, Path path) {
-    path_places[i] = vec4(path.position, uintBitsToFloat(standing));
-    path_ways[i] = vec4(path.direction, path.length_inside);
-    path_weights[i] = vec4(path.transmittance, uintBitsToFloat(pack_events(path)));
-    for (uint w = 0u; w < kMediumWords; ++w) path_media[i * (kMediumWords + 1u) + w] = media[w];
-    path_media[i * (kMediumWords + 1u) + kMediumWords] = mark;
+void save_path(PathState state) {
+    uint i = state.pixel;
+    path_places[i] = vec4(state.path.position, uintBitsToFloat(state.standing));
+    path_ways[i] = vec4(state.path.direction, state.path.length_inside);
+    path_weights[i] = vec4(state.path.transmittance, uintBitsToFloat(pack_events(state.path)));
+    for (uint w = 0u; w < kMediumWords; ++w) path_media[i * (kMediumWords + 1u) + w] = state.media.words[w];
+    path_media[i * (kMediumWords + 1u) + kMediumWords] = state.mark;
 }
 
 const uint kBranchVectors = 4u + (kMediumWords + 1u) / 4u;  // the path's three, then media, mark and the next branch
 
-// Lets a path wait behind pixel i's. False: there is no room (counted: the host makes more).
-bool push_branch(uint i, Path path, uint capacity) {
+// Lets a path wait behind that of its pixel. False: there is no room (counted: the host makes more).
+bool push_branch(PathState state, uint capacity) {
     uint number = atomicAdd(branch_count, 1u);
     if (number >= capacity) return false;
     uint at = number * kBranchVectors;
-    branches[at] = floatBitsToUint(vec4(path.position, uintBitsToFloat(standing)));
-    branches[at + 1u] = floatBitsToUint(vec4(path.direction, path.length_inside));
-    branches[at + 2u] = uvec4(floatBitsToUint(path.transmittance), pack_events(path));
-    uvec4 words = uvec4(waiting[i].x, mark, 0u, 0u);
+    branches[at] = floatBitsToUint(vec4(state.path.position, uintBitsToFloat(state.standing)));
+    branches[at + 1u] = floatBitsToUint(vec4(state.path.direction, state.path.length_inside));
+    branches[at + 2u] = uvec4(floatBitsToUint(state.path.transmittance), pack_events(state.path));
+    uvec4 words = uvec4(waiting[state.pixel].x, state.mark, 0u, 0u);
     for (uint w = 0u; w < kMediumWords; ++w) {
-        words[(w + 2u) % 4u] = media[w];
+        words[(w + 2u) % 4u] = state.media.words[w];
         if ((w + 2u) % 4u == 3u || w + 1u == kMediumWords) branches[at + 3u + (w + 2u) / 4u] = words;
     }
-    waiting[i] = uvec2(number + 1u, waiting[i].y + 1u);
+    waiting[state.pixel] = uvec2(number + 1u, waiting[state.pixel].y + 1u);
     return true;
 }
 
-// The branch that has come last. False: none waits.
-bool pop_branch(uint i, out Path path) {
-    uint head = waiting[i].x;
+// The branch of the pixel that has come last. False: none waits.
+bool pop_branch(inout PathState state) {
+    uint head = waiting[state.pixel].x;
     if (head == 0u) return false;
     uint at = (head - 1u) * kBranchVectors;
     uvec4 weight = branches[at + 2u], words = branches[at + 3u];
-    path = unpack_path(uintBitsToFloat(branches[at]), uintBitsToFloat(branches[at + 1u]), uintBitsToFloat(weight));
-    waiting[i].x = words.x;
-    mark = words.y;
-    for (uint w = 0u; w < kMediumWords; ++w) media[w] = branches[at + 3u + (w + 2u) / 4u][(w + 2u) % 4u];
+    state.path = unpack_path(uintBitsToFloat(branches[at]), uintBitsToFloat(branches[at + 1u]), uintBitsToFloat(weight));
+    state.standing = branches[at].w;
+    waiting[state.pixel].x = words.x;
+    state.mark = words.y;
+    for (uint w = 0u; w < kMediumWords; ++w) state.media.words[w] = branches[at + 3u + (w + 2u) / 4u][(w + 2u) % 4u];
     return true;
 }
 

@@ -21,43 +21,47 @@ layout(set = 0, binding = 22) uniform utextureBuffer pyramid;
 
 // Surfaces for which a volume stands (kReplaced).
 const uint kMeetNone = 0u, kMeetEntering = 1u, kMeetAll = 2u;
-uint meets_replaced = kMeetNone;
-
 // What is looked for: all surfaces; closed shells of glass alone; what is opaque alone.
 const uint kFindAll = 0u, kFindShells = 1u, kFindOpaque = 2u;
-uint looks_for = kFindAll;
-// While what a path is inside of is not known yet: the slots for which it is.
-bool deciding = false;
-uint decided[kMediumWords];
-uint decided_shell = kNoSlot;  // or this shell alone, which crosses itself: all its surfaces
-// Shells that cross themselves which the path has crossed here, by their first slots: their surfaces at this place are
-// one, and are not met again.
-uint crossed_here[kMediumWords];
 
-void forget_crossed() {
-    for (uint w = 0u; w < kMediumWords; ++w) crossed_here[w] = 0u;
-}
-void note_crossed(uint traits) {
-    if (kCrossing && (traits & kCrossesItself) != 0u) crossed_here[slot_of(traits) / 32u] |= 1u << slot_of(traits) % 32u;
-}
+// A path that looks for a surface.
+struct Search {
+    Media media;         // of the path,
+    uint standing;       // the triangle on which it stands,
+    uint pixel;          // its number
+    uint wanted;         // kFindAll, ...
+    uint replaced;       // kMeetNone, ...
+    Media crossed_here;  // shells that cross themselves which it has crossed here, by their first slots: their surfaces at
+                         // this place are one, and are not met again
+    bool deciding;       // what it is inside of is not known yet,
+    Media decided;       // but of these slots,
+    uint decided_shell;  // or it is looked for of this shell alone, which crosses itself: all its surfaces
+    float limit;         // m, how far it looks
+    uint visits, most_visits;  // nodes and records looked at
+    bool gave_up;              // as there were too many
+    uint object_traits, first_triangle;  // of the object whose maps are walked: what its records leave out
+};
 
-bool is_in(uint slots_in[kMediumWords], uint slot) { return (slots_in[slot / 32u] >> slot % 32u & 1u) != 0u; }
+void note_crossed(inout Search search, uint traits) {
+    if (kCrossing && (traits & kCrossesItself) != 0u) set_inside(search.crossed_here, slot_of(traits), true);
+}
 
 // Rays enter and leave a shell in turn, so a surface that the path stands on is never met again.
-bool can_meet(uint traits, bool leaving, uint triangle) {
+bool can_meet(Search search, uint traits, bool leaving, uint triangle) {
     bool closed_shell = (traits & (kKindMask | kClosed)) == (kRefractiveKind | kClosed);
     bool crosses_itself = kCrossing && closed_shell && (traits & kCrossesItself) != 0u;
-    if (deciding) {
-        if (crosses_itself) return slot_of(traits) == decided_shell;
-        return decided_shell == kNoSlot && closed_shell && !is_in(decided, slot_of(traits));
+    if (search.deciding) {
+        if (crosses_itself) return slot_of(traits) == search.decided_shell;
+        return search.decided_shell == kNoSlot && closed_shell && !is_inside(search.decided, slot_of(traits));
     }
-    if (kTouching && looks_for == kFindShells && !closed_shell) return false;
-    if (kTouching && looks_for == kFindOpaque && (traits & kKindMask) != kOpaqueKind) return false;
+    if (kTouching && search.wanted == kFindShells && !closed_shell) return false;
+    if (kTouching && search.wanted == kFindOpaque && (traits & kKindMask) != kOpaqueKind) return false;
+    bool elsewhere = triangle != search.standing;
     if (kVolumes && proxy != kSharpInterfaces && (traits & kReplaced) != 0u)
-        return meets_replaced == kMeetAll || (meets_replaced == kMeetEntering && !leaving && triangle != standing);
-    if (crosses_itself) return triangle != standing && !is_in(crossed_here, slot_of(traits));
-    if (!closed_shell) return triangle != standing && !(leaving && (traits & kSingleSided) != 0u);
-    return inside_slot(slot_of(traits)) == (leaving != ((traits & kCavity) != 0u));
+        return search.replaced == kMeetAll || (search.replaced == kMeetEntering && !leaving && elsewhere);
+    if (crosses_itself) return elsewhere && !is_inside(search.crossed_here, slot_of(traits));
+    if (!closed_shell) return elsewhere && !(leaving && (traits & kSingleSided) != 0u);
+    return is_inside(search.media, slot_of(traits)) == (leaving != ((traits & kCavity) != 0u));
 }
 
 // Whether what fills the place is drawn by a volume.
@@ -66,61 +70,70 @@ bool in_replaced(uint body) { return kVolumes && body != kAir && (slots[body].ma
 #include "layers/object_walk.glsl"
 #include "layers/candidates.glsl"
 
-uint path_number;  // of the path that looks
+void begin_search(Media media, uint standing, uint pixel, out Search search) {
+    copy_media(media, search.media);
+    search.standing = standing;
+    search.pixel = pixel;
+    search.wanted = kFindAll;
+    search.replaced = kMeetNone;
+    clear_media(search.crossed_here);
+    search.deciding = false;
+    clear_media(search.decided);
+    search.decided_shell = kNoSlot;
+    search.limit = kFarthest;
+    search.visits = 0u;
+    search.most_visits = kMostVisits;
+    search.gave_up = false;
+    search.object_traits = search.first_triangle = 0u;
+}
 
 const float kApart = 16.0;  // coincidences along a ray, which may graze
 
-SurfaceHit find_next(vec3 origin, vec3 direction, float t_min, out float t_end, out bool gave_up, inout uint visits) {
+// The nearest surface beyond `t_min`, m; `t_end`: where what is known of the scene ends on the way.
+SurfaceHit find_next(vec3 origin, vec3 direction, float t_min, inout Search search, out float t_end) {
     t_end = kFarthest;
-    if (kFoundOnHost) {
-        gave_up = false;
-        return find_candidate(path_number, origin, direction, t_min);
-    }
-    return kMapPerMesh ? find_surface_among_objects(origin, direction, t_min, gave_up, visits)
-                       : find_surface(maps[0], origin, direction, t_min, t_end, gave_up, visits);
+    if (kFoundOnHost) return find_candidate(origin, direction, t_min, search);
+    if (kMapPerMesh) return find_surface_among_objects(origin, direction, t_min, search);
+    return find_surface(maps[0], origin, direction, t_min, search, t_end);
 }
 
-// What a shell that crosses itself winds around the start of a ray: all its surfaces on the way are counted.
-void find_winding(uint shell, vec3 origin, vec3 direction) {
-    decided_shell = shell;
+// Counts all surfaces of a shell that crosses itself which are on a ray: what it winds around the start.
+void find_winding(uint shell, vec3 origin, vec3 direction, Search search, inout Media media) {
+    search.decided_shell = shell;
+    search.visits = 0u;
     int winding = 0;
     float t = 0.0, t_end;
-    uint visits = 0u;
     for (bool more = true; more;) {
-        bool gave_up;
-        SurfaceHit hit = find_next(origin, direction, t, t_end, gave_up, visits);
+        SurfaceHit hit = find_next(origin, direction, t, search, t_end);
         more = hit.t < kFarthest && hit.t > t;
         if (more) winding += hit.leaving ? 1 : -1;
         t = hit.t;
     }
-    for (; winding > 0; --winding) step_across(kCrossesItself | shell << kSlotShift, false);
-    for (; winding < 0; ++winding) step_across(kCrossesItself | shell << kSlotShift, true);
-    decided_shell = kNoSlot;
+    for (; winding > 0; --winding) step_across(media, kCrossesItself | shell << kSlotShift, false);
+    for (; winding < 0; ++winding) step_across(media, kCrossesItself | shell << kSlotShift, true);
 }
 
-// Finds what a ray is inside of where it starts: of each slot, the first surface on its way says it.
-void find_media(vec3 origin, vec3 direction) {
-    for (uint w = 0u; w < kMediumWords; ++w) media[w] = decided[w] = 0u;
-    forget_crossed();
-    deciding = true;
-    uint visits = 0u;
+// What a ray is inside of where it starts: of each slot, the first surface on its way says it.
+void find_media(vec3 origin, vec3 direction, out Media media) {
+    clear_media(media);
+    Search search;
+    begin_search(media, PELLUCID_NO_TRIANGLE, 0u, search);
+    search.deciding = true;
     for (uint n = 0u; n < 32u * kMediumWords; ++n) {
         float t_end;
-        bool gave_up;
-        SurfaceHit hit = find_next(origin, direction, 0.0, t_end, gave_up, visits);
+        SurfaceHit hit = find_next(origin, direction, 0.0, search, t_end);
         if (hit.t == kFarthest) break;
         uint slot = slot_of(hit.traits);
-        decided[slot / 32u] |= 1u << slot % 32u;
-        set_inside(slot, hit.leaving != ((hit.traits & kCavity) != 0u));
+        set_inside(search.decided, slot, true);
+        set_inside(media, slot, hit.leaving != ((hit.traits & kCavity) != 0u));
     }
     if (kCrossing) {
         for (uint slot = 0u; slot < slots.length(); ++slot) {
             bool more = (slots[slot].medium & kSameShell) != 0u;
-            if (more) find_winding(slot, origin, direction);
+            if (more) find_winding(slot, origin, direction, search, media);
             while (more) more = (slots[++slot].medium & kSameShell) != 0u;
         }
     }
-    deciding = false;
 }
 
 #endif
