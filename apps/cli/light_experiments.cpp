@@ -137,6 +137,7 @@ void measure_glass(ExperimentRun& run, ExperimentPage& page) {
         LightSettings settings;
         settings.kept = variant.kept;
         settings.keep_folds = variant.folds;
+        settings.reflections = 0;
         nlohmann::ordered_json json, counted;
         const MeasuredLight light = measure(run, "wine glass, 128", variant.name, standing, settings, json);
         if (variant.kept == KeptLight::kBrightest) {
@@ -156,9 +157,26 @@ void measure_glass(ExperimentRun& run, ExperimentPage& page) {
     }
 }
 
+/// What it costs to follow the light that surfaces reflect.
+void measure_reflections(ExperimentRun& run) {
+    for (const std::string spec : {"smoothed-sphere,radius=1,resolution=128", "wine-glass,resolution=128"}) {
+        const bool ball = spec.starts_with("smoothed");
+        const Scene scene = lit_volume(spec, ball ? -1.4f : make_volume(spec).low.y + 0.04f);
+        for (const std::uint32_t reflections : {0u, 1u, 2u}) {
+            LightSettings settings;
+            settings.reflections = reflections;
+            nlohmann::ordered_json json;
+            measure(run, ball ? "ball, 128" : "wine glass, 128", fmt::format("sum, {} reflections", reflections), scene,
+                    settings, json);
+            run.runs.push_back(json);
+        }
+    }
+}
+
 void measure_lights(ExperimentRun& run, const ExperimentSpec&, ModelFolder&, ExperimentPage& page) {
     measure_ball(run, page);
     measure_glass(run, page);
+    measure_reflections(run);
 }
 
 }  // namespace

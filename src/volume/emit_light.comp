@@ -62,6 +62,7 @@ void main() {
     quad.unabsorbed = quad.power;
     quad.volume = PELLUCID_NO_VOLUME;
     quad.front = front;
+    quad.reflections = 0u;
     quad.coarse = false;
     quad.surface = vec4(0.0);
     if (!(max(quad.power.r, max(quad.power.g, quad.power.b)) > 0.0)) return;  // none of it heads there

@@ -21,6 +21,7 @@ layout(push_constant) uniform Push {
     float power_scale;      // fixed-point units per W
     float finest;           // share of its first power below which a patch is not split
     float weakest;          // below which it ends
+    uint reflections;       // one after another, that are followed
 };
 
 struct Quad {
@@ -30,6 +31,7 @@ struct Quad {
     vec3 unabsorbed;  // W, if nothing had been absorbed
     uint volume;      // that v belongs to
     uint front;
+    uint reflections; // that lie behind it
     bool coarse;      // a split has found no room
     vec4 surface;     // that it is in: LightPatch::surface
 };
@@ -45,6 +47,7 @@ Quad unpack_patch(LightPatch patch_) {
     uint tag = floatBitsToUint(patch_.position[3].w);
     quad.volume = tag & 0xffffu;
     quad.front = tag >> 16 & PELLUCID_MOST_FRONTS;
+    quad.reflections = tag >> 28 & PELLUCID_MOST_REFLECTIONS;
     quad.coarse = tag >> 31 != 0u;
     quad.surface = patch_.surface;
     return quad;
@@ -59,7 +62,8 @@ LightPatch pack_patch(Quad quad) {
     patch_.position[0].w = quad.power.r;
     patch_.position[1].w = quad.power.g;
     patch_.position[2].w = quad.power.b;
-    patch_.position[3].w = uintBitsToFloat(quad.volume | quad.front << 16 | (quad.coarse ? 1u << 31 : 0u));
+    patch_.position[3].w =
+        uintBitsToFloat(quad.volume | quad.front << 16 | quad.reflections << 28 | (quad.coarse ? 1u << 31 : 0u));
     patch_.direction[0].w = quad.unabsorbed.r;
     patch_.direction[1].w = quad.unabsorbed.g;
     patch_.direction[2].w = quad.unabsorbed.b;

@@ -13,9 +13,10 @@ using uint = std::uint32_t;
 // NOLINTEND(readability-identifier-naming)
 #endif
 
-// A patch's tag: which volume its v belongs to, its front, and whether a split has found no room.
+// A patch's tag: which volume its v belongs to, its front, reflections behind it, and whether a split has found no room.
 #define PELLUCID_NO_VOLUME 0xffffu
-#define PELLUCID_MOST_FRONTS 0x7fffu
+#define PELLUCID_MOST_FRONTS 0xfffu
+#define PELLUCID_MOST_REFLECTIONS 7u
 
 // Four corners of a piece of a wavefront, in order around it.
 struct LightPatch {

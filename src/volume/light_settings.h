@@ -30,7 +30,8 @@ struct LightSettings {
     float texel = 1.0f;                ///< of receivers' maps, smallest voxels
     float reach = 3.0f;                ///< of receivers, radii of the sphere around all volumes
     std::uint32_t most_texels = 1024;  ///< along a side of a receiver
-    bool fresnel = true;  ///< surfaces (Volume::boundary) take away what they reflect; reflected light is not followed
+    bool fresnel = true;            ///< surfaces (Volume::boundary) reflect
+    std::uint32_t reflections = 1;  ///< of light, one after another, that are followed, 0..7; others take it away
     bool tally = false;   ///< kBrightest: count what voxels get from several directions (lit_voxels on); traces twice
 };
 
@@ -40,13 +41,13 @@ struct LightStatistics {
     glm::dvec3 arrived{0.0};    ///< on receivers
     glm::dvec3 missed{0.0};     ///< left the volumes and met none
     glm::dvec3 absorbed{0.0};   ///< or scattered
-    glm::dvec3 reflected{0.0};  ///< lost at surfaces
+    glm::dvec3 reflected{0.0};  ///< at surfaces, and not followed
     glm::dvec3 turned{0.0};     ///< dropped at folds
     glm::dvec3 weak{0.0};       ///< dropped as too weak
     glm::dvec3 left{0.0};       ///< still on its way when the rounds ended
     std::uint32_t patches = 0;  ///< most at once
     std::uint32_t splits = 0, rounds = 0;
-    std::uint32_t refused = 0;       ///< splits for which there was no room: the light is coarser there
+    std::uint32_t refused = 0;       ///< splits and reflections for which there was no room
     std::uint32_t patches_left = 0;  ///< when the rounds ended
     bool coarsened = false;          ///< for want of room patches began larger than `span`
     bool coarse_voxels = false;      ///< for want of room voxels of light are larger than those of their volume

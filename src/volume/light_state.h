@@ -18,7 +18,7 @@ using uint = std::uint32_t;
 #define PELLUCID_LIGHT_TURNED 4u     // dropped at a fold
 #define PELLUCID_LIGHT_WEAK 5u       // dropped as too weak
 #define PELLUCID_LIGHT_LEFT 6u       // still on its way when the rounds ended
-#define PELLUCID_LIGHT_REFLECTED 7u  // lost to reflection (Fresnel) at surfaces
+#define PELLUCID_LIGHT_REFLECTED 7u  // by surfaces (Fresnel), and not followed
 #define PELLUCID_LIGHT_FATES 8u
 
 struct LightState {
@@ -28,7 +28,7 @@ struct LightState {
     uint landed, landing;                       // patches to be put on receivers: appended; in this round
     uint peak;                                  // most patches at once
     uint rounds;                                // that had patches
-    uint refused;                               // splits that found no room
+    uint refused;                               // splits and reflections that found no room
     uint left;                                  // patches on their way when the rounds ended
     uint splits;
     uint reserved;

@@ -26,6 +26,8 @@ layout(set = 0, binding = 2) uniform texture3D volume_scattering;
 #include "optics/interface.glsl"
 #include "volume/smoothed_surface.glsl"
 #include "volume/light_surface.glsl"
+#include "volume/light_corner.glsl"
+#include "volume/mirror_light.glsl"
 
 layout(std430, set = 0, binding = 3) readonly buffer Volumes { VolumeRecord volumes[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Placements { LightPlacement placements[]; };
@@ -36,8 +38,6 @@ layout(std430, set = 0, binding = 7) buffer State { LightState state; };
 layout(std430, set = 0, binding = 8) readonly buffer PatchesIn { LightPatch patches_in[]; };
 layout(std430, set = 0, binding = 9) writeonly buffer PatchesOut { LightPatch patches_out[]; };
 layout(std430, set = 0, binding = 10) writeonly buffer Landed { LightPatch landed[]; };
-
-vec3 middle(vec3 corners[4]) { return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]); }
 
 // What a patch leaves in the voxels that it passes in one step.
 struct PassingLight {

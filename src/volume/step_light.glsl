@@ -7,11 +7,6 @@
 void keep_patch(Quad quad) { patches_out[atomicAdd(state.kept, 1u)] = pack_patch(quad); }
 void land_patch(Quad quad) { landed[atomicAdd(state.landed, 1u)] = pack_patch(quad); }
 
-// v of the middle: its length is n.
-vec3 mean_v(vec3 v[4]) {
-    return normalize(middle(v)) * 0.25 * (length(v[0]) + length(v[1]) + length(v[2]) + length(v[3]));
-}
-
 // The smallest volume that the middle of the patch is in, or else any of its corners.
 uint volume_of(Quad quad) {
     vec3 centre = middle(quad.x);
@@ -59,18 +54,6 @@ void jump(Quad quad) {
     keep_patch(quad);
 }
 
-// A step of equal optical time h of one corner: half a step straight on, the turn, half a step (leapfrog; second order,
-// one look at the index). Outside the box n is 1.
-void step_corner(inout vec3 x, inout vec3 v, float h) {
-    bool was_inside = in_box(x, volume_size);
-    vec3 half_way = x + 0.5 * h * v / dot(v, v);
-    vec4 field = index_field(half_way);
-    if (in_box(half_way, volume_size)) v += h * field.xyz / field.w;
-    x = half_way + 0.5 * h * v / dot(v, v);
-    bool is_inside = in_box(x, volume_size);
-    if (was_inside != is_inside) v = normalize(v) * (is_inside ? field.w : 1.0);
-}
-
 bool meets_receiver(vec3 from, vec3 to, VolumeRecord volume) {
     bool met = false;
     vec3 a = (volume.world_from_voxel * vec4(from, 1.0)).xyz, b = (volume.world_from_voxel * vec4(to, 1.0)).xyz;
@@ -82,30 +65,53 @@ bool meets_receiver(vec3 from, vec3 to, VolumeRecord volume) {
     return met;
 }
 
-void split(Quad quad, bool along_side) {
+// Adds a patch to those of this round; false if there is no room.
+bool add_patch(Quad quad) {
     // Room for one more than there are is what the patches of this round leave.
     uint room = capacity - (state.in_kept + state.in_extra);
     uint slot = atomicAdd(state.extra, 1u);
-    if (slot >= room) {
+    if (slot < room)
+        patches_out[capacity - 1u - slot] = pack_patch(quad);
+    else
         atomicAdd(state.refused, 1u);
-        quad.coarse = true;
-        keep_patch(quad);
-        return;
-    }
-    atomicAdd(state.splits, 1u);
-    quad.power *= 0.5;
-    quad.unabsorbed *= 0.5;
+    return slot < room;
+}
+
+void split(Quad quad, bool along_side) {
+    Quad first = quad, second = quad;
+    first.power = second.power = 0.5 * quad.power;
+    first.unabsorbed = second.unabsorbed = 0.5 * quad.unabsorbed;
     // Corners 0 1 / 3 2: the edges that are cut.
     int a0 = 0, a1 = along_side ? 1 : 3, b0 = along_side ? 3 : 1, b1 = 2;
     vec3 xa = 0.5 * (quad.x[a0] + quad.x[a1]), xb = 0.5 * (quad.x[b0] + quad.x[b1]);
     vec3 va = 0.5 * (quad.v[a0] + quad.v[a1]), vb = 0.5 * (quad.v[b0] + quad.v[b1]);
     va *= 0.5 * (length(quad.v[a0]) + length(quad.v[a1])) / max(length(va), 1e-6);
     vb *= 0.5 * (length(quad.v[b0]) + length(quad.v[b1])) / max(length(vb), 1e-6);
-    Quad first = quad, second = quad;
     first.x[a1] = xa, first.v[a1] = va, first.x[b1] = xb, first.v[b1] = vb;
     second.x[a0] = xa, second.v[a0] = va, second.x[b0] = xb, second.v[b0] = vb;
-    keep_patch(first);
-    patches_out[capacity - 1u - slot] = pack_patch(second);
+    if (add_patch(second)) {
+        atomicAdd(state.splits, 1u);
+        keep_patch(first);
+    } else {
+        quad.coarse = true;
+        keep_patch(quad);
+    }
+}
+
+void into_world(VolumeRecord volume, inout Quad quad) {
+    for (int k = 0; k < 4; ++k) {
+        quad.x[k] = (volume.world_from_voxel * vec4(quad.x[k], 1.0)).xyz;
+        quad.v[k] = mat3(volume.world_from_voxel) * quad.v[k] / volume.voxel;
+    }
+}
+
+// Of a patch behind a surface: what the surface has reflected goes on by itself, or is counted.
+void reflect_patch(VolumeRecord volume, Quad quad, vec3 power) {
+    quad.power = power;
+    quad.unabsorbed = power;
+    bool follows = mirror_patch(quad);
+    into_world(volume, quad);
+    if (!follows || !add_patch(quad)) add_power(PELLUCID_LIGHT_REFLECTED, power);
 }
 
 void main() {
@@ -134,6 +140,7 @@ void main() {
     quad.coarse = false;
 
     bool going = true, wants_split = false, along_side = false, lands = false, turned = false, weak = false;
+    vec3 mirrored = vec3(0.0);  // power that goes on as a patch of its own
     for (uint s = 0u; s < steps_per_round && going; ++s) {
         float side = max(distance(quad.x[0], quad.x[1]), distance(quad.x[3], quad.x[2]));
         float up = max(distance(quad.x[0], quad.x[3]), distance(quad.x[1], quad.x[2]));
@@ -177,7 +184,11 @@ void main() {
                 vec3 reflected = quad.power * crossed_surface(quad.surface, absorption.a, in_box(to, volume_size), from, v_before, to, mean_v(v));
                 quad.power -= reflected;
                 quad.unabsorbed -= reflected;
-                add_power(PELLUCID_LIGHT_REFLECTED, reflected);
+                float most_reflected = max(reflected.r, max(reflected.g, reflected.b));
+                if (quad.reflections < reflections && most_reflected >= weakest * first_power && most_reflected > 0.0)
+                    mirrored = reflected;
+                else
+                    add_power(PELLUCID_LIGHT_REFLECTED, reflected);
             }
         }
         keep_light(volume, placement,
@@ -187,7 +198,7 @@ void main() {
         weak = max(quad.power.r, max(quad.power.g, quad.power.b)) < weakest * first_power;
         bool outside = !in_box(to, volume_size);
         for (int k = 0; k < 4; ++k) outside = outside && !in_box(x[k], volume_size);
-        going = !turned && !weak && !outside;
+        going = !turned && !weak && !outside && mirrored == vec3(0.0);
         if (kOverlapping) {
             for (uint j = 0u; j < own; ++j) {
                 vec3 world = (volume.world_from_voxel * vec4(to, 1.0)).xyz;
@@ -195,10 +206,10 @@ void main() {
             }
         }
     }
-    for (int k = 0; k < 4; ++k) {
-        quad.x[k] = (volume.world_from_voxel * vec4(quad.x[k], 1.0)).xyz;
-        quad.v[k] = mat3(volume.world_from_voxel) * quad.v[k] / volume.voxel;
+    if (kBoundary) {
+        if (mirrored != vec3(0.0)) reflect_patch(volume, quad, mirrored);
     }
+    into_world(volume, quad);
     if (turned)
         end_patch(quad, PELLUCID_LIGHT_TURNED);
     else if (weak)

@@ -53,6 +53,7 @@ struct LightPush {
     std::uint32_t steps_per_round;
     float power_scale;
     float finest, weakest;
+    std::uint32_t reflections;
 };
 struct ReceiverPush {
     std::uint32_t own;
@@ -85,8 +86,9 @@ std::string key_of(const Scene& scene, const LightSettings& s, std::uint64_t mov
     std::string key;
     append(key, moves);
     for (const float value : {s.step, s.span, s.finest, s.weakest, s.least_area, s.texel, s.reach}) append(key, value);
-    for (const std::uint32_t value : {s.capacity, s.steps_per_round, s.rounds, s.most_texels,
-                                      std::uint32_t(s.keep_folds), std::uint32_t(s.fresnel), std::uint32_t(s.tally)})
+    for (const std::uint32_t value :
+         {s.capacity, s.steps_per_round, s.rounds, s.most_texels, std::uint32_t(s.keep_folds), std::uint32_t(s.fresnel),
+          s.reflections, std::uint32_t(s.tally)})
         append(key, value);
     for (const Light& light : scene.lights) {
         append(key, light.kind);
@@ -110,8 +112,8 @@ std::vector<std::string> LightStatistics::warnings() const {
     std::vector<std::string> lines;
     if (refused > 0)
         lines.push_back(
-            fmt::format("light: {} splits of patches found no room (at most {} at once): light is coarser "
-                        "than asked for; raise the capacity",
+            fmt::format("light: {} splits and reflections of patches found no room (at most {} at once): light is "
+                        "coarser than asked for, or lost at surfaces; raise the capacity",
                         refused, patches));
     if (coarsened) lines.push_back("light: patches began larger than asked for, for want of room; raise the capacity");
     if (coarse_voxels) lines.push_back("light: kept in larger voxels than those of the volumes, for want of room");
@@ -179,18 +181,18 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
 
     double voxels_across = 0.0;
     for (const VolumeRecord& record : records_) voxels_across += double(glm::length(record.size));
-    const double steps = 1.5 * kGuessedIndex * voxels_across / double(settings.step);
+    const double steps = (1.5 + settings.reflections) * kGuessedIndex * voxels_across / double(settings.step);
     const int exponent = kPowerBits - int(std::ceil(std::log2(std::max(front_list_.most_power, 1e-30))));
-    const auto tracing = std::make_shared<Tracing>(
-        Tracing{.key = key,
-                .settings = settings,
-                .lights = scene.lights,
-                .push = {capacity, volumes.count, std::uint32_t(light_.receiver_list.size()), 0, settings.step,
-                         settings.span, settings.least_area, settings.steps_per_round,
-                         std::ldexp(1.0f, std::min(exponent, 120)), settings.finest, settings.weakest},
-                .rounds = settings.rounds > 0 ? settings.rounds
-                                              : std::uint32_t(steps / std::max(1u, settings.steps_per_round)) + 48,
-                .overlapping = volumes.overlapping});
+    const auto tracing = std::make_shared<Tracing>(Tracing{
+        .key = key,
+        .settings = settings,
+        .lights = scene.lights,
+        .push = {capacity, volumes.count, std::uint32_t(light_.receiver_list.size()), 0, settings.step, settings.span,
+                 settings.least_area, settings.steps_per_round, std::ldexp(1.0f, std::min(exponent, 120)),
+                 settings.finest, settings.weakest, std::min(settings.reflections, PELLUCID_MOST_REFLECTIONS)},
+        .rounds =
+            settings.rounds > 0 ? settings.rounds : std::uint32_t(steps / std::max(1u, settings.steps_per_round)) + 48,
+        .overlapping = volumes.overlapping});
 
     recorder.fill(voxel_light_, 0);
     recorder.fill(tally_, 0);

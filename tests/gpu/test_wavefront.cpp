@@ -2,12 +2,8 @@
 #include "optics/index_fields.h"
 #include "optics/phase.h"
 #include "reference/ball_photons.h"
-#include "volume/upload_volumes.h"
-#include "volume/wavefront.h"
 
-#include <pellucid/scene.h>
-
-#include "gpu/device_test.h"
+#include "gpu/wavefront_test.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
@@ -17,136 +13,9 @@
 namespace pellucid::test {
 namespace {
 
-void place(Scene& scene, Volume volume, glm::mat4 world_from_volume = glm::mat4(1.0f)) {
-    VolumeObject object;
-    object.volume = int(scene.volumes.size());
-    object.world_from_volume = world_from_volume;
-    scene.volumes.push_back(std::make_shared<const Volume>(std::move(volume)));
-    scene.volume_objects.push_back(object);
-}
-
-/// A cube of one medium around the origin.
-Volume block(unsigned resolution, float edge, float n, glm::vec3 sigma_a) {
-    Volume volume;
-    volume.name = "block";
-    volume.size = glm::uvec3(resolution);
-    volume.voxel = edge / float(resolution);
-    volume.low = glm::vec3(-0.5f * edge);
-    volume.n.assign(volume.voxel_count(), n);
-    if (sigma_a != glm::vec3(0.0f)) volume.sigma_a.assign(volume.voxel_count(), sigma_a);
-    return volume;
-}
-
-/// An opaque rectangle around `center`; side and up span it.
-void add_plane(Scene& scene, glm::vec3 center, glm::vec3 half_side, glm::vec3 half_up) {
-    if (scene.materials.empty()) scene.materials.emplace_back();
-    Mesh mesh;
-    mesh.positions = {center - half_side - half_up, center + half_side - half_up, center + half_side + half_up,
-                      center - half_side + half_up};
-    mesh.normals.assign(4, glm::normalize(glm::cross(half_side, half_up)));
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    Object object;
-    object.mesh = int(scene.meshes.size());
-    scene.meshes.push_back(mesh);
-    scene.objects.push_back(object);
-}
-
-/// Six of them, around the cube of that half edge.
-void enclose(Scene& scene, float half) {
-    for (int axis = 0; axis < 3; ++axis)
-        for (const float sign : {-1.0f, 1.0f}) {
-            glm::vec3 center(0.0f), side(0.0f), up(0.0f);
-            center[axis] = sign * half;
-            side[(axis + 1) % 3] = half;
-            up[(axis + 2) % 3] = half;
-            add_plane(scene, center, side, up);
-        }
-}
-
-Light directional(glm::vec3 direction, glm::vec3 irradiance = glm::vec3(1.0f)) {
-    Light light;
-    light.kind = Light::Kind::kDirectional;
-    light.direction = glm::normalize(direction);
-    light.intensity = irradiance;
-    return light;
-}
-
-Light point(glm::vec3 position, glm::vec3 intensity = glm::vec3(1.0f)) {
-    Light light;
-    light.position = position;
-    light.intensity = intensity;
-    return light;
-}
-
 constexpr std::uint32_t kLookupShader[] = {
 #include "light_lookup_twin.comp.inc"
 };
-
-LightSettings without_reflection() {
-    LightSettings settings;
-    settings.fresnel = false;
-    return settings;
-}
-
-class Wavefront : public DeviceTest {
-protected:
-    void SetUp() override {
-        DeviceTest::SetUp();
-        if (IsSkipped()) return;
-        tracer_.emplace(device());
-    }
-    const LightStatistics& trace(const Scene& scene, const LightSettings& settings = {}) {
-        volumes_.emplace(upload_volumes(device(), scene));
-        EXPECT_TRUE(tracer_->update(recorder(), workspace(), scene, *volumes_, settings));
-        time_ms_ = recorder().submit_and_wait().at(0).time_ms;
-        return tracer_->statistics();
-    }
-    double time_ms() const { return time_ms_; }
-    WavefrontTracer& tracer() { return *tracer_; }
-    const VolumeImages& volumes() { return *volumes_; }
-
-    /// Irradiance of all receivers' texels.
-    std::vector<glm::vec4> receiver_light() {
-        const Buffer& source = tracer().light().receiver_light;
-        const Buffer& copy = workspace().buffer("copy of receivers", source.size(), true);
-        recorder().copy(source, copy, source.size());
-        recorder().submit_and_wait();
-        std::vector<glm::vec4> texels = read_back<glm::vec4>(copy);
-        texels.resize(texels.size() / 2);  // the second half is the light without volumes
-        return texels;
-    }
-    /// Power in the maps of all receivers.
-    glm::dvec3 power_on_receivers() {
-        const std::vector<glm::vec4> texels = receiver_light();
-        glm::dvec3 sum(0.0);
-        std::size_t i = 0;
-        for (const gpu::LightReceiver& receiver : tracer().light().receiver_list) {
-            const double area = double(receiver.corner.w) * double(receiver.corner.w);
-            for (int k = 0; k < int(receiver.side.w) * int(receiver.up.w); ++k) sum += area * glm::dvec3(texels[i++]);
-        }
-        return sum;
-    }
-    /// Irradiance in the voxels of the one placement there is.
-    std::vector<glm::vec4> voxel_light() {
-        const std::vector<std::byte> bytes = download_box(device(), tracer().light().irradiance);
-        std::vector<glm::vec4> values(bytes.size() / sizeof(glm::vec4));
-        std::memcpy(values.data(), bytes.data(), bytes.size());
-        return values;
-    }
-
-private:
-    std::optional<WavefrontTracer> tracer_;
-    std::optional<VolumeImages> volumes_;
-    double time_ms_ = 0.0;
-};
-
-void print(const char* what, const LightStatistics& s) {
-    std::printf(
-        "%s: emitted %.5f arrived %.5f missed %.5f absorbed %.5f reflected %.5f turned %.5f weak %.5f left %.5f; "
-        "%u patches, %u splits, %u rounds, %u refused, %u left\n",
-        what, s.emitted.x, s.arrived.x, s.missed.x, s.absorbed.x, s.reflected.x, s.turned.x, s.weak.x, s.left.x,
-        s.patches, s.splits, s.rounds, s.refused, s.patches_left);
-}
 
 // 1%: the bar for power. What is emitted is known beforehand, so that neither side is the tracer's own word.
 TEST_F(Wavefront, PowerOnEnclosingPlanesIsThePowerEmitted) {
@@ -482,32 +351,6 @@ TEST_F(Wavefront, VoxelsKnowTheWayOfTheLightInTheirFrame) {
         EXPECT_GT(full, light.size() * 9 / 10);
         EXPECT_NEAR(total / double(light.size()), 1.0, 0.01);
     }
-}
-
-TEST_F(Wavefront, SurfacesTakeAwayWhatTheyReflect) {
-    // A slab whose surfaces are 0.7 voxels wide, out through the sides of the box.
-    Scene scene;
-    Volume slab = block(48, 1.5f, 1.0f, glm::vec3(0.0f));
-    slab.boundary.resize(slab.voxel_count());
-    const float sigma = 0.7f * slab.voxel;
-    for (std::size_t i = 0; i < slab.voxel_count(); ++i) {
-        const float y = slab.low.y + (float(i / 48 % 48) + 0.5f) * slab.voxel, off = std::abs(y) - 0.4f;
-        slab.n[i] = 1.0f + 0.5f * smoothed_inside(off, sigma);
-        slab.boundary[i] = std::exp(-0.5f * off * off / (sigma * sigma));
-    }
-    place(scene, slab);
-    add_plane(scene, {0.0f, -2.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f});
-    scene.lights = {directional({0.0f, -1.0f, 0.0f})};
-    trace(scene);
-    print("slab", tracer().statistics());
-    // Twice 4% at normal incidence, within the bar of view rays.
-    const double expected = 1.5 * 1.5 * 0.96 * 0.96;
-    EXPECT_NEAR(power_on_receivers().x, expected, 0.005 * expected);
-    EXPECT_NEAR(tracer().statistics().reflected.x, 1.5 * 1.5 - expected, 0.005 * expected);
-    scene.lights = {directional({0.5f, -1.0f, 0.0f})};
-    trace(scene);
-    const LightStatistics& s = tracer().statistics();
-    EXPECT_NEAR(s.reflected.x + s.arrived.x + s.missed.x + s.left.x, s.emitted.x, 1e-4);
 }
 
 // Every colour goes its own way: as through a volume of that colour's index alone. What differs are last digits.

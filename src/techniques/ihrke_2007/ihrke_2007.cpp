@@ -52,6 +52,8 @@ constexpr std::array kOwnParameters = {
         "folds", "", 1, 0, 1, true,
         "1: light goes on past a focus; 0: a piece of a wavefront that has turned over ends, as in the paper"},
     ParameterInfo{"light-step", "voxels", 0.5, 0.01, 8, false, "optical length of a step of light"},
+    ParameterInfo{"reflected-light", "", 1, 0, 7, true,
+                  "reflections of light in surfaces of volumes, one after another, that are followed"},
     ParameterInfo{"light-slices", "frames", 1, 1, 1000, true,
                   "over which a light that moves is traced; until the last of them the light before is shown"},
     ParameterInfo{"patches", "", 262144, 64, 16777216, true, "pieces of wavefronts at once, at most"},
@@ -167,7 +169,8 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
                              .step = float(parameters["light-step"]),
                              .keep_folds = parameters["folds"] != 0.0,
                              .capacity = parameters.whole("patches"),
-                             .slices = parameters.whole("light-slices")});
+                             .slices = parameters.whole("light-slices"),
+                             .reflections = parameters.whole("reflected-light")});
     const SurfaceMap map = layers.source.map_meshes(recorder, frame, parameters.whole("map-resolution"));
     const Volumes volumes(scene_volumes, parameters);
     return follow_paths(recorder, frame, layers, map, parameters, &volumes);
