@@ -240,9 +240,11 @@ void add_render_command(CLI::App& app) {
         ->capture_default_str()
         ->type_name("CD/M2");
     command
-        ->add_option("--view", a.view,
-                     "radiance, or analysis: red up to two interfaces, blue more, green total internal "
-                     "reflection, grey where the technique gave up")
+        ->add_option(
+            "--view", a.view,
+            "radiance, or analysis: red up to two interfaces, blue more, green total internal "
+            "reflection, grey where the technique gave up; or wavefront: light in volumes, by irradiance in W/m2 "
+            "times the exposure, dark blue 1/16, white 1, red 16")
         ->capture_default_str()
         ->type_name("NAME");
     command

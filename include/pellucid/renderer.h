@@ -29,6 +29,10 @@ enum class View {
     /// Interfaces on each path (Wang 2014, figure 4.5): red up to two, blue more, green total internal
     /// reflection; grey where the technique gave up (status other than ok).
     kAnalysis,
+    /// Wavefronts of light at equal optical lengths, coloured by their irradiance in W/m2, times 2^exposure_ev, on a
+    /// logarithmic scale: 1/16 dark blue, 1/4 blue, 1 white, 4 orange, 16 and more red; fainter light is not shown. Over a
+    /// dim picture of the scene. Needs a technique that traces them (ihrke-2007), lights and volumes.
+    kWavefront,
 };
 
 /// How layers are gathered. All give the same layers; kCompute but for pixels whose centres lie on an edge to within
@@ -91,7 +95,7 @@ struct PassTime {
 };
 
 struct RenderResult {
-    Image radiance;  ///< RGB, scene-linear, before exposure; the analysis view's colours in kAnalysis
+    Image radiance;  ///< RGB, scene-linear, before exposure; the colours of other views in these
     Image display;   ///< RGB, 0..1, tone mapped and sRGB-encoded
     std::map<std::string, Image, std::less<>> aovs;
     std::vector<RefractedPath> paths;  ///< if asked for: one per pixel, through its centre, rows from the top

@@ -5,6 +5,8 @@
 
 #include <pellucid/reference.h>
 
+#include <optional>
+
 namespace pellucid {
 
 /// What a technique that traces on the CPU looks at.
@@ -24,8 +26,9 @@ struct Frame {
     const GpuImage& filtered_environment;  ///< see gpu/environment_images.h; what stands in for it if !scene.rough
     std::uint32_t environment_kind;        ///< pellucid::Environment::Kind
     vk::Extent2D extent;
-    std::uint32_t samples = 1;           ///< of the picture that this frame is one of
-    const TracedView* traced = nullptr;  ///< for techniques that trace on the CPU; null for others
+    std::uint32_t samples = 1;            ///< of the picture that this frame is one of
+    std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
+    const TracedView* traced = nullptr;   ///< for techniques that trace on the CPU; null for others
 };
 
 }  // namespace pellucid

@@ -11,6 +11,7 @@ FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSett
     const Refraction refraction = settings.technique.record(recorder, frame, layers, settings.parameters);
     const ThinWalls walls = draw_thin_walls(recorder, frame, opaque, layers);
     const GpuImage& radiance = shade(recorder, frame, opaque, layers, walls, refraction, settings.view);
+    if (frame.front_exposure) settings.technique.draw_light(recorder, frame, opaque, radiance);
     return {layers, refraction, radiance};
 }
 

@@ -144,7 +144,8 @@ struct Renderer::Impl {
     }
     /// Display values of `scale * radiance`.
     const GpuImage& display(const Frame& frame, const GpuImage& radiance, float scale, const RenderSettings& settings) {
-        const float exposure = std::exp2(settings.exposure_ev);
+        // What shows wavefronts is exposed already.
+        const float exposure = settings.view == View::kWavefront ? 1.0f : std::exp2(settings.exposure_ev);
         if (settings.tonemap != ToneMap::kKrawczyk)
             return tonemap(recorder, frame, radiance, scale * exposure, settings.tonemap);
         return adaptation.tonemap(recorder, frame, radiance,
@@ -182,6 +183,11 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
     ParameterMap parameters = settings.parameters;
     parameters.merge(choice.parameters);  // what is there already stays
     FrameSettings chosen{technique_of(info), ParameterValues(info, parameters), settings.layer_builder, settings.view};
+    if (settings.view == View::kWavefront) {
+        if (chosen.technique.draw_light == nullptr)
+            throw Error(fmt::format("view wavefront: {} traces no wavefronts of light; ihrke-2007 does", info.name));
+        if (cpu.scene().lights.empty()) throw Error("view wavefront: the scene has no lights");
+    }
     if (chosen.layer_builder == LayerBuilder::kAutomatic)
         chosen.layer_builder = device.is_cpu() ? LayerBuilder::kCompute : LayerBuilder::kSinglePass;
     if (chosen.layer_builder == LayerBuilder::kSinglePass && !device.fragment_atomics()) {
@@ -362,13 +368,14 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
     impl.prepare(chosen, impl.camera_for(settings), settings.progress, result.warnings);
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
-    const Frame frame{impl.workspace,
-                      *impl.scene,
-                      *impl.constants,
-                      *impl.environment_map,
-                      impl.filtered_environment_for_scene(),
-                      std::uint32_t(impl.environment.kind),
-                      {settings.width, settings.height}};
+    Frame frame{impl.workspace,
+                *impl.scene,
+                *impl.constants,
+                *impl.environment_map,
+                impl.filtered_environment_for_scene(),
+                std::uint32_t(impl.environment.kind),
+                {settings.width, settings.height}};
+    if (settings.view == View::kWavefront) frame.front_exposure = std::exp2(settings.exposure_ev);
     impl.workspace.trim();
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {

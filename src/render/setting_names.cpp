@@ -27,7 +27,9 @@ Enum parse_name(std::string_view what, std::string_view name,
 }  // namespace
 
 View parse_view(std::string_view name) {
-    return parse_name<View, 2>("view", name, {{{"radiance", View::kRadiance}, {"analysis", View::kAnalysis}}});
+    return parse_name<View, 3>(
+        "view", name,
+        {{{"radiance", View::kRadiance}, {"analysis", View::kAnalysis}, {"wavefront", View::kWavefront}}});
 }
 
 LayerBuilder parse_layer_builder(std::string_view name) {

@@ -84,6 +84,10 @@ struct Technique {
     /// `layers` are of all solids together.
     Refraction (*record)(Recorder& recorder, const Frame& frame, const Layers& layers,
                          const ParameterValues& parameters);
+    /// View::kWavefront: draws the wavefronts of light over `radiance` (RGBA32F), where the scene has been shaded. Null: the
+    /// technique traces none. Throws Error if there are none in this scene.
+    void (*draw_light)(Recorder& recorder, const Frame& frame, const Opaque& opaque,
+                       const GpuImage& radiance) = nullptr;
     /// The picture of a technique that shades its own paths, which shade() then does not do. Null: none.
     PathTracedImage (*trace_picture)(const TracedView& view, const Environment& environment, vk::Extent2D extent,
                                      std::uint32_t samples, const ParameterValues& parameters) = nullptr;

@@ -64,6 +64,7 @@ void main() {
     quad.front = front;
     quad.reflections = 0u;
     quad.coarse = false;
+    quad.optical = directional ? 0.0 : own.position.w;
     quad.surface = vec4(0.0);
     if (!(max(quad.power.r, max(quad.power.g, quad.power.b)) > 0.0)) return;  // none of it heads there
     add_power(PELLUCID_LIGHT_EMITTED, quad.power);

@@ -22,6 +22,7 @@ layout(push_constant) uniform Push {
     float finest;           // share of its first power below which a patch is not split
     float weakest;          // below which it ends
     uint reflections;       // one after another, that are followed
+    float shown_spacing;    // optical length between wavefronts that are shown, m
 };
 
 struct Quad {
@@ -33,6 +34,7 @@ struct Quad {
     uint front;
     uint reflections; // that lie behind it
     bool coarse;      // a split has found no room
+    float optical;    // length since the light, m
     vec4 surface;     // that it is in: LightPatch::surface
 };
 
@@ -49,6 +51,7 @@ Quad unpack_patch(LightPatch patch_) {
     quad.front = tag >> 16 & PELLUCID_MOST_FRONTS;
     quad.reflections = tag >> 28 & PELLUCID_MOST_REFLECTIONS;
     quad.coarse = tag >> 31 != 0u;
+    quad.optical = patch_.direction[3].w;
     quad.surface = patch_.surface;
     return quad;
 }
@@ -67,7 +70,7 @@ LightPatch pack_patch(Quad quad) {
     patch_.direction[0].w = quad.unabsorbed.r;
     patch_.direction[1].w = quad.unabsorbed.g;
     patch_.direction[2].w = quad.unabsorbed.b;
-    patch_.direction[3].w = 0.0;
+    patch_.direction[3].w = quad.optical;
     patch_.surface = quad.surface;
     return patch_;
 }

@@ -21,8 +21,14 @@ using uint = std::uint32_t;
 // Four corners of a piece of a wavefront, in order around it.
 struct LightPatch {
     vec4 position[4];   // xyz: world, m. w: power, W (three colours); last: bits of the tag
-    vec4 direction[4];  // xyz: v, n times the unit direction, world. w: power if nothing had been absorbed
+    // xyz: v, n times the unit direction, world. w: power if nothing had been absorbed; last: optical length, m
+    vec4 direction[4];
     vec4 surface;       // that it is in: way before it, packed; 0: none; n before it; highest and lowest of its field
+};
+
+// A patch that View::kWavefront shows.
+struct ShownPatch {
+    vec4 position[4];  // xyz: world, m. w: irradiance, W/m2 (three colours); last: unused
 };
 
 // A grid of patches that a light emits towards the box of one volume.
@@ -55,6 +61,7 @@ struct LightPlacement {
 
 #ifdef __cplusplus
 static_assert(sizeof(LightPatch) == 144);
+static_assert(sizeof(ShownPatch) == 64);
 static_assert(sizeof(LightFront) == 112);
 static_assert(sizeof(LightReceiver) == 64);
 static_assert(sizeof(LightPlacement) == 32);

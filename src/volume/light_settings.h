@@ -25,14 +25,17 @@ struct LightSettings {
     bool keep_folds = true;    ///< false: a patch that has turned over ends there, as in the paper
     std::uint32_t capacity = 1u << 18;   ///< patches at once; at most what a storage buffer holds
     std::uint32_t steps_per_round = 16;  ///< of a patch before lists are compacted
-    std::uint32_t slices = 1;  ///< updates over which a light that moves is traced; until the last the one before is shown
+    std::uint32_t slices =
+        1;  ///< updates over which a light that moves is traced; until the last the one before is shown
     std::uint32_t rounds = 0;          ///< at most; 0: as many as light needs to cross all volumes one and a half times
     float texel = 1.0f;                ///< of receivers' maps, smallest voxels
     float reach = 3.0f;                ///< of receivers, radii of the sphere around all volumes
     std::uint32_t most_texels = 1024;  ///< along a side of a receiver
-    bool fresnel = true;            ///< surfaces (Volume::boundary) reflect
-    std::uint32_t reflections = 1;  ///< of light, one after another, that are followed, 0..7; others take it away
-    bool tally = false;   ///< kBrightest: count what voxels get from several directions (lit_voxels on); traces twice
+    bool fresnel = true;               ///< surfaces (Volume::boundary) reflect
+    std::uint32_t reflections = 1;     ///< of light, one after another, that are followed, 0..7; others take it away
+    float shown_spacing =
+        0.0f;            ///< optical length between the wavefronts of View::kWavefront, smallest voxels; 0: none
+    bool tally = false;  ///< kBrightest: count what voxels get from several directions (lit_voxels on); traces twice
 };
 
 /// What became of the light. Power in W, three colours.
@@ -47,13 +50,14 @@ struct LightStatistics {
     glm::dvec3 left{0.0};       ///< still on its way when the rounds ended
     std::uint32_t patches = 0;  ///< most at once
     std::uint32_t splits = 0, rounds = 0;
-    std::uint32_t refused = 0;       ///< splits and reflections for which there was no room
-    std::uint32_t patches_left = 0;  ///< when the rounds ended
-    bool coarsened = false;          ///< for want of room patches began larger than `span`
-    bool coarse_voxels = false;      ///< for want of room voxels of light are larger than those of their volume
-    std::uint64_t lit_voxels = 0;    ///< tally: voxels with light, of them
-    std::uint64_t multi_voxels = 0;  ///< those in which over 1% comes from other directions than the brightest
-    double main_share = 1.0;         ///< in them: share of what they get that comes within 15 degrees of the brightest
+    std::uint32_t refused = 0;               ///< splits and reflections for which there was no room
+    std::uint32_t shown = 0, not_shown = 0;  ///< patches for View::kWavefront: kept, and without room
+    std::uint32_t patches_left = 0;          ///< when the rounds ended
+    bool coarsened = false;                  ///< for want of room patches began larger than `span`
+    bool coarse_voxels = false;              ///< for want of room voxels of light are larger than those of their volume
+    std::uint64_t lit_voxels = 0;            ///< tally: voxels with light, of them
+    std::uint64_t multi_voxels = 0;          ///< those in which over 1% comes from other directions than the brightest
+    double main_share = 1.0;  ///< in them: share of what they get that comes within 15 degrees of the brightest
     /// What did not go as it should, a line each.
     std::vector<std::string> warnings() const;
 };

@@ -31,7 +31,7 @@ struct LightState {
     uint refused;                               // splits and reflections that found no room
     uint left;                                  // patches on their way when the rounds ended
     uint splits;
-    uint reserved;
+    uint shown;                                 // patches for View::kWavefront, those without room included
 };
 
 #ifdef __cplusplus

@@ -43,7 +43,7 @@ bool mirror_ray(inout vec3 x, inout vec3 v, out vec3 normal, out float lag) {
 
 // The patch that is reflected of one behind a surface; false if the surface is not found. A corner whose surface is another
 // than that of the middle, as at silhouettes, goes as the middle does.
-bool mirror_patch(inout Quad quad) {
+bool mirror_patch(inout Quad quad, float voxel) {
     vec3 behind = middle(quad.x), centre = behind, way = mean_v(quad.v), normal;
     float lag;
     if (!mirror_ray(centre, way, normal, lag)) return false;
@@ -69,6 +69,7 @@ bool mirror_patch(inout Quad quad) {
         quad.x[to] = x[k] + lag * v[k] / dot(v[k], v[k]);
         quad.v[to] = normalize(v[k]) * (in_box(quad.x[to], volume_size) ? index_field(quad.x[to]).w : 1.0);
     }
+    quad.optical += lag * voxel;
     quad.surface = vec4(0.0);
     ++quad.reflections;
     return true;

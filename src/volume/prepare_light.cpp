@@ -101,7 +101,12 @@ bool WavefrontTracer::prepare_receivers(const Scene& scene, const LightSettings&
     return true;
 }
 
-void WavefrontTracer::prepare_lists(std::uint32_t capacity) {
+void WavefrontTracer::prepare_lists(std::uint32_t capacity, bool shows) {
+    // Several wavefronts are shown at once.
+    const vk::DeviceSize most = device_.max_storage_binding() / sizeof(gpu::ShownPatch);
+    const vk::DeviceSize shown = shows ? std::min<vk::DeviceSize>(4 * vk::DeviceSize(capacity), most) : 1;
+    if (light_.shown.size() != shown * sizeof(gpu::ShownPatch))
+        light_.shown = Buffer(device_, "wavefronts shown", shown * sizeof(gpu::ShownPatch), kStorage);
     const vk::DeviceSize bytes = vk::DeviceSize(capacity) * sizeof(gpu::LightPatch);
     if (landed_.size() == bytes) return;
     patches_[0] = Buffer(device_, "light patches", bytes, kStorage);

@@ -11,6 +11,7 @@ layout(constant_id = 2) const bool kOverlapping = false;  // boxes
 layout(constant_id = 3) const bool kReceivers = false;    // there are some
 layout(constant_id = 4) const bool kKeepFolds = true;
 layout(constant_id = 5) const bool kBoundary = false;     // surfaces reflect
+layout(constant_id = 7) const bool kShown = false;        // patches are collected for View::kWavefront
 
 layout(set = 0, binding = 0) uniform texture3D volume_index;
 layout(set = 0, binding = 13) uniform texture3D volume_bricks;
@@ -38,6 +39,7 @@ layout(std430, set = 0, binding = 7) buffer State { LightState state; };
 layout(std430, set = 0, binding = 8) readonly buffer PatchesIn { LightPatch patches_in[]; };
 layout(std430, set = 0, binding = 9) writeonly buffer PatchesOut { LightPatch patches_out[]; };
 layout(std430, set = 0, binding = 10) writeonly buffer Landed { LightPatch landed[]; };
+layout(std430, set = 0, binding = 14) writeonly buffer Shown { ShownPatch shown[]; };
 
 // What a patch leaves in the voxels that it passes in one step.
 struct PassingLight {

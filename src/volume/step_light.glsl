@@ -4,6 +4,11 @@
 // Needs: volume/step_bindings.glsl; void keep_light(VolumeRecord, LightPlacement, PassingLight), which leaves the light of
 // a step in voxels.
 
+// A patch that cannot be split, of which one corner goes round in a ball for ever and another has left it, goes straight on
+// from where its corners are: sides, in spans, from which on it does.
+const float kParted = 32.0;
+const float kShownSide = 8.0;  // from which on it is no piece of a wavefront to look at
+
 void keep_patch(Quad quad) { patches_out[atomicAdd(state.kept, 1u)] = pack_patch(quad); }
 void land_patch(Quad quad) { landed[atomicAdd(state.landed, 1u)] = pack_patch(quad); }
 
@@ -51,6 +56,7 @@ void jump(Quad quad) {
         return;
     }
     for (int k = 0; k < 4; ++k) quad.x[k] += (far + kInto * voxel) * quad.v[k];
+    quad.optical += far + kInto * voxel;
     keep_patch(quad);
 }
 
@@ -105,13 +111,45 @@ void into_world(VolumeRecord volume, inout Quad quad) {
     }
 }
 
+// From 0 to below 1, always the same for a place (PCG: Jarzynski and Olano 2020).
+float random_of(vec3 place) {
+    uint bits = 0u;
+    for (int k = 0; k < 3; ++k) {
+        bits = (bits ^ floatBitsToUint(place[k])) * 747796405u + 2891336453u;
+        bits = ((bits >> ((bits >> 28u) + 4u)) ^ bits) * 277803737u;
+        bits = (bits >> 22u) ^ bits;
+    }
+    return float(bits >> 8u) / 16777216.0;
+}
+
 // Of a patch behind a surface: what the surface has reflected goes on by itself, or is counted.
+// Of patches that have less than half of the power at which others are split, some are left out at random, and the others
+// have their power as well.
 void reflect_patch(VolumeRecord volume, Quad quad, vec3 power) {
+    float share = max(power.r, max(power.g, power.b)) / (0.5 * finest * fronts[quad.front].intensity.w);
+    if (share < 1.0) {
+        if (random_of(quad.x[0]) >= share) return;
+        power /= share;
+    }
     quad.power = power;
     quad.unabsorbed = power;
-    bool follows = mirror_patch(quad);
+    bool follows = mirror_patch(quad, volume.voxel);
     into_world(volume, quad);
     if (!follows || !add_patch(quad)) add_power(PELLUCID_LIGHT_REFLECTED, power);
+}
+
+// Where a step brings a patch to a wavefront that is shown, it is kept as it is there.
+void show_patch(VolumeRecord volume, vec3 from[4], vec3 to[4], float before, float after, vec3 irradiance) {
+    float wavefront = floor(after / shown_spacing) * shown_spacing;
+    if (before >= wavefront) return;
+    uint slot = atomicAdd(state.shown, 1u);
+    if (slot >= uint(shown.length())) return;
+    float share = (wavefront - before) / (after - before);
+    for (int k = 0; k < 4; ++k)
+        shown[slot].position[k].xyz = (volume.world_from_voxel * vec4(mix(from[k], to[k], share), 1.0)).xyz;
+    shown[slot].position[0].w = irradiance.r;
+    shown[slot].position[1].w = irradiance.g;
+    shown[slot].position[2].w = irradiance.b;
 }
 
 void main() {
@@ -139,7 +177,7 @@ void main() {
     bool may_split = !quad.coarse && most_power > finest * first_power;
     quad.coarse = false;
 
-    bool going = true, wants_split = false, along_side = false, lands = false, turned = false, weak = false;
+    bool going = true, wants_split = false, along_side = false, lands = false, parted = false, turned = false, weak = false;
     vec3 mirrored = vec3(0.0);  // power that goes on as a patch of its own
     for (uint s = 0u; s < steps_per_round && going; ++s) {
         float side = max(distance(quad.x[0], quad.x[1]), distance(quad.x[3], quad.x[2]));
@@ -166,7 +204,8 @@ void main() {
         quad.x = x;
         quad.v = v;
         vec3 half_way = 0.5 * (from + to);
-        float travelled = distance(from, to);
+        float travelled = distance(from, to), optical_before = quad.optical;
+        quad.optical += step_length * volume.voxel;
         vec3 area = 0.5 * cross(x[2] - x[0], x[3] - x[1]) * handed;
         vec3 way = normalize(middle(v));
         float facing = dot(area, way);
@@ -194,11 +233,19 @@ void main() {
         keep_light(volume, placement,
                    PassingLight(old, x, way, facing, quad.power, mean_power, travelled * volume.voxel,
                                 most_power / first_power, s));
+        if (kShown && max(side, up) < kShownSide * span)
+            show_patch(volume, old, x, optical_before, quad.optical,
+                       mean_power / (max(abs(facing), least_area) * volume.voxel * volume.voxel));
         turned = !kKeepFolds && (facing < 0.0 || reversed);
         weak = max(quad.power.r, max(quad.power.g, quad.power.b)) < weakest * first_power;
-        bool outside = !in_box(to, volume_size);
-        for (int k = 0; k < 4; ++k) outside = outside && !in_box(x[k], volume_size);
-        going = !turned && !weak && !outside && mirrored == vec3(0.0);
+        bool outside = !in_box(to, volume_size), straddles = false;
+        for (int k = 0; k < 4; ++k) {
+            bool out_there = !in_box(x[k], volume_size);
+            outside = outside && out_there;
+            straddles = straddles || out_there;
+        }
+        parted = !may_split && straddles && max(side, up) > kParted * span;
+        going = !turned && !weak && !outside && !parted && mirrored == vec3(0.0);
         if (kOverlapping) {
             for (uint j = 0u; j < own; ++j) {
                 vec3 world = (volume.world_from_voxel * vec4(to, 1.0)).xyz;
@@ -214,7 +261,7 @@ void main() {
         end_patch(quad, PELLUCID_LIGHT_TURNED);
     else if (weak)
         end_patch(quad, PELLUCID_LIGHT_WEAK);
-    else if (lands)
+    else if (lands || parted)
         land_patch(quad);
     else if (wants_split)
         split(quad, along_side);

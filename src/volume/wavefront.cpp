@@ -54,6 +54,7 @@ struct LightPush {
     float power_scale;
     float finest, weakest;
     std::uint32_t reflections;
+    float shown_spacing;
 };
 struct ReceiverPush {
     std::uint32_t own;
@@ -85,7 +86,8 @@ std::string volume_key(const VolumeImages& volumes, const LightSettings& setting
 std::string key_of(const Scene& scene, const LightSettings& s, std::uint64_t moves) {
     std::string key;
     append(key, moves);
-    for (const float value : {s.step, s.span, s.finest, s.weakest, s.least_area, s.texel, s.reach}) append(key, value);
+    for (const float value : {s.step, s.span, s.finest, s.weakest, s.least_area, s.texel, s.reach, s.shown_spacing})
+        append(key, value);
     for (const std::uint32_t value :
          {s.capacity, s.steps_per_round, s.rounds, s.most_texels, std::uint32_t(s.keep_folds), std::uint32_t(s.fresnel),
           s.reflections, std::uint32_t(s.tally)})
@@ -117,6 +119,11 @@ std::vector<std::string> LightStatistics::warnings() const {
                         refused, patches));
     if (coarsened) lines.push_back("light: patches began larger than asked for, for want of room; raise the capacity");
     if (coarse_voxels) lines.push_back("light: kept in larger voxels than those of the volumes, for want of room");
+    if (not_shown > 0)
+        lines.push_back(
+            fmt::format("light: {} patches of wavefronts are not shown, for want of room for more than {}; "
+                        "raise the spacing or the capacity",
+                        not_shown, shown));
     // A little always goes round in solids by total reflection.
     const double share = (left.x + left.y + left.z) / std::max(emitted.x + emitted.y + emitted.z, 1e-300);
     if (share > kLeftUnsaid)
@@ -158,7 +165,8 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
         return true;
     }
 
-    bool at_once = settings.slices <= 1 || settings.tally || key_.empty();
+    const bool shows = settings.shown_spacing > 0.0f && !settings.tally;
+    bool at_once = settings.slices <= 1 || shows || settings.tally || key_.empty();
     if (of_volumes != volume_key_) {
         prepare_volumes(volumes, settings);
         at_once = true;
@@ -167,7 +175,7 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
     at_once = prepare_receivers(scene, settings) || at_once;
     const auto capacity = std::uint32_t(
         std::min<vk::DeviceSize>(settings.capacity, device_.max_storage_binding() / sizeof(gpu::LightPatch)));
-    prepare_lists(capacity);
+    prepare_lists(capacity, shows);
     front_list_ =
         make_fronts(scene.lights, records_,
                     {.side = 0.95f * settings.span, .most_patches = capacity, .per_color = volumes.disperses});
@@ -181,7 +189,7 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
 
     double voxels_across = 0.0;
     for (const VolumeRecord& record : records_) voxels_across += double(glm::length(record.size));
-    const double steps = (1.5 + settings.reflections) * kGuessedIndex * voxels_across / double(settings.step);
+    const double steps = (1.5 + 0.5 * settings.reflections) * kGuessedIndex * voxels_across / double(settings.step);
     const int exponent = kPowerBits - int(std::ceil(std::log2(std::max(front_list_.most_power, 1e-30))));
     const auto tracing = std::make_shared<Tracing>(Tracing{
         .key = key,
@@ -189,13 +197,15 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
         .lights = scene.lights,
         .push = {capacity, volumes.count, std::uint32_t(light_.receiver_list.size()), 0, settings.step, settings.span,
                  settings.least_area, settings.steps_per_round, std::ldexp(1.0f, std::min(exponent, 120)),
-                 settings.finest, settings.weakest, std::min(settings.reflections, PELLUCID_MOST_REFLECTIONS)},
+                 settings.finest, settings.weakest, std::min(settings.reflections, PELLUCID_MOST_REFLECTIONS),
+                 shows ? settings.shown_spacing * smallest_voxel_ : 0.0f},
         .rounds =
             settings.rounds > 0 ? settings.rounds : std::uint32_t(steps / std::max(1u, settings.steps_per_round)) + 48,
         .overlapping = volumes.overlapping});
 
     recorder.fill(voxel_light_, 0);
     recorder.fill(tally_, 0);
+    recorder.fill(light_.shown, 0);
     begin(recorder, workspace, volumes, *tracing);
     if (!at_once) {
         pending_ = tracing;
@@ -306,13 +316,12 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
                                           reads("Receivers", light_.receivers),
                                           reads("Fronts", fronts_),
                                           updates("State", state_),
-                                          writes("Landed", landed_)};
+                                          writes("Landed", landed_),
+                                          writes("Shown", light_.shown)};
     const bool sums = tracing.settings.kept == KeptLight::kSum;
     step_bindings.push_back(updates(sums ? "Sums" : "Keys", voxel_light_));
-    if (!sums) {
-        constants.push_back(tally);
-        step_bindings.push_back(updates("Tally", tally_));
-    }
+    if (!sums) step_bindings.push_back(updates("Tally", tally_));
+    constants.insert(constants.end(), {tally, flag(push.shown_spacing > 0.0f)});
     const Program& step = sums ? workspace.compute({"step_summed_light.comp", kStepSummedLight}, constants)
                                : workspace.compute({"step_brightest_light.comp", kStepBrightestLight}, constants);
     const std::uint32_t last = std::min(tracing.rounds, tracing.rounds_done + rounds);
@@ -358,9 +367,11 @@ void WavefrontTracer::read_statistics(double power_scale, bool tally) {
                    .splits = state.splits,
                    .rounds = state.rounds - (state.left > 0 ? 1u : 0u),  // what is left, was counted for a round more
                    .refused = state.refused,
+                   .shown = std::min(state.shown, std::uint32_t(light_.shown.size() / sizeof(gpu::ShownPatch))),
                    .patches_left = state.left,
                    .coarsened = front_list_.coarsened,
                    .coarse_voxels = coarse_voxels_};
+    statistics_.not_shown = state.shown - statistics_.shown;
     if (!tally) return;
     double all = 0.0, main = 0.0;
     const auto* sums = reinterpret_cast<const std::uint64_t*>(tally_copy_.mapped());

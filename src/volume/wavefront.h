@@ -27,6 +27,7 @@ struct LightVolumes {
     Buffer receivers;       ///< gpu::LightReceiver
     Buffer receiver_light;  ///< vec4 per texel: irradiance by light that went towards volumes, W/m2; then, for all
                             ///< texels again, what that would be without the volumes
+    Buffer shown;           ///< gpu::ShownPatch; all 0 where there is none
     std::vector<gpu::LightReceiver> receiver_list;
     std::vector<gpu::LightPlacement> placement_list;
 };
@@ -59,7 +60,7 @@ private:
     struct Tracing;
     void prepare_volumes(const VolumeImages& volumes, const LightSettings& settings);
     bool prepare_receivers(const Scene& scene, const LightSettings& settings);
-    void prepare_lists(std::uint32_t capacity);
+    void prepare_lists(std::uint32_t capacity, bool shows);
     void begin_round(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
     void begin(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes, const Tracing& tracing);
     void trace_rounds(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes, Tracing& tracing,

@@ -1,7 +1,10 @@
 #include "techniques/ihrke_2007/ihrke_2007.h"
 
 #include "techniques/visibility_layers/visibility_layers.h"
+#include "volume/draw_wavefronts.h"
 #include "volume/scene_volumes.h"
+
+#include <pellucid/error.h>
 
 #include <algorithm>
 #include <array>
@@ -56,6 +59,8 @@ constexpr std::array kOwnParameters = {
                   "reflections of light in surfaces of volumes, one after another, that are followed"},
     ParameterInfo{"light-slices", "frames", 1, 1, 1000, true,
                   "over which a light that moves is traced; until the last of them the light before is shown"},
+    ParameterInfo{"wavefront-spacing", "voxels", 16, 0.1, 4096, false,
+                  "optical length from one wavefront to the next in the view wavefront, smallest voxels"},
     ParameterInfo{"patches", "", 262144, 64, 16777216, true, "pieces of wavefronts at once, at most"},
     ParameterInfo{"map-resolution", "", 512, 2, 8192, true,
                   "texels along the longest side of a mesh's box of the maps in which surfaces are found"},
@@ -170,10 +175,17 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
                              .keep_folds = parameters["folds"] != 0.0,
                              .capacity = parameters.whole("patches"),
                              .slices = parameters.whole("light-slices"),
-                             .reflections = parameters.whole("reflected-light")});
+                             .reflections = parameters.whole("reflected-light"),
+                             .shown_spacing = frame.front_exposure ? float(parameters["wavefront-spacing"]) : 0.0f});
     const SurfaceMap map = layers.source.map_meshes(recorder, frame, parameters.whole("map-resolution"));
     const Volumes volumes(scene_volumes, parameters);
     return follow_paths(recorder, frame, layers, map, parameters, &volumes);
+}
+
+void draw_light(Recorder& recorder, const Frame& frame, const Opaque& opaque, const GpuImage& radiance) {
+    const SceneVolumes& volumes = volumes_of(frame.scene);
+    if (!volumes.lit()) throw Error("view wavefront: the scene has no volumes");
+    draw_wavefronts(recorder, frame, volumes.light_volumes().shown, opaque.depth, radiance, *frame.front_exposure);
 }
 
 void report(const GpuScene& scene, std::vector<std::string>& warnings) {
@@ -196,6 +208,7 @@ constexpr Technique kIhrke2007{
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
     .prepare = prepare,
     .record = record,
+    .draw_light = draw_light,
     .report = report,
 };
 
