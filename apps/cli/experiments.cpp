@@ -293,8 +293,8 @@ ExperimentSpec wang_many_objects() {
 
 std::span<const ExperimentSpec> experiments() {
     static const std::vector<ExperimentSpec> all = {
-        wang_search_step(), wang_environment(),  wang_layers(), interfaces(), wyman_speed(),
-        wang_table_4_1(),   wang_many_objects(), chen_error(),  chen_speed(), ihrke_rays(), ihrke_light()};
+        wang_search_step(),  wang_environment(), wang_layers(), interfaces(), wyman_speed(), wang_table_4_1(),
+        wang_many_objects(), chen_error(),       chen_speed(),  ihrke_rays(), ihrke_light(), ihrke_reflections()};
     return all;
 }
 

@@ -9,8 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <utility>
 
 namespace pellucid::cli {
 namespace {
@@ -43,9 +46,9 @@ double sum(glm::dvec3 power) { return power.x + power.y + power.z; }
 
 /// Traces, and appends a run; `more` adds to it.
 MeasuredLight measure(ExperimentRun& run, const std::string& scene_name, const std::string& variant, const Scene& scene,
-                      const LightSettings& settings, nlohmann::ordered_json& json) {
+                      const LightSettings& settings, nlohmann::ordered_json& json, int repetitions = kRepetitions) {
     const DeviceOptions options{.device = run.renderer.device().name, .validation = false};
-    MeasuredLight light = measure_light(options, scene, settings, kRepetitions);
+    MeasuredLight light = measure_light(options, scene, settings, repetitions);
     const LightStatistics& s = light.statistics;
     for (const std::string& warning : s.warnings()) run.warnings.insert(fmt::format("{}: {}", variant, warning));
     const double emitted = sum(s.emitted);
@@ -162,20 +165,84 @@ void measure_reflections(ExperimentRun& run) {
     for (const std::string spec : {"smoothed-sphere,radius=1,resolution=128", "wine-glass,resolution=128"}) {
         const bool ball = spec.starts_with("smoothed");
         const Scene scene = lit_volume(spec, ball ? -1.4f : make_volume(spec).low.y + 0.04f);
-        for (const std::uint32_t reflections : {0u, 1u, 2u}) {
+        for (const std::uint32_t reflections : {0u, 1u}) {
             LightSettings settings;
             settings.reflections = reflections;
             nlohmann::ordered_json json;
             measure(run, ball ? "ball, 128" : "wine glass, 128", fmt::format("sum, {} reflections", reflections), scene,
-                    settings, json);
+                    settings, json, 1);
             run.runs.push_back(json);
         }
+    }
+}
+
+double apart(const std::vector<double>& map, const std::vector<double>& truth) {
+    double differences = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < map.size(); ++i) differences += std::abs(map[i] - truth[i]), all += truth[i];
+    return differences / all;
+}
+
+/// The caustic of a smoothed ball by wavefronts, and by as many photons as one thread traces in the time of an update:
+/// those of the truth, whose photons of one ring share an integration, and as many as there would be were each integrated.
+void compare_with_photons(ExperimentRun& run) {
+    const std::string name = "smoothed ball, 128";
+    const Scene scene = lit_volume("smoothed-sphere,radius=1,resolution=128", -1.4f);
+    LightSettings settings;
+    settings.fresnel = false;
+    nlohmann::ordered_json json;
+    const MeasuredLight light = measure(run, name, "sum, folds kept", scene, settings, json, 1);
+    const LightMap& map = light.receivers.at(0);
+    const BallAndPlane ball{.smoothing = 0.75 * light.voxel,
+                            .box = double(scene.volumes[0]->high().x),
+                            .direction = glm::normalize(glm::dvec3(kWay)),
+                            .corner = map.corner,
+                            .side = map.side,
+                            .up = map.up,
+                            .texel = map.texel,
+                            .width = map.irradiance.width,
+                            .height = map.irradiance.height};
+    std::vector<double> own, counted;
+    for (std::size_t i = 0; i < map.irradiance.pixels.size(); i += 3) own.push_back(double(map.irradiance.pixels[i]));
+    const auto count = [&](int rings) {
+        const auto start = std::chrono::steady_clock::now();
+        counted = count_photons(ball, rings);
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    };
+    // A ring is integrated once, and has 2 pi photons for each ring inside it.
+    const double few = 200.0, many = 3000.0, few_ms = count(int(few)), many_ms = count(int(many));
+    const std::vector<double> truth = counted;
+    const double ratio = many / few, square = std::numbers::pi * many * many;
+    const double photon_ms = (many_ms - ratio * few_ms) / (square * (1.0 - 1.0 / ratio));
+    const double ring_ms = (many_ms - square * photon_ms) / many;
+    const auto add = [&](const char* variant, double rings, double ms, const std::vector<double>& found) {
+        json = {{"scene", name},
+                {"variant", variant},
+                {"light_ms", ms},
+                {"apart", apart(found, truth)},
+                {"correlation", correlation(found, truth)}};
+        if (rings > 0.0) json["photons"] = std::numbers::pi * rings * rings;
+        fmt::print("{:<18} {:<40} {:>9.1f} ms, {:.0f} rings, apart {:.4f}\n", name, variant, ms, rings,
+                   apart(found, truth));
+        run.runs.push_back(json);
+    };
+    add("wavefronts", 0.0, light.device_ms, own);
+    const double half = 0.5 * ring_ms / (std::numbers::pi * photon_ms);
+    const double by_rings = std::sqrt(half * half + light.device_ms / (std::numbers::pi * photon_ms)) - half;
+    const double each = std::sqrt(light.device_ms / (ring_ms + photon_ms) / std::numbers::pi);
+    for (const auto& [variant, rings] :
+         {std::pair("photons by rings, same time", by_rings), std::pair("photons each by itself, same time", each)}) {
+        count(std::max(1, int(rings)));
+        add(variant, rings, light.device_ms, counted);
     }
 }
 
 void measure_lights(ExperimentRun& run, const ExperimentSpec&, ModelFolder&, ExperimentPage& page) {
     measure_ball(run, page);
     measure_glass(run, page);
+}
+
+void measure_more(ExperimentRun& run, const ExperimentSpec&, ModelFolder&, ExperimentPage&) {
+    compare_with_photons(run);
     measure_reflections(run);
 }
 
@@ -208,6 +275,28 @@ ExperimentSpec ihrke_light() {
                 "2,500 rings of photons through the exact ball; without reflections, which they have not either. Light "
                 "from several directions: over 1% of what passes a voxel goes more than 15 degrees off the "
                 "brightest. Times are medians of three."};
+}
+
+ExperimentSpec ihrke_reflections() {
+    return {
+        .name = "ihrke-reflections",
+        .source = "Ihrke 2007, section 4.2: light in volumes, against photons, and with the light that is reflected",
+        .varied = "what traces light, and how many reflections are followed",
+        .truth = {"counted photons", "reference"},
+        .run = measure_more,
+        .columns = {{"light, ms", "/light_ms"},
+                    {"patches at once", "/patches", 1.0, 0},
+                    {"photons", "/photons", 1.0, 0},
+                    {"sum of differences, %", "/apart", 100.0, 2},
+                    {"correlation", "/correlation", 1.0, 4},
+                    {"on the plane, %", "/arrived", 100.0, 2},
+                    {"missed, %", "/missed", 100.0, 2},
+                    {"reflected, %", "/reflected", 100.0, 2},
+                    {"never out, %", "/left", 100.0, 2}},
+        .remark =
+            "The caustic of a smoothed ball against 3,000 rings of photons through the same ball. Photons are "
+            "traced by one thread, in double precision; wavefronts by as many as the device has. Times are of "
+            "one update."};
 }
 
 }  // namespace pellucid::cli

@@ -80,6 +80,7 @@ VoxelizedScene make_volume_of(const Scene& scene, const CommandArguments& argume
             fmt::format("{}: has volumes already; one alone, or glass alone, becomes a file", one_line(scene.source)));
     } else {
         VoxelSettings settings = arguments.voxels;
+        settings.closed_only = true;
         if (arguments.smoothing) settings.smoothing = float(*arguments.smoothing);
         made = voxelize(scene, settings, device_options(arguments.device));
     }

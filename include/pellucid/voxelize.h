@@ -18,6 +18,7 @@ struct VoxelSettings {
     float g = 0.0f;                  ///< mean cosine of that, -1..1, both excluded
     float noise = 0.0f;              ///< 0..1: share of absorption and scattering that noise takes away or doubles
     float noise_scale = 0.0f;        ///< width of the noise, m; 0: a quarter of the box
+    bool closed_only = false;        ///< an open mesh is an Error, instead of a warning
 };
 
 struct VoxelizedScene {
@@ -27,8 +28,8 @@ struct VoxelizedScene {
 
 /// Makes one volume of the solids of glass of a scene (Material::refractive), each with the index, dispersion and absorption
 /// of its material; where they overlap, the one with the smaller box displaces the other. `boundary` is 1 on their surfaces.
-/// Columns of an open mesh that go through its holes are left empty, with a warning that names the object. Throws Error for
-/// settings out of range, if there are no such objects, or if the voxels do not fit into memory.
+/// Columns of an open mesh that go through its holes are left empty, with a warning that names the object, unless
+/// `closed_only`. Throws Error for settings out of range, if there are no such objects, or if the voxels do not fit into memory.
 VoxelizedScene voxelize(const Scene& scene, const VoxelSettings& settings = {}, const DeviceOptions& device = {});
 
 }  // namespace pellucid

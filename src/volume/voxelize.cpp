@@ -76,7 +76,7 @@ public:
         make_grid();
         std::vector<float> boundary(volume_.voxel_count(), 0.0f);
         for (const Solid& solid : solids_) {
-            warn_if_open(*solid.object);
+            check_closed(*solid.object);
             const glm::dmat4 grid_from_world = glm::scale(glm::dmat4(1.0), glm::dvec3(1.0 / double(volume_.voxel))) *
                                                glm::translate(glm::dmat4(1.0), -glm::dvec3(volume_.low));
             std::vector<float> coverage = mesh_coverage(
@@ -132,9 +132,13 @@ private:
         }
     }
 
-    void warn_if_open(const Object& object) {
+    void check_closed(const Object& object) {
         const Mesh& mesh = scene_.meshes[std::size_t(object.mesh)];
         if (count_edges(mesh.triangles, weld_positions(mesh.positions)).closed()) return;
+        if (settings_.closed_only)
+            throw Error(
+                one_line(fmt::format("{}: object {}: its mesh is not closed, so that it has no inside; close it",
+                                     scene_.source, object.name)));
         warnings_.push_back(one_line(fmt::format(
             "object {}: its mesh is not closed; columns of voxels through its holes are left empty", object.name)));
     }

@@ -9,7 +9,8 @@ import pictures
 from cli import CliTest, TETRAHEDRON
 
 NAMES = ["wang-search-step", "wang-environment", "wang-layers", "interfaces", "wyman-speed", "wang-table-4-1",
-         "wang-many-objects", "chen-error", "chen-speed", "ihrke-rays", "ihrke-light"]
+         "wang-many-objects", "chen-error", "chen-speed", "ihrke-rays", "ihrke-light",
+         "ihrke-reflections"]
 
 
 class Experiment(CliTest):

@@ -95,6 +95,8 @@ class VolumeFiles(VolumeHelpers, CliTest):
         self.refuses_to_make(["voxels need"], "shape:sphere", "--resolution", "60000", output="new.vdb")
         self.refuses_to_make(["resolution"], "shape:sphere", "--resolution", "2", output="new.vdb")
         self.refuses_to_make(["smoothing"], "shape:sphere", "--smoothing", "-1", output="new.vdb")
+        self.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n")
+        self.refuses_to_make(["open.obj", "not closed"], "open.obj", output="new.vdb")
         self.refuses_to_make(["GRID=FIELD"], "out.vdb", "--map", "n", output="new.vdb")
         self.refuses_to_make(["density"], "out.vdb", "--map", "density=n", output="new.vdb")
         self.refuses_to_make(["grids"], LENS, "--map", "n=n", output="new.vdb")
@@ -133,6 +135,10 @@ class PlacedVolumes(VolumeHelpers, CliTest):
             self.refuses(["bad.gltf: lens: pellucid_volume", word], scene="bad.gltf")
         self.write("bad.gltf", gltf_with_volume(LENS, scale=[1, 2, 1]))
         self.refuses(["bad.gltf: lens", "alike"], scene="bad.gltf")
+
+    def test_wavefronts_need_light_and_volumes(self):
+        self.refuses("view wavefront: the scene has no lights", "--view", "wavefront", scene=LENS)
+        self.refuses("traces no wavefronts", "--view", "wavefront", "--technique", "wang-2014")
 
     def test_other_techniques_say_that_they_draw_none(self):
         self.write("a.gltf", json.dumps({**GLTF, "nodes": [{**GLTF["nodes"][0], "extras": {"pellucid_volume": LENS}},
