@@ -32,7 +32,7 @@ struct LightSettings {
     float reach = 3.0f;                ///< of receivers, radii of the sphere around all volumes
     std::uint32_t most_texels = 1024;  ///< along a side of a receiver
     bool fresnel = true;               ///< surfaces (Volume::boundary) reflect
-    std::uint32_t reflections = 1;     ///< of light, one after another, that are followed, 0..7; others take it away
+    std::uint32_t reflections = 0;     ///< of light, one after another, that are followed, 0..7; others take it away
     float shown_spacing =
         0.0f;            ///< optical length between the wavefronts of View::kWavefront, smallest voxels; 0: none
     bool tally = false;  ///< kBrightest: count what voxels get from several directions (lit_voxels on); traces twice

@@ -55,7 +55,7 @@ constexpr std::array kOwnParameters = {
         "folds", "", 1, 0, 1, true,
         "1: light goes on past a focus; 0: a piece of a wavefront that has turned over ends, as in the paper"},
     ParameterInfo{"light-step", "voxels", 0.5, 0.01, 8, false, "optical length of a step of light"},
-    ParameterInfo{"reflected-light", "", 1, 0, 7, true,
+    ParameterInfo{"reflected-light", "", 0, 0, 7, true,
                   "reflections of light in surfaces of volumes, one after another, that are followed"},
     ParameterInfo{"light-slices", "frames", 1, 1, 1000, true,
                   "over which a light that moves is traced; until the last of them the light before is shown"},
