@@ -412,7 +412,11 @@ void Recorder::submit_commands(vk::CommandBuffer commands) {
     device_.handle().resetFences(*fence_);
 }
 
-void Recorder::on_host(std::function<void()> step) {
+void Recorder::on_host(std::function<bool()> step) { add_step(std::move(step)); }
+
+void Recorder::end_of_steps() { add_step({}); }
+
+void Recorder::add_step(std::function<bool()> step) {
     // Mesa's software driver wants labels to end in the commands in which they begin.
     if (in_scope_) end_label();
     make_visible_to_host();
@@ -426,9 +430,10 @@ void Recorder::on_host(std::function<void()> step) {
 std::vector<PassTime> Recorder::submit_and_wait() {
     make_visible_to_host();
     commands_.end();
+    bool goes_on = true;
     for (const HostStep& part : host_steps_) {
-        submit_commands(*part.before);
-        part.step();
+        if (goes_on) submit_commands(*part.before);
+        goes_on = part.step ? goes_on && part.step() : true;
     }
     submit_commands(*commands_);
     std::vector<PassTime> times = read_times();

@@ -146,8 +146,11 @@ public:
               vk::DeviceSize destination_offset = 0);
 
     /// Runs `step` on the host between what is recorded before, whose results it sees in mapped buffers, and what is
-    /// recorded after, which sees what it wrote there. A recording with such steps cannot be part of another's commands.
-    void on_host(std::function<void()> step);
+    /// recorded after, which sees what it wrote there. Where it returns false, what is recorded from here to end_of_steps()
+    /// is left out. A recording with such steps cannot be part of another's commands.
+    void on_host(std::function<bool()> step);
+    /// Ends the row of steps begun by the first on_host(), before the scope in which they are.
+    void end_of_steps();
 
     /// Ends the recording, submits it and waits. Returns the time of each scope in recording order;
     /// scopes of one name are added up. The recorder is then empty and ready for the next frame.
@@ -186,6 +189,7 @@ private:
                      vk::Extent2D rays);
     void begin_commands();
     void begin_label();
+    void add_step(std::function<bool()> step);
     void end_label();
     void submit_commands(vk::CommandBuffer commands);
     void make_visible_to_host();
@@ -199,7 +203,7 @@ private:
     /// Commands, and what the host does once they have run.
     struct HostStep {
         vk::raii::CommandBuffer before;
-        std::function<void()> step;
+        std::function<bool()> step;  ///< empty: the end of a row
     };
 
     const Device& device_;

@@ -36,6 +36,11 @@ const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage
     return list;
 }
 
+void clear_list(std::byte* list) {
+    auto* words = reinterpret_cast<std::uint32_t*>(list);
+    words[0] = words[kHeaderWords - 1] = 0;
+}
+
 std::span<const std::uint32_t> listed_pixels(const std::byte* list) {
     const auto* words = reinterpret_cast<const std::uint32_t*>(list);
     return {words + kHeaderWords, words[kHeaderWords - 1]};

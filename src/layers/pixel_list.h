@@ -17,6 +17,8 @@ const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage
 /// An empty list for a shader to append to (PELLUCID_APPENDED_LIST).
 const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::string_view name);
 
+/// Empties a list in host memory.
+void clear_list(std::byte* list);
 /// The pixels of a list in host memory, x | y << 16. Lists are mapped on devices that are CPUs.
 std::span<const std::uint32_t> listed_pixels(const std::byte* list);
 

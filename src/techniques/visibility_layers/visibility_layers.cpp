@@ -36,6 +36,8 @@ constexpr std::uint32_t kVolumesPerPath = 16;
 constexpr std::uint32_t kSurfacesPerPass = 16;
 constexpr std::uint32_t kSurfacesPerPassOnCpu = 4;
 
+constexpr std::array<const char*, 2> kListNames = {"paths 0", "paths 1"};
+
 /// Words of PathMedia per path.
 std::uint32_t words_of(const SceneTopology& topology) { return std::max((topology.slot_count + 31) / 32, 1u); }
 
@@ -74,7 +76,8 @@ public:
 
     Refraction follow() {
         if (ways_ == Ways::kTree) recorder_.fill(*branches_, 0);
-        next_ = &start_pixel_list(recorder_, frame_, "paths 0");
+        for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = &start_pixel_list(recorder_, frame_, kListNames[i]);
+        next_ = lists_[0];
         if (push_.whole_picture != 0 || !topology_.all_alone)
             begin_at_eye();
         else
@@ -99,6 +102,7 @@ public:
             if (volumes_ != nullptr) volumes_->march(this->pass(), entering, *next_, *ended_);
             if (!at_once) end(*ended_, false);
         }
+        if (finder_ != nullptr) recorder_.end_of_steps();
         if (at_once) end(*ended_, false);
         end(*next_, true);
         if (ways_ == Ways::kTree) layers_.source.measure_room(recorder_, frame_, "branches", *branches_);
@@ -208,31 +212,35 @@ private:
                           frame_.extent);
     }
 
-    /// Before paths go on: the host finds what those of the list may meet.
+    /// Before paths go on: the host finds what those of the list may meet. Where there are none any more, nothing is left to
+    /// do but to close.
     void find_on_host(bool first) {
-        recorder_.on_host([paths = PathsOnHost{.pixels = {},
-                                               .width = frame_.extent.width,
-                                               .places = reinterpret_cast<const glm::vec4*>(places_.mapped()),
-                                               .ways = reinterpret_cast<const glm::vec4*>(ways_buffer_.mapped()),
-                                               .media = reinterpret_cast<std::uint32_t*>(media_.mapped()),
-                                               .words = words_,
-                                               .coincidence = push_.coincidence,
-                                               .touching = !topology_.all_alone},
-                           list = next_->mapped(), lists = map_.texels->mapped(), all = map_.records->mapped(),
-                           room = std::size_t(map_.records->size() / sizeof(Candidate)), finder = finder_,
-                           eye_differs = topology_.eye_differs, first]() mutable {
-            const CandidatesOnHost candidates{reinterpret_cast<CandidateList*>(lists),
-                                              {reinterpret_cast<Candidate*>(all), room}};
+        PathsOnHost paths{.pixels = {},
+                          .width = frame_.extent.width,
+                          .places = reinterpret_cast<const glm::vec4*>(places_.mapped()),
+                          .ways = reinterpret_cast<const glm::vec4*>(ways_buffer_.mapped()),
+                          .media = reinterpret_cast<std::uint32_t*>(media_.mapped()),
+                          .words = words_,
+                          .coincidence = push_.coincidence,
+                          .touching = !topology_.all_alone};
+        const CandidatesOnHost candidates{
+            reinterpret_cast<CandidateList*>(map_.texels->mapped()),
+            {reinterpret_cast<Candidate*>(map_.records->mapped()), map_.records->size() / sizeof(Candidate)}};
+        const bool each_begins = first && topology_.eye_differs;
+        recorder_.on_host([=, finder = finder_, list = next_->mapped(), all = lists_]() mutable {
             if (first) candidates.all.front() = {};
             paths.pixels = listed_pixels(list);
-            if (first && eye_differs) finder->find_media(paths);
+            if (each_begins) finder->find_media(paths);
             finder->find(paths, candidates);
+            if (!paths.pixels.empty()) return true;
+            for (const Buffer* left : all) clear_list(left->mapped());  // what an earlier pass has left there
+            return false;
         });
     }
 
     void follow(std::uint32_t pass, const Buffer& entering) {
         const Buffer& list = *next_;
-        next_ = &start_pixel_list(recorder_, frame_, pass % 2 == 0 ? "paths 1" : "paths 0");
+        next_ = &start_pixel_list(recorder_, frame_, kListNames[1 - pass % 2]);
         std::vector<Binding> bindings =
             walking(this->pass(), {reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
                                    reads("Boxes", topology_.boxes), reads("Volumes", volume_records()),
@@ -303,7 +311,8 @@ private:
     const Buffer* branches_ = nullptr;
     const GpuImage& reflected_ =
         frame_.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame_.extent);
-    const Buffer* next_ = nullptr;
+    std::array<const Buffer*, 2> lists_{};  ///< of paths, which take turns
+    const Buffer* next_ = nullptr;          ///< one of them
     const Buffer* ended_ = nullptr;
 };
 
