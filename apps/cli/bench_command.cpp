@@ -158,7 +158,10 @@ nlohmann::ordered_json run_technique(Bench& bench, const BenchView& view, const 
     run["embree_packet"] = view.packet;
     run["ratio_embree"] = embree_ms / frame_ms;
     run.update(view.described);
-    if (view.described.contains("embree_deforming_ms"))
+    // Not of a technique that keeps a hierarchy from frame to frame (`rebuild` 0).
+    const auto rebuild = run["parameters"].find("rebuild");
+    const bool keeps = rebuild != run["parameters"].end() && *rebuild == 0.0;
+    if (view.described.contains("embree_deforming_ms") && !keeps)
         run["ratio_embree_deforming"] = view.described["embree_deforming_ms"].get<double>() / frame_ms;
     return run;
 }

@@ -148,6 +148,7 @@ struct HostFinder::Hierarchy {
 
     void place(std::uint32_t object, const Scene& from, const GpuScene& gpu_scene);
     void build(const Scene& from);
+    void refit(std::uint32_t object);
     void name_traits(const GpuScene& gpu_scene);
 
     Search search() const {
@@ -234,10 +235,12 @@ HostFinder::~HostFinder() = default;
 const Buffer& HostFinder::triangles() const { return hierarchy_->triangles; }
 const Buffer& HostFinder::normals() const { return hierarchy_->normals; }
 
-void HostFinder::bring_up_to_date(const Device& device, const Scene& scene, const GpuScene& gpu_scene) {
+void HostFinder::bring_up_to_date(const Device& device, const Scene& scene, const GpuScene& gpu_scene, bool deforming) {
     Hierarchy& own = *hierarchy_;
     const bool first = !own.device;
-    if (!first && own.moves == gpu_scene.moves) return;
+    // What has moved once is likely to move again.
+    deforming = deforming || own.deforming || gpu_scene.moves > 0;
+    if (!first && own.moves == gpu_scene.moves && own.deforming == deforming) return;
     if (first) {
         own.device.reset(rtcNewDevice(nullptr));
         if (!own.device) throw Error(fmt::format("Embree cannot start: error {}", int(rtcGetDeviceError(nullptr))));
@@ -247,23 +250,30 @@ void HostFinder::bring_up_to_date(const Device& device, const Scene& scene, cons
         own.triangles = Buffer(device, "triangles for the host's finder", bytes, usage, true, kMapFormat);
         own.normals = Buffer(device, "normals for the host's finder", bytes, usage, true, kMapFormat);
     }
-    // What has moved once is likely to move again.
-    const bool rebuild = first || !own.deforming;
-    own.deforming = gpu_scene.moves > 0;
+    const bool rebuild = first || own.deforming != deforming;
+    own.deforming = deforming;
     for (std::uint32_t i = 0; i < own.objects.size(); ++i) {
         if (!first && gpu_scene.meshes[gpu_scene.mesh_of_object[i]].moves <= own.moves) continue;
         own.place(i, scene, gpu_scene);
-        if (rebuild) continue;
-        const RTCGeometry geometry = rtcGetGeometry(own.scene.get(), i);
-        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
-        rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-        rtcCommitGeometry(geometry);
+        if (!rebuild) own.refit(i);
     }
     if (rebuild) own.build(scene);
     rtcCommitScene(own.scene.get());
     check_embree(own.device.get());
     own.name_traits(gpu_scene);
     own.moves = gpu_scene.moves;
+}
+
+void HostFinder::Hierarchy::refit(std::uint32_t object) {
+    const RTCGeometry geometry = rtcGetGeometry(scene.get(), object);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+    rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(geometry);
+}
+
+void HostFinder::refit() {
+    for (std::uint32_t i = 0; i < hierarchy_->objects.size(); ++i) hierarchy_->refit(i);
+    rtcCommitScene(hierarchy_->scene.get());
 }
 
 /// What lies between two distances; Embree looks at none that is negative.

@@ -47,9 +47,12 @@ public:
     HostFinder();
     ~HostFinder() override;
 
-    /// Builds the hierarchy of the scene's triangles, or refits it where vertices have moved. `scene` has to stay where it
-    /// is. Needs GpuScene::topology. Throws Error if there is not enough memory.
-    void bring_up_to_date(const Device& device, const Scene& scene, const GpuScene& gpu_scene);
+    /// Builds the hierarchy of the scene's triangles, or refits it where vertices have moved. `deforming`: as one that can be
+    /// refitted, although none have moved yet. `scene` has to stay where it is. Needs GpuScene::topology. Throws Error if
+    /// there is not enough memory.
+    void bring_up_to_date(const Device& device, const Scene& scene, const GpuScene& gpu_scene, bool deforming = false);
+    /// Refits all of a hierarchy that can be refitted, as if every vertex had moved: to measure what that takes.
+    void refit();
 
     /// What stands for a map of the view: its triangles alone, in the world.
     const Buffer& triangles() const;

@@ -10,23 +10,43 @@
 namespace pellucid {
 namespace {
 
+constexpr ParameterInfo kRebuild{
+    "rebuild",
+    "",
+    0,
+    0,
+    1,
+    true,
+    "hierarchy: 0 kept, and refitted where vertices have moved; 1 refitted in every frame, to measure that"};
+
 /// Those of paths, but for how many surfaces a dispatch takes them to: that is one, as the host searches in between.
 constexpr auto kParameters = [] {
-    std::array<ParameterInfo, kPathParameters.size() - 1> all{};
+    std::array<ParameterInfo, kPathParameters.size()> all{};
+    all.back() = kRebuild;
     std::copy_if(kPathParameters.begin(), kPathParameters.end(), all.begin(),
                  [](const ParameterInfo& parameter) { return parameter.name != "surfaces-per-pass"; });
     return all;
 }();
 
+HostFinder& finder_of(const GpuScene& scene) { return static_cast<HostFinder&>(*scene.host_finder); }
+
 void prepare(const Preparation& preparation, const ParameterValues& parameters) {
     prepare_paths(preparation, parameters);
     GpuScene& scene = preparation.gpu_scene;
     if (!scene.host_finder) scene.host_finder = std::make_unique<HostFinder>();
-    static_cast<HostFinder&>(*scene.host_finder).bring_up_to_date(preparation.device, preparation.scene, scene);
+    finder_of(scene).bring_up_to_date(preparation.device, preparation.scene, scene, parameters["rebuild"] != 0.0);
 }
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
-    return follow_paths(recorder, frame, layers, static_cast<const HostFinder&>(*frame.scene.host_finder), parameters);
+    HostFinder& finder = finder_of(frame.scene);
+    if (parameters["rebuild"] != 0.0) {
+        const Recorder::Scope scope(recorder, "refit");
+        recorder.on_host([&finder] {
+            finder.refit();
+            return true;
+        });
+    }
+    return follow_paths(recorder, frame, layers, finder, parameters);
 }
 
 }  // namespace
