@@ -122,8 +122,13 @@ void step_across(std::span<const std::uint32_t> slot_words, std::uint32_t* media
     if (changed != kNone && inside(changed) != (leaving == cavity(changed))) media[changed / 32] ^= 1u << changed % 32;
 }
 
-std::size_t number_of(const PathsOnHost& paths, std::size_t i) {
-    return std::size_t(paths.pixels[i] >> 16) * paths.width + (paths.pixels[i] & 0xffffu);
+std::size_t number_of(const PathsOnHost& paths, std::uint32_t pixel) {
+    return std::size_t(pixel >> 16) * paths.width + (pixel & 0xffffu);
+}
+
+bool in_the_open(const PathsOnHost& paths, std::size_t path) {
+    const std::uint32_t* media = paths.media + path * (paths.words + 1);
+    return std::all_of(media, media + paths.words, [](std::uint32_t word) { return word == 0; });
 }
 
 void check_embree(RTCDevice device) {
@@ -350,31 +355,41 @@ void HostFinder::Hierarchy::find_packet(Search& search, std::span<const std::siz
     }
 }
 
-void HostFinder::find(const PathsOnHost& paths, const CandidatesOnHost& candidates) const {
-    std::atomic<std::uint32_t> next{1};
+void HostFinder::find(const PathsOnHost& paths, const CandidatesOnHost& candidates,
+                      const PixelListOnHost& ended) const {
+    const std::span<const std::uint32_t> pixels = paths.list.pixels();
+    std::vector<std::uint32_t> looking(pixels.size());
+    std::atomic<std::uint32_t> next{1}, looking_count{0}, ended_count{std::uint32_t(ended.pixels().size())};
     const auto room = std::uint32_t(candidates.all.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, paths.pixels.size(), kGrain), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), kGrain), [&](const auto& range) {
         Search search = hierarchy_->search();
         std::vector<std::size_t> numbers;
         std::vector<Candidate> found;
-        std::vector<std::uint32_t> ends;
+        std::vector<std::uint32_t> ends, go_on, end;
         numbers.reserve(range.size());
         found.reserve(2 * range.size());
         ends.reserve(range.size());
-        for (std::size_t i = range.begin(); i != range.end(); ++i) numbers.push_back(number_of(paths, i));
-        for (std::size_t i = 0; i < numbers.size(); i += kPacket)
-            hierarchy_->find_packet(search,
-                                    std::span(numbers).subspan(i, std::min<std::size_t>(kPacket, numbers.size() - i)),
-                                    paths, found, ends);
+        for (std::size_t i = range.begin(); i != range.end(); ++i) numbers.push_back(number_of(paths, pixels[i]));
+        for (std::size_t i = 0; i < numbers.size(); i += kPacket) {
+            const auto packet = std::span(numbers).subspan(i, std::min<std::size_t>(kPacket, numbers.size() - i));
+            hierarchy_->find_packet(search, packet, paths, found, ends);
+        }
         const std::uint32_t first = next.fetch_add(std::uint32_t(found.size()));
         const bool fits = first + found.size() <= room;
         if (fits) std::copy(found.begin(), found.end(), candidates.all.begin() + first);
         std::uint32_t begin = 0;
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             candidates.lists[numbers[i]] = {first + begin, fits ? ends[i] - begin : 0};
+            const bool meets = ends[i] > begin || !in_the_open(paths, numbers[i]);
+            (meets ? go_on : end).push_back(pixels[range.begin() + i]);
             begin = ends[i];
         }
+        std::copy(go_on.begin(), go_on.end(), looking.begin() + looking_count.fetch_add(std::uint32_t(go_on.size())));
+        std::copy(end.begin(), end.end(), ended.data() + ended_count.fetch_add(std::uint32_t(end.size())));
     });
+    std::copy_n(looking.begin(), looking_count.load(), paths.list.data());
+    paths.list.set_size(looking_count);
+    ended.set_size(ended_count);
     std::uint32_t& most = candidates.all.front().triangle;
     most = std::max(most, next.load());
 }
@@ -382,12 +397,13 @@ void HostFinder::find(const PathsOnHost& paths, const CandidatesOnHost& candidat
 /// Twin of find_media() in path_walk.glsl.
 void HostFinder::find_media(const PathsOnHost& paths) const {
     const Hierarchy& own = *hierarchy_;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, paths.pixels.size(), kGrain), [&](const auto& range) {
+    const std::span<const std::uint32_t> pixels = paths.list.pixels();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), kGrain), [&](const auto& range) {
         Search search = own.search();
         std::vector<Hit> hits;
         std::vector<std::uint32_t> decided(paths.words);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            const std::size_t path = number_of(paths, i);
+            const std::size_t path = number_of(paths, pixels[i]);
             const Ray ray{glm::vec3(paths.places[path]), glm::vec3(paths.ways[path])};
             hits.clear();
             search.all = &hits;

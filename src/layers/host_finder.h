@@ -1,7 +1,7 @@
 #pragma once
 
 #include "gpu/gpu_scene.h"
-#include "layers/surface_map.h"
+#include "layers/pixel_list.h"
 
 #include <cstdint>
 #include <memory>
@@ -12,11 +12,11 @@ namespace pellucid {
 
 /// Paths that look for the next surface, as path_state.glsl keeps them, in memory that the host shares with the device.
 struct PathsOnHost {
-    std::span<const std::uint32_t> pixels;  ///< those of the list, x | y << 16
-    std::uint32_t width;                    ///< of the picture; path `x + width y` is of pixel (x, y)
-    const glm::vec4* places;                ///< world, m; w: bits of the triangle on which the path stands
-    const glm::vec4* ways;                  ///< unit, world
-    std::uint32_t* media;                   ///< per path `words`, whose bits say what it is inside of, and its mark
+    PixelListOnHost list;     ///< those that look
+    std::uint32_t width;      ///< of the picture; path `x + width y` is of pixel (x, y)
+    const glm::vec4* places;  ///< world, m; w: bits of the triangle on which the path stands
+    const glm::vec4* ways;    ///< unit, world
+    std::uint32_t* media;     ///< per path `words`, whose bits say what it is inside of, and its mark
     std::uint32_t words;
     float coincidence;  ///< m, by so much places are uncertain
     bool touching;      ///< surfaces of several shells may lie at one place
@@ -58,8 +58,9 @@ public:
     const Buffer& triangles() const;
     const Buffer& normals() const;
 
-    /// Finds candidates of all paths. Where there is no room for them, a path has none, and they are counted.
-    void find(const PathsOnHost& paths, const CandidatesOnHost& candidates) const;
+    /// Finds candidates of all paths. Those that are in the open and meet nothing go from their list to `ended`. Where there
+    /// is no room for candidates, a path has none, and they are counted.
+    void find(const PathsOnHost& paths, const CandidatesOnHost& candidates, const PixelListOnHost& ended) const;
     /// Finds what paths are inside of where they start: the first surface of each slot on their way says it; of a shell
     /// that crosses itself, all of its surfaces.
     void find_media(const PathsOnHost& paths) const;

@@ -36,14 +36,16 @@ const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage
     return list;
 }
 
-void clear_list(std::byte* list) {
-    auto* words = reinterpret_cast<std::uint32_t*>(list);
-    words[0] = words[kHeaderWords - 1] = 0;
-}
+PixelListOnHost::PixelListOnHost(const Buffer& list) : words_(reinterpret_cast<std::uint32_t*>(list.mapped())) {}
 
-std::span<const std::uint32_t> listed_pixels(const std::byte* list) {
-    const auto* words = reinterpret_cast<const std::uint32_t*>(list);
-    return {words + kHeaderWords, words[kHeaderWords - 1]};
+std::span<const std::uint32_t> PixelListOnHost::pixels() const { return {data(), words_[kHeaderWords - 1]}; }
+
+std::uint32_t* PixelListOnHost::data() const { return words_ + kHeaderWords; }
+
+void PixelListOnHost::set_size(std::uint32_t size) const {
+    const std::uint32_t row = kListGroup * words_[1];
+    words_[0] = (size + row - 1) / row;
+    words_[kHeaderWords - 1] = size;
 }
 
 }  // namespace pellucid

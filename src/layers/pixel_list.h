@@ -17,9 +17,17 @@ const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage
 /// An empty list for a shader to append to (PELLUCID_APPENDED_LIST).
 const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::string_view name);
 
-/// Empties a list in host memory.
-void clear_list(std::byte* list);
-/// The pixels of a list in host memory, x | y << 16. Lists are mapped on devices that are CPUs.
-std::span<const std::uint32_t> listed_pixels(const std::byte* list);
+/// A list of pixels in host memory: lists are mapped on devices that are CPUs.
+class PixelListOnHost {
+public:
+    explicit PixelListOnHost(const Buffer& list);
+    std::span<const std::uint32_t> pixels() const;  ///< x | y << 16
+    /// Room for as many pixels as the picture has, of which the first pixels().size() are in the list.
+    std::uint32_t* data() const;
+    void set_size(std::uint32_t size) const;
+
+private:
+    std::uint32_t* words_;
+};
 
 }  // namespace pellucid

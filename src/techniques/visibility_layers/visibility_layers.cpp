@@ -215,26 +215,28 @@ private:
     /// Before paths go on: the host finds what those of the list may meet. Where there are none any more, nothing is left to
     /// do but to close.
     void find_on_host(bool first) {
-        PathsOnHost paths{.pixels = {},
-                          .width = frame_.extent.width,
-                          .places = reinterpret_cast<const glm::vec4*>(places_.mapped()),
-                          .ways = reinterpret_cast<const glm::vec4*>(ways_buffer_.mapped()),
-                          .media = reinterpret_cast<std::uint32_t*>(media_.mapped()),
-                          .words = words_,
-                          .coincidence = push_.coincidence,
-                          .touching = !topology_.all_alone};
+        const PathsOnHost paths{.list = PixelListOnHost(*next_),
+                                .width = frame_.extent.width,
+                                .places = reinterpret_cast<const glm::vec4*>(places_.mapped()),
+                                .ways = reinterpret_cast<const glm::vec4*>(ways_buffer_.mapped()),
+                                .media = reinterpret_cast<std::uint32_t*>(media_.mapped()),
+                                .words = words_,
+                                .coincidence = push_.coincidence,
+                                .touching = !topology_.all_alone};
         const CandidatesOnHost candidates{
             reinterpret_cast<CandidateList*>(map_.texels->mapped()),
             {reinterpret_cast<Candidate*>(map_.records->mapped()), map_.records->size() / sizeof(Candidate)}};
         const bool each_begins = first && topology_.eye_differs;
-        recorder_.on_host([=, finder = finder_, list = next_->mapped(), all = lists_]() mutable {
+        recorder_.on_host([=, finder = finder_, ended = PixelListOnHost(*ended_), all = lists_] {
             if (first) candidates.all.front() = {};
-            paths.pixels = listed_pixels(list);
+            if (paths.list.pixels().empty()) {
+                for (const Buffer* left : all)
+                    PixelListOnHost(*left).set_size(0);  // what an earlier pass has left there
+                return false;
+            }
             if (each_begins) finder->find_media(paths);
-            finder->find(paths, candidates);
-            if (!paths.pixels.empty()) return true;
-            for (const Buffer* left : all) clear_list(left->mapped());  // what an earlier pass has left there
-            return false;
+            finder->find(paths, candidates, ended);
+            return true;
         });
     }
 
