@@ -2,16 +2,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <string>
-
 namespace pellucid::cli {
 
 /// Add a subcommand with its options; it runs as the callback of the parse. Errors are thrown.
 void add_render_command(CLI::App& app);
-/// `command_line`: as it was typed, for the report.
-void add_compare_command(CLI::App& app, const std::string& command_line);
-void add_bench_command(CLI::App& app);
-void add_experiment_command(CLI::App& app);
 void add_thickness_command(CLI::App& app);
 void add_volume_command(CLI::App& app);
 void add_info_command(CLI::App& app);

@@ -1,5 +1,5 @@
 #include "commands.h"
-#include "options.h"
+#include "options/options.h"
 
 #include "core/fail.h"
 

@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "lab/commands.h"
 
 #include "core/fail.h"
 

@@ -1,8 +1,8 @@
-#include "accuracy.h"
-#include "arguments.h"
 #include "commands.h"
-#include "options.h"
-#include "progress_bar.h"
+#include "options/arguments.h"
+#include "options/named_technique.h"
+#include "options/options.h"
+#include "options/progress_bar.h"
 
 #include "core/file_extension.h"
 #include "core/math.h"

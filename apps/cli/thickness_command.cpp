@@ -1,7 +1,7 @@
 #include "commands.h"
-#include "options.h"
-#include "progress_bar.h"
-#include "translucency_options.h"
+#include "options/options.h"
+#include "options/progress_bar.h"
+#include "options/translucency_options.h"
 
 #include "core/file_extension.h"
 

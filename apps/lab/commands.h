@@ -1,0 +1,15 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace pellucid::cli {
+
+/// Add a subcommand of the laboratory with its options; it runs as the callback of the parse. Errors are thrown.
+/// `command_line`: as it was typed, for the report.
+void add_compare_command(CLI::App& app, const std::string& command_line);
+void add_bench_command(CLI::App& app);
+void add_experiment_command(CLI::App& app);
+
+}  // namespace pellucid::cli

@@ -1,0 +1,87 @@
+#include "lab/experiment_scenes.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace pellucid::cli {
+namespace {
+
+/// One solid of glass and where it stands.
+struct Placed {
+    const char* shape;
+    glm::vec3 position;  ///< m
+    float scale = 1.0f;
+    float turn_deg = 0.0f;  ///< about +Y
+};
+
+/// The view looks down by 15 degrees: what stands behind stands lower, or it would be seen above.
+constexpr float kDropPerMetre = 0.268f;
+
+glm::vec3 behind(float metres, float right = 0.0f) { return {right, -kDropPerMetre * metres, -metres}; }
+
+Scene scene_of(std::initializer_list<Placed> all) {
+    Scene scene;
+    for (const Placed& placed : all) {
+        Scene one = load_scene(std::string("shape:") + placed.shape);
+        Object object = one.objects.front();
+        object.mesh = int(scene.meshes.size());
+        object.material = 0;
+        object.world_from_object = glm::translate(glm::mat4(1.0f), placed.position);
+        object.world_from_object =
+            glm::rotate(object.world_from_object, glm::radians(placed.turn_deg), glm::vec3(0.0f, 1.0f, 0.0f));
+        object.world_from_object = glm::scale(object.world_from_object, glm::vec3(placed.scale));
+        if (scene.materials.empty()) scene.materials = one.materials;
+        scene.meshes.push_back(std::move(one.meshes.front()));
+        scene.objects.push_back(std::move(object));
+    }
+    return scene;
+}
+
+/// Inverse of the map's projection (see Environment).
+glm::vec3 direction_at(double u, double v) {
+    const double longitude = (u - 0.5) * 2.0 * std::numbers::pi, colatitude = v * std::numbers::pi;
+    return {std::sin(colatitude) * std::cos(longitude), std::cos(colatitude),
+            std::sin(colatitude) * std::sin(longitude)};
+}
+
+}  // namespace
+
+Scene cube_before_knot() {
+    return scene_of({{"cube", {0.0f, 0.0f, 0.0f}, 1.0f, 20.0f}, {"knot", behind(2.2f, 0.2f), 0.9f}});
+}
+
+Scene sphere_before_sphere() {
+    return scene_of({{"sphere", {0.0f, 0.0f, 0.0f}, 0.8f}, {"sphere", behind(2.4f, 0.7f), 0.8f}});
+}
+
+Scene five_objects() {
+    return scene_of({{"sphere", {-0.9f, -0.3f, 0.6f}, 0.6f},
+                     {"gem", {0.8f, -0.3f, 0.8f}, 0.6f},
+                     {"goblet", behind(0.9f), 1.0f},
+                     {"cube", behind(2.2f, -1.1f), 0.9f, 30.0f},
+                     {"torus", behind(2.6f, 1.1f), 0.9f, 25.0f}});
+}
+
+Environment resampled(const Environment& environment, int width) {
+    constexpr int kPerTexel = 4;  // and in each direction
+    Environment map;
+    map.kind = Environment::Kind::kMap;
+    map.map = Image(width, width / 2, 3);
+    for (int y = 0; y < map.map.height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            glm::vec3 sum(0.0f);
+            for (int i = 0; i < kPerTexel * kPerTexel; ++i) {
+                const double u = (x + (i % kPerTexel + 0.5) / kPerTexel) / width;
+                const double v = (y + (i / kPerTexel + 0.5) / kPerTexel) / map.map.height;
+                sum += radiance(environment, direction_at(u, v));
+            }
+            for (int k = 0; k < 3; ++k) map.map.at(x, y)[k] = sum[k] / float(kPerTexel * kPerTexel);
+        }
+    }
+    return map;
+}
+
+}  // namespace pellucid::cli

@@ -1,0 +1,226 @@
+#include "options/options.h"
+
+#include "core/file.h"
+#include "core/math.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+namespace pellucid::cli {
+namespace {
+
+std::string parameter_help(const ParameterInfo& parameter) {
+    return fmt::format("{}{}{} [{} to {}, default {}]", parameter.doc, parameter.unit.empty() ? "" : ", ",
+                       parameter.unit, parameter.minimum, parameter.maximum, parameter.default_value);
+}
+
+namespace fs = std::filesystem;
+
+bool same_file(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error)) return true;
+    return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
+}
+
+LoadOptions::Priority parse_priority(const std::string& text) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0)
+        throw Error(fmt::format("--priority {}: must be OBJECT=N, such as rod=1", text));
+    const double number = parse_number("--priority", text.substr(equals + 1));
+    if (number != std::round(number) || std::abs(number) > 1e6)
+        throw Error(fmt::format("--priority {}: the number must be whole, within +-1000000", text));
+    return {text.substr(0, equals), int(number)};
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneArguments& arguments) {
+    add_number(command, "--ior", arguments.ior, "Index of refraction of all glass")->type_name("X");
+    command
+        .add_option("--attenuation-color", arguments.attenuation_color,
+                    "What the glass leaves of white light after the distance, 0 to 1")
+        ->type_name("R,G,B");
+    add_number(command, "--attenuation-distance", arguments.attenuation_distance, "Metres after which that is left")
+        ->type_name("M");
+    add_number(
+        command, "--crease-angle", arguments.crease_angle_deg,
+        "Made normals are smooth across edges bent less than this, degrees; default: each shell's own, in a gap of "
+        "its bends if there is one; 0 for .stl")
+        ->type_name("DEG")
+        ->check(CLI::Range(0.0, 180.0));
+    command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");
+    command
+        .add_option(
+            "--priority", arguments.priorities,
+            "Where solids overlap, the one of the highest whole number (default 0) displaces the others, then the "
+            "one of less volume; may be repeated, with the names that 'pellucid info SCENE' lists")
+        ->type_name("OBJECT=N")
+        ->allow_extra_args(false);
+    command
+        .add_option("--animation", arguments.animation,
+                    "Animation of a glTF file, by name or number ('pellucid info SCENE' lists them), whose pose is "
+                    "shown; default: the file at rest, or with --time its first animation")
+        ->type_name("NAME|N");
+    add_translucency_options(command, arguments.translucency);
+    add_volume_options(command, arguments.volumes);
+    add_number(command, "--time", arguments.time_s, "Time in the animation, s, from 0 (default 0)")->type_name("S");
+}
+
+Scene load_given_scene(const std::string& source, const SceneArguments& arguments) {
+    parse_lights(arguments.translucency, glm::dvec3(0.0));  // wrong ones are reported before any work
+    Scene scene = load_scene(source, with_grids(load_options(arguments), source, arguments.volumes));
+    add_volumes(scene, arguments.volumes);
+    const std::vector<Light> lights = parse_lights(arguments.translucency, scene.origin);
+    scene.lights.insert(scene.lights.end(), lights.begin(), lights.end());
+    return scene;
+}
+
+LoadOptions load_options(const SceneArguments& arguments) {
+    LoadOptions options;
+    if (arguments.ior) options.ior = float(*arguments.ior);
+    if (arguments.attenuation_color) {
+        const auto color = parse_numbers("--attenuation-color", *arguments.attenuation_color, 3);
+        options.attenuation_color = glm::vec3(float(color[0]), float(color[1]), float(color[2]));
+    }
+    if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
+    if (arguments.crease_angle_deg) options.crease_angle = radians_from_degrees(float(*arguments.crease_angle_deg));
+    options.remake_normals = arguments.remake_normals;
+    for (const std::string& text : arguments.priorities) options.priorities.push_back(parse_priority(text));
+    options.translucent = parse_translucency(arguments.translucency);
+    options.animation = arguments.animation;
+    options.time_s = arguments.time_s;
+    return options;
+}
+
+void add_device_options(CLI::App& command, DeviceArguments& arguments) {
+    command
+        .add_option("--device", arguments.device, "Vulkan device: its number in 'pellucid info' or a part of its name")
+        ->type_name("DEVICE");
+    add_number(command, "--threads", arguments.threads, "Threads of what is traced or baked on the CPU; 0: all cores")
+        ->capture_default_str();
+    command.add_flag("--validate", arguments.validate, "Run with the Vulkan validation layer; a message is an error");
+}
+
+DeviceOptions device_options(const DeviceArguments& arguments) {
+    return {.device = arguments.device, .validation = arguments.validate, .threads = arguments.threads};
+}
+
+void add_parameter_options(CLI::App& command, ParameterArguments& arguments) {
+    struct Flag {
+        std::string owners, help, type;
+    };
+    std::map<std::string, Flag, std::less<>> flags;
+    for (const TechniqueInfo* technique : techniques()) {
+        for (const ParameterInfo& parameter : technique->parameters) {
+            Flag& flag = flags[std::string(parameter.name)];
+            const std::string help = parameter_help(parameter);
+            if (flag.owners.empty()) {
+                flag = {std::string(technique->name), help, parameter.whole ? "N" : "X"};
+                continue;
+            }
+            flag.owners += fmt::format(", {}", technique->name);
+            if (flag.help != help) flag.help += fmt::format("; {}: {}", technique->name, help);
+        }
+    }
+    for (const auto& [name, flag] : flags) {
+        add_number(command, "--" + name, arguments[name], flag.help)
+            ->type_name(flag.type)
+            ->group("Parameters of " + flag.owners);
+    }
+}
+
+ParameterMap given_parameters(const ParameterArguments& arguments) {
+    ParameterMap parameters;
+    for (const auto& [name, value] : arguments) {
+        if (value) parameters[name] = *value;
+    }
+    return parameters;
+}
+
+void add_environment_option(CLI::App& command, std::string& name_or_file) {
+    command
+        .add_option("--environment", name_or_file,
+                    "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
+        ->capture_default_str()
+        ->type_name("NAME|FILE");
+}
+
+bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    std::error_code error;
+    const auto relative = std::filesystem::weakly_canonical(file, error)
+                              .lexically_relative(std::filesystem::weakly_canonical(folder, error));
+    return !relative.empty() && *relative.begin() != "..";
+}
+
+void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    const auto is_one_of = [](const std::string& file, auto begin, auto end) {
+        return std::any_of(begin, end, [&](const std::string& other) { return same_file(other, file); });
+    };
+    for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+        check_writable(*output);
+        if (is_one_of(*output, inputs.begin(), inputs.end()))
+            throw Error(fmt::format("{}: would overwrite what is read", *output));
+        if (is_one_of(*output, outputs.begin(), output))
+            throw Error(fmt::format("{}: is given for two outputs", *output));
+    }
+}
+
+std::string arguments_without_folders(const CLI::App& command, const CLI::Option* left_out) {
+    std::string line;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option == left_out || option->count() == 0 || option->check_lname("json") || option->check_lname("report"))
+            continue;
+        if (!option->get_positional()) line += " --" + option->get_lnames().front();
+        if (option->get_items_expected_max() == 0) continue;  // a flag
+        for (const std::string& value : option->reduced_results())
+            line += " " + (option->check_lname("models") ? "DIR" : std::filesystem::path(value).filename().string());
+    }
+    return line;
+}
+
+void write_json(const std::string& file, const nlohmann::ordered_json& json) {
+    write_text_file(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+std::string shape_help() {
+    std::string help =
+        "Scene: a .gltf, .glb, .obj, .ply, .stl, .off, .3ds or .vdb file, or shape:NAME[,PARAMETER=VALUE...] with "
+        "NAME one of";
+    for (const ShapeInfo& shape : shape_infos()) help += fmt::format(" {}", shape.name);
+    help += ", or volume:NAME[,...] with NAME one of";
+    for (const ShapeInfo& volume : volume_infos()) help += fmt::format(" {}", volume.name);
+    return help;
+}
+
+std::string preset_list() {
+    std::string help;
+    for (const PresetInfo& preset : presets()) help += fmt::format(" {} ({});", preset.name, preset.summary);
+    return help;
+}
+
+std::string technique_list() {
+    std::string help;
+    for (const TechniqueInfo* technique : techniques())
+        help += fmt::format(" {} ({});", technique->name, technique->summary);
+    help.pop_back();
+    return help;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings)
+        std::fputs(fmt::format("pellucid: warning: {}\n", warning).c_str(), stderr);
+}
+
+void check_validation(const Renderer& renderer) {
+    const std::vector<std::string>& messages = renderer.validation_messages();
+    if (messages.empty()) return;
+    throw std::runtime_error(fmt::format("{} validation messages, the first: {}", messages.size(), messages.front()));
+}
+
+}  // namespace pellucid::cli
