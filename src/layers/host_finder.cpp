@@ -12,7 +12,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -32,7 +31,6 @@ constexpr std::uint32_t kKindMask = 3, kRefractiveKind = 2, kClosed = 4, kTouche
 constexpr float kGrazing = 512.0f, kBehind = 32.0f, kSpacings = 4.8e-7f;
 
 constexpr std::size_t kGrain = 256;  // paths that one task takes
-constexpr int kPacket = 16;          // that are traced together
 
 struct DeviceDeleter {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -57,50 +55,36 @@ struct Hit {
     bool leaving;
 };
 
-/// A path that looks for a surface.
-struct Query {
-    const std::uint32_t* media;
-    std::uint32_t standing;
-};
-
-/// What rays of Embree are for, which hands out the address of the first member.
+/// What a ray of Embree is for, which hands out the address of the first member.
 struct Search {
     RTCIntersectContext embree{};
     const std::vector<Placed>* objects = nullptr;
     const std::vector<std::uint32_t>* traits = nullptr;  ///< per triangle over all objects
-    std::array<Query, kPacket> queries{};                ///< by the numbers of rays
+    const std::uint32_t* media = nullptr;                ///< of the path that looks,
+    std::uint32_t standing = 0;                          ///< and the triangle on which it stands
     std::vector<Hit>* all = nullptr;  ///< takes everything that is met instead of the nearest that can be
 };
 
 bool is_closed_shell(std::uint32_t traits) { return (traits & (kKindMask | kClosed)) == (kRefractiveKind | kClosed); }
 
 /// Twin of can_meet() in path_walk.glsl, before the path has crossed anything here.
-bool can_meet(const Query& path, std::uint32_t traits, bool leaving, std::uint32_t triangle) {
+bool can_meet(const Search& path, std::uint32_t traits, bool leaving, std::uint32_t triangle) {
     if (!is_closed_shell(traits)) return triangle != path.standing && !(leaving && (traits & kSingleSided) != 0);
     if ((traits & kCrossesItself) != 0) return triangle != path.standing;
     const std::uint32_t slot = traits >> kSlotShift;
     return ((path.media[slot / 32] >> slot % 32 & 1) != 0) == (leaving != ((traits & kCavity) != 0));
 }
 
-void accept_hits(const RTCFilterFunctionNArguments* args) {
+void accept_hit(const RTCFilterFunctionNArguments* args) {
     const auto& search = *reinterpret_cast<const Search*>(args->context);
-    const unsigned n = args->N;
-    for (unsigned i = 0; i < n; ++i) {
-        if (args->valid[i] == 0) continue;
-        const Placed& object = (*search.objects)[RTCHitN_geomID(args->hit, n, i)];
-        const std::uint32_t triangle = object.first_triangle + RTCHitN_primID(args->hit, n, i);
-        const std::uint32_t traits = (*search.traits)[triangle];
-        const float along = RTCHitN_Ng_x(args->hit, n, i) * RTCRayN_dir_x(args->ray, n, i) +
-                            RTCHitN_Ng_y(args->hit, n, i) * RTCRayN_dir_y(args->ray, n, i) +
-                            RTCHitN_Ng_z(args->hit, n, i) * RTCRayN_dir_z(args->ray, n, i);
-        const bool leaving = object.sense * along > 0.0f;
-        if (search.all != nullptr) {
-            search.all->push_back({RTCRayN_tfar(args->ray, n, i), {triangle, traits}, leaving});
-            args->valid[i] = 0;
-        } else if (!can_meet(search.queries[RTCRayN_id(args->ray, n, i)], traits, leaving, triangle)) {
-            args->valid[i] = 0;
-        }
-    }
+    const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
+    const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+    const Placed& object = (*search.objects)[hit.geomID];
+    const std::uint32_t triangle = object.first_triangle + hit.primID, traits = (*search.traits)[triangle];
+    const float along = hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z;
+    const bool leaving = object.sense * along > 0.0f;
+    if (search.all != nullptr) search.all->push_back({ray.tfar, {triangle, traits}, leaving});
+    if (search.all != nullptr || !can_meet(search, traits, leaving, triangle)) args->valid[0] = 0;
 }
 
 /// Takes a path to the other side of a shell; twin of step_across() in cross_surface.glsl.
@@ -159,14 +143,14 @@ struct HostFinder::Hierarchy {
     Search search() const {
         Search search{.objects = &objects, .traits = &traits};
         rtcInitIntersectContext(&search.embree);
-        search.embree.filter = accept_hits;
+        search.embree.filter = accept_hit;
         return search;
     }
     RTCRayHit shoot(Search& search, const Ray& ray, float from, float to) const;
     void add_nearby(Search& search, const Ray& ray, const PathsOnHost& paths, Candidate surface, float t,
                     std::vector<Candidate>& found) const;
-    void find_packet(Search& search, std::span<const std::size_t> numbers, const PathsOnHost& paths,
-                     std::vector<Candidate>& found, std::vector<std::uint32_t>& ends) const;
+    void find_candidates(Search& search, std::size_t path, const PathsOnHost& paths,
+                         std::vector<Candidate>& found) const;
 };
 
 /// World positions, the device's triangles (surface_map.glsl), and their normals.
@@ -311,47 +295,19 @@ void HostFinder::Hierarchy::add_nearby(Search& search, const Ray& ray, const Pat
         if (hit.surface.triangle != surface.triangle) found.push_back(hit.surface);
 }
 
-/// Appends the candidates of paths; `ends` gets their number after each.
-void HostFinder::Hierarchy::find_packet(Search& search, std::span<const std::size_t> numbers, const PathsOnHost& paths,
-                                        std::vector<Candidate>& found, std::vector<std::uint32_t>& ends) const {
-    constexpr float kFar = std::numeric_limits<float>::infinity();
-    std::array<Ray, kPacket> rays;
-    alignas(64) RTCRayHitNt<kPacket> packet{};
-    alignas(64) std::array<int, kPacket> valid{};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const std::size_t path = numbers[i];
-        search.queries[i] = {paths.media + path * (paths.words + 1),
-                             std::bit_cast<std::uint32_t>(paths.places[path].w)};
-        rays[i] = {glm::vec3(paths.places[path]), glm::vec3(paths.ways[path])};
-        const glm::vec3 start = rays[i].origin - paths.coincidence * rays[i].direction;
-        packet.ray.org_x[i] = start.x, packet.ray.org_y[i] = start.y, packet.ray.org_z[i] = start.z;
-        packet.ray.dir_x[i] = rays[i].direction.x;
-        packet.ray.dir_y[i] = rays[i].direction.y;
-        packet.ray.dir_z[i] = rays[i].direction.z;
-        packet.ray.tfar[i] = kFar;
-        packet.ray.mask[i] = ~0u;
-        packet.ray.id[i] = unsigned(i);
-        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        valid[i] = -1;
-    }
-    rtcIntersect16(valid.data(), scene.get(), &search.embree, reinterpret_cast<RTCRayHit16*>(&packet));
-    const auto surface_of = [&](unsigned object, unsigned triangle) {
-        const std::uint32_t number = objects[object].first_triangle + triangle;
-        return Candidate{number, traits[number]};
-    };
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-            const float t = packet.ray.tfar[i] - paths.coincidence;
-            add_nearby(search, rays[i], paths, surface_of(packet.hit.geomID[i], packet.hit.primID[i]), t, found);
-            if (t <= paths.coincidence) {  // as if it were behind: the next one, too
-                search.queries[0] = search.queries[i];
-                const RTCRayHit next = shoot(search, rays[i], paths.coincidence, kFar);
-                if (next.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-                    add_nearby(search, rays[i], paths, surface_of(next.hit.geomID, next.hit.primID), next.ray.tfar,
-                               found);
-            }
-        }
-        ends.push_back(std::uint32_t(found.size()));
+/// Appends the candidates of a path.
+void HostFinder::Hierarchy::find_candidates(Search& search, std::size_t path, const PathsOnHost& paths,
+                                            std::vector<Candidate>& found) const {
+    search.media = paths.media + path * (paths.words + 1);
+    search.standing = std::bit_cast<std::uint32_t>(paths.places[path].w);
+    const Ray ray{glm::vec3(paths.places[path]), glm::vec3(paths.ways[path])};
+    // What is as near as this may lie behind: then the next one is a candidate, too.
+    for (const float from : {-paths.coincidence, paths.coincidence}) {
+        const RTCRayHit hit = shoot(search, ray, from, std::numeric_limits<float>::infinity());
+        if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+        const std::uint32_t triangle = objects[hit.hit.geomID].first_triangle + hit.hit.primID;
+        add_nearby(search, ray, paths, {triangle, traits[triangle]}, hit.ray.tfar, found);
+        if (hit.ray.tfar > paths.coincidence) return;
     }
 }
 
@@ -363,26 +319,24 @@ void HostFinder::find(const PathsOnHost& paths, const CandidatesOnHost& candidat
     const auto room = std::uint32_t(candidates.all.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), kGrain), [&](const auto& range) {
         Search search = hierarchy_->search();
-        std::vector<std::size_t> numbers;
         std::vector<Candidate> found;
         std::vector<std::uint32_t> ends, go_on, end;
-        numbers.reserve(range.size());
         found.reserve(2 * range.size());
         ends.reserve(range.size());
-        for (std::size_t i = range.begin(); i != range.end(); ++i) numbers.push_back(number_of(paths, pixels[i]));
-        for (std::size_t i = 0; i < numbers.size(); i += kPacket) {
-            const auto packet = std::span(numbers).subspan(i, std::min<std::size_t>(kPacket, numbers.size() - i));
-            hierarchy_->find_packet(search, packet, paths, found, ends);
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            hierarchy_->find_candidates(search, number_of(paths, pixels[i]), paths, found);
+            ends.push_back(std::uint32_t(found.size()));
         }
         const std::uint32_t first = next.fetch_add(std::uint32_t(found.size()));
         const bool fits = first + found.size() <= room;
         if (fits) std::copy(found.begin(), found.end(), candidates.all.begin() + first);
         std::uint32_t begin = 0;
-        for (std::size_t i = 0; i < numbers.size(); ++i) {
-            candidates.lists[numbers[i]] = {first + begin, fits ? ends[i] - begin : 0};
-            const bool meets = ends[i] > begin || !in_the_open(paths, numbers[i]);
-            (meets ? go_on : end).push_back(pixels[range.begin() + i]);
-            begin = ends[i];
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const std::size_t path = number_of(paths, pixels[i]);
+            const std::uint32_t past = ends[i - range.begin()];
+            candidates.lists[path] = {first + begin, fits ? past - begin : 0};
+            (past > begin || !in_the_open(paths, path) ? go_on : end).push_back(pixels[i]);
+            begin = past;
         }
         std::copy(go_on.begin(), go_on.end(), looking.begin() + looking_count.fetch_add(std::uint32_t(go_on.size())));
         std::copy(end.begin(), end.end(), ended.data() + ended_count.fetch_add(std::uint32_t(end.size())));
