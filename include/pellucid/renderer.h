@@ -77,6 +77,9 @@ struct RenderSettings {
     float adaptation_s = std::numeric_limits<float>::infinity();
     std::vector<std::string> aovs;  ///< names of aov_infos() wanted in RenderResult::aovs
     bool paths = false;             ///< fill RenderResult::paths
+    /// Pixels of a tile, at most; 0: as many as the device holds. A picture of more is drawn tile by tile and is the same
+    /// picture, but for what the tiles of a technique warn of and for rounding (docs/architecture.md, Device).
+    std::uint64_t tile_pixels = 0;
     Progress progress;
 };
 

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "gpu/scene_topology.h"
+#include "techniques/technique.h"
 
 #include <pellucid/renderer.h>
 #include <pellucid/scene.h>
 #include <pellucid/technique.h>
 
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
 /// The same of solids, for techniques that do not count what a ray is inside of.
 std::vector<std::string> unknown_solids(const SceneTopology& topology, const TechniqueInfo& technique);
 
-/// One line where more than 1% of the glass pixels have a status other than ok: how many, and of which status.
-std::optional<std::string> bad_status_warning(const RenderResult& result, const TechniqueInfo& technique);
+/// Adds what may be wrong in a picture of `tiles` tiles, by its counts, to its warnings.
+void warn_of(RenderResult& result, const Technique& technique, std::size_t tiles, const RenderSettings& settings);
 
 }  // namespace pellucid
