@@ -119,17 +119,16 @@ std::optional<std::string> bad_status_warning(const RenderResult& result, const 
 
 }  // namespace
 
-void warn_of(RenderResult& result, const Technique& technique, std::size_t tiles, const RenderSettings& settings) {
+void warn_of(RenderResult& result, const Technique& technique, bool cut, const RenderSettings& settings) {
     if (auto warning = bad_status_warning(result, technique.info)) result.warnings.push_back(*warning);
     if (result.cut_rays > 0) {
         result.warnings.push_back(fmt::format(
             "light meets more than {} surfaces on its way to {} pixels: what is behind them counts as a gap",
             settings.thickness.layers, result.cut_rays));
     }
-    if (tiles > 1 && technique.searches_layers) {
-        result.warnings.push_back(
-            fmt::format("drawn in {} tiles: {} finds no surface that lies beyond the tile of the pixel", tiles,
-                        technique.info.name));
+    if (cut && technique.searches_layers) {
+        result.warnings.push_back(fmt::format(
+            "drawn in tiles: {} finds no surface that lies beyond the tile of the pixel", technique.info.name));
     }
 }
 

@@ -7,7 +7,6 @@
 #include <pellucid/scene.h>
 #include <pellucid/technique.h>
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,8 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
 /// The same of solids, for techniques that do not count what a ray is inside of.
 std::vector<std::string> unknown_solids(const SceneTopology& topology, const TechniqueInfo& technique);
 
-/// Adds what may be wrong in a picture of `tiles` tiles, by its counts, to its warnings.
-void warn_of(RenderResult& result, const Technique& technique, std::size_t tiles, const RenderSettings& settings);
+/// Adds what may be wrong in a picture, by its counts, to its warnings. `cut`: it was drawn in tiles and glass lies in
+/// several.
+void warn_of(RenderResult& result, const Technique& technique, bool cut, const RenderSettings& settings);
 
 }  // namespace pellucid

@@ -2,12 +2,11 @@
 
 #include "render/aovs.h"
 #include "render/solid_lighting.h"
+#include "render/tiles.h"
 
 #include <pellucid/error.h>
 
 #include <fmt/format.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +33,8 @@ void check_picture_size(const RenderSettings& settings) {
         throw Error(fmt::format("size {}x{}: pictures have 1x1 to {}x{} pixels", width, height, kLongestPicture,
                                 kLongestPicture));
     const double needed = double(result_bytes(settings));
-    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-    if (memory > 0.0 && needed > memory)
+    const double memory = double(host_memory());
+    if (needed > memory)
         throw Error(fmt::format("size {}x{}: the picture takes {:.1f} GiB of memory; this machine has {:.1f} GiB",
                                 width, height, needed / double(1u << 30), memory / double(1u << 30)));
 }

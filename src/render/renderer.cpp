@@ -76,6 +76,7 @@ struct Renderer::Impl {
     struct Drawn {
         std::vector<Tile> tiles;
         const GpuImage* on_device = nullptr;  ///< radiance of the only tile
+        bool cut = false;                     ///< glass lies in several tiles, or beside opaque surfaces of others
     };
 
     FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
@@ -110,6 +111,11 @@ struct Renderer::Impl {
         bake::BakeCache passing{std::filesystem::path()};  // as in prepare()
         solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache, threads,
                              progress, warnings);
+    }
+    gpu::FrameConstants current_constants() const {
+        gpu::FrameConstants values{};
+        std::memcpy(&values, constants->mapped(), sizeof(values));
+        return values;
     }
     void set_constants(const Frame& frame, const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample);
     Camera camera_for(const RenderSettings& settings) const;
@@ -217,9 +223,7 @@ const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSe
     const bool alone = draws && settings.samples == 1;
     std::vector<PassTime> times =
         run_frame(frame, chosen, settings, std::nullopt, alone ? settings.progress : Progress(), images);
-    gpu::FrameConstants view{};
-    std::memcpy(&view, constants->mapped(), sizeof(view));
-    read_back(device, *images, view, scene->first_triangles, settings, part);
+    read_back(device, *images, current_constants(), scene->first_triangles, settings, part);
     part.layer_passes = layer_source.geometry_passes();
     part.cut_rays = solid_lighting.transmitted().cut_rays();
     if (!draws) return nullptr;
@@ -247,9 +251,11 @@ Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSetting
                                                  const RenderSettings& settings, RenderResult& result) {
     const glm::uvec2 size(settings.width, settings.height);
     // Paths have 16 bytes per pixel in one buffer; other techniques list the pixels with glass.
-    std::uint64_t most = most_tile_pixels(device, chosen.technique.info.whole_scene ? 16 : 8);
+    std::uint64_t most = most_tile_pixels(device, chosen.technique.info.whole_scene ? 16 : 4);
     if (settings.tile_pixels > 0) most = std::min<std::uint64_t>(most, settings.tile_pixels);
-    std::vector<Tile> left = tiles_of(size, most, device);
+    set_constants(frame, settings, glm::vec2(0.0f), 0);
+    const std::optional<Tile> glass = tile_of_glass(current_constants(), scene->refractive_corners);
+    std::vector<Tile> left = tiles_of(size, glass, most, device);
     TileProgress progress(settings.progress, size);
     Drawn drawn;
     while (!left.empty()) {
@@ -272,7 +278,10 @@ Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSetting
         if (draws_picture(chosen) && tile.size != size) progress.show(tile, 1.0);
         progress.finish(tile);
     }
-    if (drawn.tiles.size() > 1) drawn.on_device = nullptr;
+    if (drawn.tiles.size() == 1) return drawn;
+    drawn.on_device = nullptr;
+    drawn.cut = !glass || !scene->opaque.empty() ||
+                std::none_of(drawn.tiles.begin(), drawn.tiles.end(), [&](const Tile& t) { return t.holds(*glass); });
     return drawn;
 }
 
@@ -372,7 +381,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {
         const Impl::Drawn drawn = impl.draw_tiles(frame, chosen, settings, result);
-        warn_of(result, chosen.technique, drawn.tiles.size(), settings);
+        warn_of(result, chosen.technique, drawn.cut, settings);
         const bool draws = draws_picture(chosen);
         if (!draws) impl.trace_picture(chosen, settings, result);
         if (chosen.technique.report != nullptr) chosen.technique.report(*impl.scene, result.warnings);

@@ -1,13 +1,17 @@
 #include "render/tiles.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace pellucid {
 namespace {
 
-constexpr std::uint32_t kLongestTile = 1u << 15;  ///< lists of pixels have 16 bits for a coordinate
-constexpr std::uint64_t kSmallTile = 1u << 16;    ///< pixels
+constexpr std::uint32_t kLongestTile = 1u << 15;    ///< lists of pixels have 16 bits for a coordinate
+constexpr std::uint64_t kSmallTile = 1u << 16;      ///< pixels
+constexpr std::uint64_t kFrameBytesPerPixel = 400;  ///< of all images and buffers together, about
 
 template <class T>
 void copy_rows(const T* from, std::size_t from_pitch, T* to, std::size_t to_pitch, std::size_t count,
@@ -38,21 +42,59 @@ void append_halves(const Tile& tile, std::vector<Tile>& tiles) {
     tiles.push_back(near);
 }
 
-}  // namespace
-
-std::uint64_t most_tile_pixels(const Device& device, std::uint32_t bytes_per_pixel) {
-    return std::min<vk::DeviceSize>(device.max_storage_binding(), device.max_allocation()) / bytes_per_pixel;
+/// `part`, and the rest of the picture above, below, left and right of it.
+std::vector<Tile> around(const Tile& whole, const Tile& part) {
+    const glm::uvec2 first = part.first, end = part.first + part.size, size = whole.size;
+    return {{{0, end.y}, {size.x, size.y - end.y}},
+            {{end.x, first.y}, {size.x - end.x, part.size.y}},
+            {{0, first.y}, {first.x, part.size.y}},
+            {{0, 0}, {size.x, first.y}},
+            part};
 }
 
-std::vector<Tile> tiles_of(glm::uvec2 size, std::uint64_t most_pixels, const Device& device) {
+}  // namespace
+
+std::uint64_t host_memory() { return std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE)); }
+
+std::uint64_t most_tile_pixels(const Device& device, std::uint32_t bytes_per_pixel) {
+    const std::uint64_t most =
+        std::min<vk::DeviceSize>(device.max_storage_binding(), device.max_allocation()) / bytes_per_pixel;
+    return device.is_cpu() ? std::min(most, host_memory() / 2 / kFrameBytesPerPixel) : most;
+}
+
+std::optional<Tile> tile_of_glass(const gpu::FrameConstants& view, std::span<const glm::vec3> corners) {
+    if (corners.empty()) return Tile{};
+    constexpr float kMargin = 2.0f;  // pixels; samples are moved by half of one
+    glm::vec2 low(std::numeric_limits<float>::max()), high(-low);
+    for (const glm::vec3& corner : corners) {
+        const glm::vec3 p = view.view_from_world * glm::vec4(corner, 1.0f);
+        if (-p.z <= 0.0f && view.orthographic == 0) return std::nullopt;
+        const glm::vec2 film = view.orthographic != 0 ? glm::vec2(p) : glm::vec2(p) / -p.z;
+        const glm::vec2 pixel(film.x - view.film.x, view.film.y - film.y);
+        low = glm::min(low, pixel / glm::vec2(view.film.z, view.film.w));
+        high = glm::max(high, pixel / glm::vec2(view.film.z, view.film.w));
+    }
+    const glm::vec2 size(view.width, view.height);
+    const glm::uvec2 first(glm::clamp(glm::floor(low) - kMargin, glm::vec2(0.0f), size));
+    const glm::uvec2 end(glm::clamp(glm::ceil(high) + kMargin, glm::vec2(0.0f), size));
+    return Tile{first, end - first};
+}
+
+std::vector<Tile> tiles_of(glm::uvec2 size, const std::optional<Tile>& kept_whole, std::uint64_t most_pixels,
+                           const Device& device) {
     const std::uint32_t longest = std::min(device.limits().maxImageDimension2D, kLongestTile);
-    std::vector<Tile> tiles, cut{{glm::uvec2(0), size}};
+    const auto fits = [&](const Tile& tile) {
+        return tile.pixels() <= most_pixels && std::max(tile.size.x, tile.size.y) <= longest;
+    };
+    const Tile whole{glm::uvec2(0), size};
+    std::vector<Tile> tiles, cut{whole};
+    if (!fits(whole) && kept_whole && kept_whole->pixels() > 0 && fits(*kept_whole)) cut = around(whole, *kept_whole);
     while (!cut.empty()) {
         const Tile tile = cut.back();
         cut.pop_back();
-        if (tile.pixels() > 1 && (tile.pixels() > most_pixels || std::max(tile.size.x, tile.size.y) > longest))
+        if (tile.pixels() > 1 && !fits(tile))
             append_halves(tile, cut);
-        else
+        else if (tile.pixels() > 0)
             tiles.push_back(tile);
     }
     std::reverse(tiles.begin(), tiles.end());

@@ -2,10 +2,12 @@
 
 // Pictures that one frame cannot hold are drawn tile by tile.
 #include "gpu/device.h"
+#include "gpu/structs.h"
 
 #include <pellucid/renderer.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,15 +19,28 @@ struct Tile {
     glm::uvec2 first{0}, size{0};
     std::uint64_t pixels() const { return std::uint64_t(size.x) * size.y; }
     vk::Extent2D extent() const { return {size.x, size.y}; }
+    bool holds(const Tile& other) const {
+        return glm::all(glm::lessThanEqual(first, other.first)) &&
+               glm::all(glm::lessThanEqual(other.first + other.size, first + size));
+    }
 };
 
+/// Of this machine, bytes.
+std::uint64_t host_memory();
+
 /// How many pixels a frame of a device holds, as far as its limits tell. `bytes_per_pixel` is of the technique's largest
-/// storage buffer.
+/// storage buffer. A software driver's frames take half of this machine's memory at most.
 std::uint64_t most_tile_pixels(const Device& device, std::uint32_t bytes_per_pixel);
 
+/// The part of a picture in which glass is seen, with a margin. `view` is of the whole picture; the hull of `corners`
+/// (world) holds all glass. Empty if there is none, nothing if the eye is among the corners.
+std::optional<Tile> tile_of_glass(const gpu::FrameConstants& view, std::span<const glm::vec3> corners);
+
 /// A picture of `size` cut in halves, across the longer side, until no tile has more than `most_pixels` or is longer
-/// than the device's images. The top left tile is the last, so that they can be taken from the end.
-std::vector<Tile> tiles_of(glm::uvec2 size, std::uint64_t most_pixels, const Device& device);
+/// than the device's images. A part that is to stay whole becomes a tile of its own if it is small enough. The first
+/// tile is the last, so that they can be taken from the end.
+std::vector<Tile> tiles_of(glm::uvec2 size, const std::optional<Tile>& kept_whole, std::uint64_t most_pixels,
+                           const Device& device);
 
 /// Cuts every tile in half. False, and nothing is cut, if they are so small already that their size cannot be the reason
 /// why one did not fit.

@@ -157,10 +157,27 @@ TEST_F(Tiled, SearchesOfTheViewEndAtTheTileAndSaySo) {
     const RenderSettings settings = settings_of("wang-2014");
     const RenderResult whole = renderer().render(settings), tiled = renderer().render(in_tiles(settings));
     EXPECT_THAT(whole.warnings, Not(Contains(HasSubstr("tiles"))));
-    EXPECT_THAT(tiled.warnings, Contains(HasSubstr("drawn in 16 tiles: wang-2014 finds no surface")));
+    EXPECT_THAT(tiled.warnings, Contains(HasSubstr("drawn in tiles: wang-2014 finds no surface")));
     EXPECT_EQ(whole.covered, tiled.covered);
     EXPECT_EQ(whole.aovs.at("depth").pixels, tiled.aovs.at("depth").pixels);
     EXPECT_GT(tiled.status[std::size_t(Status::kLeftScreen)], whole.status[std::size_t(Status::kLeftScreen)]);
+}
+
+// As long as all glass fits in one.
+TEST_F(Tiled, GlassIsKeptInOneTile) {
+    renderer().set_scene(load_scene("shape:sphere"));
+    RenderSettings settings = settings_of("wang-2014");
+    settings.width = 160;
+    RenderSettings tiled = settings;
+    tiled.tile_pixels = 2500;
+    for (const char* technique : {"wang-2014", "visibility-layers"}) {
+        settings.technique = tiled.technique = technique;
+        const RenderResult at_once = renderer().render(settings), in_parts = renderer().render(tiled);
+        EXPECT_EQ(at_once.warnings, in_parts.warnings);
+        EXPECT_EQ(at_once.covered, in_parts.covered);
+        EXPECT_EQ(at_once.status, in_parts.status);
+        EXPECT_EQ(share_that_differs(at_once.radiance, in_parts.radiance, 1e-4f), 0.0) << technique;
+    }
 }
 
 TEST_F(Tiled, AnalysisIsTheSame) {
