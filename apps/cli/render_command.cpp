@@ -21,6 +21,8 @@
 namespace pellucid::cli {
 namespace {
 
+constexpr std::uint64_t kQuickPixels = 1u << 22;  ///< larger pictures take so long that progress is shown
+
 /// The command line as given; strings are parsed when the command runs, so that errors are ours.
 struct RenderArguments {
     std::string scene;
@@ -191,7 +193,8 @@ void render(const RenderArguments& arguments) {
     if (const std::optional<Camera> camera = chosen_camera(arguments, settings, scene)) renderer.set_camera(*camera);
     ProgressBar bar(settings.technique);
     if (technique.info().reference || technique.info().bakes ||
-        settings.thickness.method == ThicknessMethod::kLocalThickness)
+        settings.thickness.method == ThicknessMethod::kLocalThickness ||
+        std::uint64_t(settings.width) * settings.height > kQuickPixels)
         settings.progress = bar.progress();
     const RenderResult result = renderer.render(settings);
     bar.clear();

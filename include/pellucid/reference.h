@@ -29,7 +29,9 @@ struct ExactSettings {
     std::uint32_t height = 512;
     std::uint32_t max_events = 16;  ///< K: a path of more has Status::kEventLimit; 1..65535
     glm::dvec2 shift_px{0.0};       ///< moves every primary ray from the centre of its pixel, right and down
-    std::uint32_t packet = 1;       ///< rays traced together: 1, 4, 8, 16; the result is the same
+    /// exact(): the part of the picture that is traced, its first pixel and its size; no size: all of it.
+    glm::uvec2 part_first{0}, part_size{0};
+    std::uint32_t packet = 1;  ///< rays traced together: 1, 4, 8, 16; the result is the same
     /// Colour channel at whose indices of refraction dispersive glass (Material::dispersion) bends and reflects the
     /// path: 0 red (C line), 1 green (d line, Material::ior), 2 blue (F line). Without dispersion all are alike.
     std::uint32_t channel = 1;

@@ -77,6 +77,9 @@ struct RenderSettings {
     float adaptation_s = std::numeric_limits<float>::infinity();
     std::vector<std::string> aovs;  ///< names of aov_infos() wanted in RenderResult::aovs
     bool paths = false;             ///< fill RenderResult::paths
+    /// Pixels of a tile, at most; 0: as many as the device holds. A picture of more is drawn tile by tile and is the same
+    /// picture, but for what the tiles of a technique warn of and for rounding (docs/architecture.md, Tiles).
+    std::uint64_t tile_pixels = 0;
     Progress progress;
 };
 
@@ -141,7 +144,7 @@ public:
     void set_camera(const Camera& camera);
 
     /// Renders what was set; before that there are no objects and the studio environment. Throws Error for
-    /// settings out of range, unknown names, or sizes beyond the device, DeviceError for a technique that
+    /// settings out of range, unknown names, or pictures beyond this machine's memory, DeviceError for a technique that
     /// the device does not offer.
     RenderResult render(const RenderSettings& settings);
     /// The length of solid between a light and each visible point of a translucent surface, through pixel centres, as

@@ -13,6 +13,7 @@ namespace pellucid {
 struct TracedView {
     const Tracer& tracer;
     Camera camera;
+    glm::uvec2 picture;   ///< pixels, of which a frame may draw a part
     glm::vec2 jitter_px;  ///< of the sample within the pixel, from its centre
     Progress progress;
 };
@@ -25,10 +26,11 @@ struct Frame {
     const GpuImage& environment;           ///< map, or one texel if the environment is a formula
     const GpuImage& filtered_environment;  ///< see gpu/environment_images.h; what stands in for it if !scene.rough
     std::uint32_t environment_kind;        ///< pellucid::Environment::Kind
-    vk::Extent2D extent;
-    std::uint32_t samples = 1;            ///< of the picture that this frame is one of
+    vk::Extent2D extent;                   ///< of the tile that is drawn
+    glm::uvec2 first{0};                   ///< its first pixel in the picture
+    std::uint32_t samples = 1;             ///< of the picture that this frame is one of
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
-    const TracedView* traced = nullptr;   ///< for techniques that trace on the CPU; null for others
+    const TracedView* traced = nullptr;                  ///< for techniques that trace on the CPU; null for others
 };
 
 }  // namespace pellucid

@@ -25,9 +25,9 @@ vk::raii::DeviceMemory allocate(const Device& device, const std::string& name, c
                                 vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred,
                                 vk::MemoryAllocateFlags flags = {}) {
     if (needs.size > device.max_allocation()) {
-        throw Error(fmt::format("{} needs {:.2f} GiB, more than the {:.2f} GiB that {} allocates at once", name,
-                                double(needs.size) / double(1u << 30),
-                                double(device.max_allocation()) / double(1u << 30), device.info().name));
+        throw TooLarge(fmt::format("{} needs {:.2f} GiB, more than the {:.2f} GiB that {} allocates at once", name,
+                                   double(needs.size) / double(1u << 30),
+                                   double(device.max_allocation()) / double(1u << 30), device.info().name));
     }
     const vk::MemoryAllocateFlagsInfo flags_info{.flags = flags};
     try {
@@ -36,7 +36,7 @@ vk::raii::DeviceMemory allocate(const Device& device, const std::string& name, c
              .allocationSize = needs.size,
              .memoryTypeIndex = device.memory_type(needs.memoryTypeBits, required, preferred)});
     } catch (const vk::OutOfDeviceMemoryError&) {
-        throw Error(
+        throw TooLarge(
             fmt::format("{}: out of device memory for {:.2f} GiB", name, double(needs.size) / double(1u << 30)));
     }
 }
@@ -126,16 +126,16 @@ Buffer::Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::
     if (texels != vk::Format::eUndefined) {
         const vk::DeviceSize most = vk::DeviceSize(device.limits().maxTexelBufferElements) * texel_size(texels);
         if (size_ > most) {
-            throw Error(fmt::format("{} needs {} MiB in one texel buffer; {} allows {} MiB", name_, size_ >> 20,
-                                    device.info().name, most >> 20));
+            throw TooLarge(fmt::format("{} needs {} MiB in one texel buffer; {} allows {} MiB", name_, size_ >> 20,
+                                       device.info().name, most >> 20));
         }
         size_ = std::max<vk::DeviceSize>(size_, texel_size(texels));
         usage |= vk::BufferUsageFlagBits::eUniformTexelBuffer;
     }
     const bool addressed = bool(usage & vk::BufferUsageFlagBits::eShaderDeviceAddress);  // then it is not bound
     if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && !addressed && size_ > device.max_storage_binding()) {
-        throw Error(fmt::format("{} needs {} MiB in one storage buffer; {} allows {} MiB", name_, size_ >> 20,
-                                device.info().name, device.max_storage_binding() >> 20));
+        throw TooLarge(fmt::format("{} needs {} MiB in one storage buffer; {} allows {} MiB", name_, size_ >> 20,
+                                   device.info().name, device.max_storage_binding() >> 20));
     }
     buffer_ = device.handle().createBuffer({.size = size_, .usage = usage});
     using Property = vk::MemoryPropertyFlagBits;
@@ -157,8 +157,8 @@ GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk
     : name_(std::move(name)), format_(format), extent_(extent), id_(next_resource_id()) {
     const std::uint32_t limit = device.limits().maxImageDimension2D;
     if (extent.width == 0 || extent.height == 0 || extent.width > limit || extent.height > limit) {
-        throw Error(fmt::format("{} of {}x{}: {} allows 1x1 to {}x{}", name_, extent.width, extent.height,
-                                device.info().name, limit, limit));
+        throw TooLarge(fmt::format("{} of {}x{}: {} allows 1x1 to {}x{}", name_, extent.width, extent.height,
+                                   device.info().name, limit, limit));
     }
     if (layers == 0 || layers > device.limits().maxImageArrayLayers) {
         throw Error(fmt::format("{} with {} layers: {} allows 1 to {}", name_, layers, device.info().name,
@@ -166,9 +166,9 @@ GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk
     }
     const vk::DeviceSize bytes = vk::DeviceSize(extent.width) * extent.height * layers * texel_size(format);
     if (bytes > device.max_allocation()) {
-        throw Error(fmt::format("{} of {}x{} with {} layer(s) needs {:.2f} GiB; {} allocates {:.2f} GiB at once", name_,
-                                extent.width, extent.height, layers, double(bytes) / double(1u << 30),
-                                device.info().name, double(device.max_allocation()) / double(1u << 30)));
+        throw TooLarge(fmt::format("{} of {}x{} with {} layer(s) needs {:.2f} GiB; {} allocates {:.2f} GiB at once",
+                                   name_, extent.width, extent.height, layers, double(bytes) / double(1u << 30),
+                                   device.info().name, double(device.max_allocation()) / double(1u << 30)));
     }
     image_ = device.handle().createImage({.imageType = vk::ImageType::e2D,
                                           .format = format,

@@ -2,6 +2,7 @@
 
 #include "gpu/device.h"
 
+#include <pellucid/error.h>
 #include <pellucid/image.h>
 
 #include <algorithm>
@@ -11,6 +12,12 @@
 #include <vector>
 
 namespace pellucid {
+
+/// The device has no room for what is asked of it at once; for less it may.
+class TooLarge : public Error {
+public:
+    using Error::Error;
+};
 
 /// Identifies a buffer or an image to the Recorder; never reused.
 using ResourceId = std::uint64_t;

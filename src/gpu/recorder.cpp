@@ -286,8 +286,8 @@ void Recorder::trace_bytes(const Program& program, std::span<const Binding> bind
                            vk::Extent2D rays) {
     const std::uint64_t limit = device_.ray_tracing()->max_rays;
     if (std::uint64_t(rays.width) * rays.height > limit) {
-        throw Error(fmt::format("{}x{} pixels: {} traces {} rays at once", rays.width, rays.height, device_.info().name,
-                                limit));
+        throw TooLarge(fmt::format("{}x{} pixels: {} traces {} rays at once", rays.width, rays.height,
+                                   device_.info().name, limit));
     }
     std::vector<Use> uses;
     bind(program, bindings, push, uses);

@@ -37,8 +37,8 @@ struct FrameConstants {
     mat4 view_from_world;
     mat4 world_from_view;
     mat4 clip_from_view;
-    // View-plane position of pixel coordinate (i, j), centres at +0.5: (x + i * z, y - j * w), at
-    // depth 1 for a perspective camera, in metres for an orthographic one.
+    // View-plane position of pixel coordinate (i, j) of the whole picture, centres at +0.5: (x + i * z, y - j * w),
+    // at depth 1 for a perspective camera, in metres for an orthographic one.
     vec4 film;
     float near_plane;
     float far_plane;
@@ -46,12 +46,14 @@ struct FrameConstants {
     float glass_far;
     float depth_scale;  // power of two that brings depths below 1, so that scaling is exact
     uint orthographic;
-    uint width;  // pixels
+    uint width;  // of the tile that is drawn, pixels
     uint height;
     uint object_count;
     uint environment_kind;
     uint sample_index;  // of the picture, 0 on
-    uint reserved1;
+    uint first_x;  // of the tile in the picture, pixels
+    uint first_y;
+    uint reserved1, reserved2, reserved3;
     vec4 environment_uniform;
     vec4 irradiance[9];  // spherical harmonics, see irradiance_coefficients()
 };
@@ -99,7 +101,7 @@ struct TextureRecord {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 3 * 64 + 16 + 3 * 16 + 16 + 9 * 16);
+static_assert(sizeof(FrameConstants) == 3 * 64 + 16 + 4 * 16 + 16 + 9 * 16);
 static_assert(sizeof(ObjectRecord) == 144);
 static_assert(sizeof(MaterialRecord) == 112);
 static_assert(sizeof(TextureRecord) == 64);

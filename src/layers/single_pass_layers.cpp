@@ -219,8 +219,8 @@ bool LayerSource::must_enlarge_pool(const Frame& frame) {
         const std::uint64_t wanted = std::uint64_t(pool_.bands) * (std::uint64_t(needed) / largest + 1);
         pool_.bands = std::uint32_t(std::min<std::uint64_t>(wanted, frame.extent.height));
     } else {
-        throw Error(fmt::format("{} glass surfaces in one row of pixels; {} has room for {}", needed,
-                                frame.workspace.device().info().name, largest));
+        throw TooLarge(fmt::format("{} glass surfaces in one row of pixels; {} has room for {}", needed,
+                                   frame.workspace.device().info().name, largest));
     }
     return true;
 }

@@ -77,7 +77,7 @@ std::uint32_t room_for(const Device& device, std::uint32_t room, std::uint32_t n
     if (needed <= room) return room;
     const std::uint32_t most = most_map_items(device, item_size);
     if (needed > most) {
-        throw Error(fmt::format("{} {} in the picture; {} has room for {}", needed, what, device.info().name, most));
+        throw TooLarge(fmt::format("{} {} in the picture; {} has room for {}", needed, what, device.info().name, most));
     }
     return std::uint32_t(std::min<std::uint64_t>(most, whole_range_blocks(std::uint64_t(needed) + needed / 4)));
 }

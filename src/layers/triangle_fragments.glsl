@@ -23,7 +23,7 @@ struct PlacedMesh {
 
 struct ScreenTriangle {
     vec3 view[3];
-    vec2 pixel[3];     // in an order that makes its area positive
+    vec2 pixel[3];     // of the whole picture, in an order that makes the area positive
     vec3 depths;       // of these; of a perspective camera, their inverses
     ivec2 low, high;   // pixels whose centres may be covered; empty where high < low
     uint record;       // its number, with PELLUCID_BACK_FACE
@@ -41,7 +41,7 @@ ScreenTriangle screen_triangle(PlacedMesh object, uint triangle, ivec2 first, iv
         bool near = -t.view[i].z < frame.near_plane;
         any_near = any_near || near;
         all_near = all_near && near;
-        t.pixel[i] = project(t.view[i]);
+        t.pixel[i] = project_to_picture(t.view[i]);
         t.depths[i] = frame.orthographic != 0u ? -t.view[i].z : -1.0 / t.view[i].z;
         low = min(low, t.pixel[i]);
         high = max(high, t.pixel[i]);
@@ -56,11 +56,11 @@ ScreenTriangle screen_triangle(PlacedMesh object, uint triangle, ivec2 first, iv
         for (int i = 0; i < 3; ++i) {
             vec3 from = t.view[i], to = t.view[(i + 1) % 3];
             if (-from.z >= frame.near_plane) {
-                low = min(low, project(from));
-                high = max(high, project(from));
+                low = min(low, project_to_picture(from));
+                high = max(high, project_to_picture(from));
             }
             if ((-from.z < frame.near_plane) != (-to.z < frame.near_plane)) {
-                vec2 cut = project(mix(from, to, (frame.near_plane + from.z) / (from.z - to.z)));
+                vec2 cut = project_to_picture(mix(from, to, (frame.near_plane + from.z) / (from.z - to.z)));
                 low = min(low, cut);
                 high = max(high, cut);
             }
@@ -72,6 +72,8 @@ ScreenTriangle screen_triangle(PlacedMesh object, uint triangle, ivec2 first, iv
         t.depths = t.depths.xzy;
     }
     t.record = triangle | (back != (object.mirrored != 0u) ? PELLUCID_BACK_FACE : 0u);
+    low -= vec2(first_pixel());
+    high -= vec2(first_pixel());
     // Within what integers hold; a margin of a pixel beyond the part of the picture that is asked for.
     t.low = max(ivec2(ceil(clamp(low - 0.5, vec2(first) - 1.0, vec2(end)))), first);
     t.high = min(ivec2(floor(clamp(high - 0.5, vec2(first) - 1.0, vec2(end)))), end - 1);
@@ -89,7 +91,7 @@ float edge(vec2 a, vec2 b, vec2 p, out bool turned) {
 
 // False: the triangle does not cover the pixel's centre.
 bool covered_at(ScreenTriangle t, ivec2 pixel, out float depth) {
-    vec2 p = vec2(pixel) + 0.5;
+    vec2 p = vec2(pixel + first_pixel()) + 0.5;
     bvec3 turned;
     vec3 areas = vec3(edge(t.pixel[1], t.pixel[2], p, turned.x), edge(t.pixel[2], t.pixel[0], p, turned.y),
                       edge(t.pixel[0], t.pixel[1], p, turned.z));

@@ -18,6 +18,8 @@ constexpr std::uint32_t kMostTexels = 1u << 22;  ///< 90 MB with the pyramid ove
 gpu::FrameConstants view_of(const Frame& frame) {
     gpu::FrameConstants view{};
     std::memcpy(&view, frame.constants.mapped(), sizeof(view));
+    view.film.x += float(view.first_x) * view.film.z;  // the tile's
+    view.film.y -= float(view.first_y) * view.film.w;
     return view;
 }
 

@@ -15,11 +15,16 @@
 namespace pellucid::reference {
 namespace {
 
+glm::uvec2 part_size(const ExactSettings& s) {
+    return s.part_size == glm::uvec2(0) ? glm::uvec2(s.width, s.height) : s.part_size;
+}
+
 /// Paths of neighbouring pixels, traced in step.
 class Block {
 public:
     Block(const Geometry& geometry, const CurvedVolumes& volumes, const ExactSettings& settings)
         : geometry_(geometry), volumes_(volumes), settings_(settings), size_(block_size(settings.packet)),
+          part_(part_size(settings)),
           paths_(settings.packet, ExactPath(geometry, settings.max_events, int(settings.channel))),
           queries_(settings.packet), active_(settings.packet), hits_(settings.packet) {}
 
@@ -29,17 +34,17 @@ public:
         std::uint32_t running = 0;
         for (std::uint32_t i = 0; i < settings_.packet; ++i) {
             const glm::uvec2 pixel = first + glm::uvec2(i % size_.x, i / size_.x);
-            active_[i] = pixel.x < settings_.width && pixel.y < settings_.height ? 1 : 0;
+            active_[i] = pixel.x < part_.x && pixel.y < part_.y ? 1 : 0;
             if (active_[i] == 0) continue;
-            const CameraRay ray = rays.at(glm::dvec2(pixel) + 0.5 + settings_.shift_px);
+            const CameraRay ray = rays.at(glm::dvec2(settings_.part_first + pixel) + 0.5 + settings_.shift_px);
             paths_[i].start(ray, media.around(ray));
             ++running;
         }
         while (running > 0) running -= step();
         for (std::uint32_t i = 0; i < settings_.packet; ++i) {
             const glm::uvec2 pixel = first + glm::uvec2(i % size_.x, i / size_.x);
-            if (pixel.x >= settings_.width || pixel.y >= settings_.height) continue;
-            picture[std::size_t(pixel.y) * settings_.width + pixel.x] = paths_[i].result();
+            if (pixel.x >= part_.x || pixel.y >= part_.y) continue;
+            picture[std::size_t(pixel.y) * part_.x + pixel.x] = paths_[i].result();
         }
     }
 
@@ -75,7 +80,7 @@ private:
     const Geometry& geometry_;
     const CurvedVolumes& volumes_;
     const ExactSettings& settings_;
-    glm::uvec2 size_;
+    glm::uvec2 size_, part_;
     std::vector<ExactPath> paths_;
     std::vector<Query> queries_;
     std::vector<int> active_;
@@ -86,6 +91,11 @@ private:
 
 void check_exact_settings(const ExactSettings& s) {
     if (s.width == 0 || s.height == 0) throw Error(fmt::format("a picture of {}x{} has no pixels", s.width, s.height));
+    const glm::uvec2 part = part_size(s);
+    if (part.x == 0 || part.y == 0 || s.part_first.x > s.width || s.part_first.y > s.height ||
+        part.x > s.width - s.part_first.x || part.y > s.height - s.part_first.y)
+        throw Error(fmt::format("{}x{} pixels from {}, {} on are no part of a picture of {}x{}", part.x, part.y,
+                                s.part_first.x, s.part_first.y, s.width, s.height));
     if (s.max_events == 0 || s.max_events > 65535) {
         throw Error(fmt::format("the exact path follows 1 to 65535 events, not {}", s.max_events));
     }
@@ -105,9 +115,8 @@ std::vector<RefractedPath> trace_exact(const Geometry& geometry, const CurvedVol
     check_camera(camera);
     const CameraRays rays(camera, settings.width, settings.height);
     const StartMedia media(geometry, rays, {settings.width, settings.height});
-    std::vector<RefractedPath> picture(std::size_t(settings.width) * settings.height);
-
-    const glm::uvec2 size(settings.width, settings.height);
+    const glm::uvec2 size = part_size(settings);
+    std::vector<RefractedPath> picture(std::size_t(size.x) * size.y);
     std::mutex mutex;
     std::uint32_t done = 0;
     for_each_tile(size, threads, [&](glm::uvec2 first, glm::uvec2 end) {

@@ -106,7 +106,8 @@ struct ViewRay {
     glm::vec3 origin, direction;
 };
 ViewRay view_ray(const gpu::FrameConstants& view, std::uint32_t x, std::uint32_t y) {
-    const glm::vec2 film(view.film.x + (float(x) + 0.5f) * view.film.z, view.film.y - (float(y) + 0.5f) * view.film.w);
+    const glm::vec2 pixel(float(view.first_x + x) + 0.5f, float(view.first_y + y) + 0.5f);
+    const glm::vec2 film(view.film.x + pixel.x * view.film.z, view.film.y - pixel.y * view.film.w);
     const bool orthographic = view.orthographic != 0;
     const glm::vec3 origin = orthographic ? glm::vec3(film, 0.0f) : glm::vec3(0.0f);
     const glm::vec3 direction = orthographic ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::normalize(glm::vec3(film, -1.0f));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 namespace pellucid {
@@ -100,6 +101,9 @@ std::vector<std::string> unknown_solids(const SceneTopology& topology, const Tec
     return lines;
 }
 
+namespace {
+
+/// One line where more than 1% of the glass pixels have a status other than ok: how many, and of which status.
 std::optional<std::string> bad_status_warning(const RenderResult& result, const TechniqueInfo& technique) {
     const std::uint64_t bad = result.covered - result.status[std::size_t(Status::kOk)];
     if (100 * bad <= result.covered) return std::nullopt;
@@ -111,6 +115,21 @@ std::optional<std::string> bad_status_warning(const RenderResult& result, const 
     }
     return fmt::format("{}: {} of {} glass pixels may be wrong by their status: {}", technique.name, bad,
                        result.covered, causes);
+}
+
+}  // namespace
+
+void warn_of(RenderResult& result, const Technique& technique, bool cut, const RenderSettings& settings) {
+    if (auto warning = bad_status_warning(result, technique.info)) result.warnings.push_back(*warning);
+    if (result.cut_rays > 0) {
+        result.warnings.push_back(fmt::format(
+            "light meets more than {} surfaces on its way to {} pixels: what is behind them counts as a gap",
+            settings.thickness.layers, result.cut_rays));
+    }
+    if (cut && technique.searches_layers) {
+        result.warnings.push_back(fmt::format(
+            "drawn in tiles: {} finds no surface that lies beyond the tile of the pixel", technique.info.name));
+    }
 }
 
 }  // namespace pellucid

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "gpu/scene_topology.h"
+#include "techniques/technique.h"
 
 #include <pellucid/renderer.h>
 #include <pellucid/scene.h>
 #include <pellucid/technique.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +18,8 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
 /// The same of solids, for techniques that do not count what a ray is inside of.
 std::vector<std::string> unknown_solids(const SceneTopology& topology, const TechniqueInfo& technique);
 
-/// One line where more than 1% of the glass pixels have a status other than ok: how many, and of which status.
-std::optional<std::string> bad_status_warning(const RenderResult& result, const TechniqueInfo& technique);
+/// Adds what may be wrong in a picture, by its counts, to its warnings. `cut`: it was drawn in tiles and glass lies in
+/// several.
+void warn_of(RenderResult& result, const Technique& technique, bool cut, const RenderSettings& settings);
 
 }  // namespace pellucid

@@ -38,10 +38,12 @@ Range glass_range(const glm::mat4& view_from_world, std::span<const glm::vec3> c
 
 /// Clip space from view space for Vulkan: x right, y down, depth 0 (near) to 1 (far).
 glm::mat4 clip_matrix(const gpu::FrameConstants& c) {
+    const glm::dvec2 corner(double(c.film.x) + double(c.first_x) * double(c.film.z),
+                            double(c.film.y) - double(c.first_y) * double(c.film.w));
     const float scale_x = 2.0f / (float(c.width) * c.film.z);
     const float scale_y = 2.0f / (float(c.height) * c.film.w);
-    const float offset_x = -c.film.x * scale_x - 1.0f;
-    const float offset_y = c.film.y * scale_y - 1.0f;
+    const float offset_x = -float(corner.x) * scale_x - 1.0f;
+    const float offset_y = float(corner.y) * scale_y - 1.0f;
     const float range = c.far_plane - c.near_plane;
     glm::mat4 clip(0.0f);
     clip[0][0] = scale_x;
@@ -64,6 +66,7 @@ void set_camera(gpu::FrameConstants& constants, const Camera& camera, std::uint3
     constants.view_from_world = glm::affineInverse(camera.world_from_view);
     constants.width = width;
     constants.height = height;
+    constants.first_x = constants.first_y = 0;
     constants.orthographic = camera.orthographic ? 1 : 0;
 
     const float extent = camera.orthographic ? camera.vertical_extent : 2.0f * std::tan(0.5f * camera.vertical_fov);
@@ -81,11 +84,20 @@ void set_camera(gpu::FrameConstants& constants, const Camera& camera, std::uint3
     constants.clip_from_view = clip_matrix(constants);
 }
 
+void set_tile(gpu::FrameConstants& constants, glm::uvec2 first, vk::Extent2D extent) {
+    constants.first_x = first.x;
+    constants.first_y = first.y;
+    constants.width = extent.width;
+    constants.height = extent.height;
+    constants.clip_from_view = clip_matrix(constants);
+}
+
 void set_view(gpu::FrameConstants& constants, const ViewVolume& view, std::uint32_t width, std::uint32_t height) {
     constants.world_from_view = view.world_from_view;
     constants.view_from_world = glm::affineInverse(view.world_from_view);
     constants.width = width;
     constants.height = height;
+    constants.first_x = constants.first_y = 0;
     constants.orthographic = view.orthographic ? 1 : 0;
     const glm::vec2 size = view.window.high - view.window.low;
     constants.film = glm::vec4(view.window.low.x, view.window.high.y, size.x / float(width), size.y / float(height));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/structs.h"
+#include "gpu/vulkan.h"
 
 #include <pellucid/scene.h>
 
@@ -12,6 +13,9 @@ namespace pellucid {
 /// its centre (-0.5..0.5). `refractive_corners` are world points whose hull holds all glass.
 void set_camera(gpu::FrameConstants& constants, const Camera& camera, std::uint32_t width, std::uint32_t height,
                 glm::vec2 jitter, const Bounds& bounds, std::span<const glm::vec3> refractive_corners);
+
+/// After set_camera() of the whole picture: the part of it that is drawn, whose corner is pixel `first`.
+void set_tile(gpu::FrameConstants& constants, glm::uvec2 first, vk::Extent2D extent);
 
 /// A part of the plane of view: in metres for an orthographic view, at depth 1 for a perspective one.
 struct FilmWindow {

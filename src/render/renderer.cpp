@@ -4,18 +4,19 @@
 #include "render/aovs.h"
 #include "render/approximations.h"
 #include "render/camera_constants.h"
+#include "render/check_settings.h"
 #include "render/cpu_tracing.h"
+#include "render/display.h"
 #include "render/frame.h"
 #include "render/solid_lighting.h"
+#include "render/tiles.h"
 #include "scene/check_scene.h"
-#include "shade/adaptation.h"
 
 #include <pellucid/error.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -25,49 +26,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kMaxSamples = 1u << 20;
-
-void check_settings(const RenderSettings& settings, const Device& device) {
-    const std::uint32_t limit = device.limits().maxImageDimension2D;
-    if (settings.width == 0 || settings.height == 0 || settings.width > limit || settings.height > limit) {
-        throw Error(fmt::format("size {}x{}: {} draws 1x1 to {}x{}", settings.width, settings.height,
-                                device.info().name, limit, limit));
-    }
-    if (settings.samples == 0 || settings.samples > kMaxSamples) {
-        throw Error(fmt::format("samples must be 1 to {}, not {}", kMaxSamples, settings.samples));
-    }
-    if (!(std::abs(settings.exposure_ev) <= 64.0f)) {
-        throw Error(fmt::format("exposure must be -64 to 64 stops, not {}", settings.exposure_ev));
-    }
-    if (!(settings.unit_luminance_cd_m2 >= 1e-6f && settings.unit_luminance_cd_m2 <= 1e9f)) {
-        throw Error(
-            fmt::format("luminance of radiance 1 must be 1e-6 to 1e9 cd/m2, not {}", settings.unit_luminance_cd_m2));
-    }
-    if (!(settings.adaptation_s >= 0.0f))
-        throw Error(fmt::format("time to adapt must be at least 0 s, not {}", settings.adaptation_s));
-    check_thickness(settings.thickness, device);
-    check_aov_names(settings.aovs);
-}
-
-Image rgb_image(vk::Extent2D extent, const std::vector<std::byte>& data, float scale) {
-    Image image(int(extent.width), int(extent.height), 3);
-    for (std::size_t i = 0; i < std::size_t(extent.width) * extent.height; ++i) {
-        std::array<float, 4> texel;
-        std::memcpy(texel.data(), data.data() + i * sizeof(texel), sizeof(texel));
-        for (std::size_t c = 0; c < 3; ++c) image.pixels[3 * i + c] = scale * texel[c];
-    }
-    return image;
-}
-
-Image display_image(vk::Extent2D extent, const std::vector<std::byte>& data) {
-    Image image(int(extent.width), int(extent.height), 3);
-    for (std::size_t i = 0; i < std::size_t(extent.width) * extent.height; ++i) {
-        for (std::size_t c = 0; c < 3; ++c)
-            image.pixels[3 * i + c] = float(std::to_integer<int>(data[4 * i + c])) / 255.0f;
-    }
-    return image;
-}
 
 double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -81,6 +39,11 @@ std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std
         if (!repeated) times.push_back(pass);
     }
     return times;
+}
+
+/// Whether frames make the picture; a technique that shades its own paths makes it apart.
+bool draws_picture(const FrameSettings& chosen) {
+    return chosen.technique.trace_picture == nullptr || chosen.view == View::kAnalysis;
 }
 
 }  // namespace
@@ -110,6 +73,12 @@ struct Renderer::Impl {
     std::optional<Camera> scene_camera;  // the scene's first
     gpu::FrameConstants environment_constants{};
 
+    struct Drawn {
+        std::vector<Tile> tiles;
+        const GpuImage* on_device = nullptr;  ///< radiance of the only tile
+        bool cut = false;                     ///< glass lies in several tiles, or beside opaque surfaces of others
+    };
+
     FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
     /// Lets the technique compute what it wants of the scene; ParameterValues of `chosen` say what.
     void prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
@@ -120,16 +89,17 @@ struct Renderer::Impl {
     std::vector<PassTime> run_frame(Frame frame, const FrameSettings& chosen, const RenderSettings& settings,
                                     std::optional<std::uint32_t> sample, const Progress& progress,
                                     std::optional<FrameImages>& images);
-    struct Picture {
-        const GpuImage& radiance;
-        float scale;  ///< that makes it the mean over the samples
-    };
-    /// Draws the samples; fills the AOVs, paths, counts and times of `result`.
-    Picture render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
-                           RenderResult& result);
+    /// Draws the samples of a tile; fills the radiance (the sum of the samples), AOVs, paths, counts and times of `part`.
+    /// Returns the radiance on the device; null where the technique shades its own paths.
+    const GpuImage* render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                                   RenderResult& part);
+    /// Draws all tiles; they are smaller in the end than at first where one did not fit the device.
+    Drawn draw_tiles(Frame frame, const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
     /// The picture of a technique that shades its own paths.
-    Picture trace_picture(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
-                          RenderResult& result);
+    void trace_picture(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
+    Frame frame_of(const RenderSettings& settings);
+    /// Takes back what a frame that failed has left. Rooms for what frames need are learnt anew.
+    void forget_frame();
     std::vector<std::uint32_t> all_lights() const {
         std::vector<std::uint32_t> numbers(cpu.scene().lights.size());
         std::iota(numbers.begin(), numbers.end(), 0u);
@@ -142,18 +112,12 @@ struct Renderer::Impl {
         solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache, threads,
                              progress, warnings);
     }
-    /// Display values of `scale * radiance`.
-    const GpuImage& display(const Frame& frame, const GpuImage& radiance, float scale, const RenderSettings& settings) {
-        // What shows wavefronts is exposed already.
-        const float exposure = settings.view == View::kWavefront ? 1.0f : std::exp2(settings.exposure_ev);
-        if (settings.tonemap != ToneMap::kKrawczyk)
-            return tonemap(recorder, frame, radiance, scale * exposure, settings.tonemap);
-        return adaptation.tonemap(recorder, frame, radiance,
-                                  {.unit_cd_m2 = scale * settings.unit_luminance_cd_m2,
-                                   .exposure = exposure,
-                                   .elapsed_s = settings.adaptation_s});
+    gpu::FrameConstants current_constants() const {
+        gpu::FrameConstants values{};
+        std::memcpy(&values, constants->mapped(), sizeof(values));
+        return values;
     }
-    void set_constants(const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample);
+    void set_constants(const Frame& frame, const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample);
     Camera camera_for(const RenderSettings& settings) const;
     const GpuImage& filtered_environment_for_scene();
 };
@@ -219,10 +183,12 @@ void Renderer::Impl::prepare(const FrameSettings& chosen, const Camera& view, co
     if (scene->topology) scene->topology->look_from(device, cpu.scene(), view);
 }
 
-void Renderer::Impl::set_constants(const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample) {
+void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& settings, glm::vec2 jitter,
+                                   std::uint32_t sample) {
     gpu::FrameConstants values = environment_constants;
     pellucid::set_camera(values, camera_for(settings), settings.width, settings.height, jitter, scene->bounds,
                          scene->refractive_corners);
+    set_tile(values, frame.first, frame.extent);
     values.object_count = scene->object_count;
     values.sample_index = sample;
     std::memcpy(constants->mapped(), &values, sizeof(values));
@@ -232,10 +198,11 @@ std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings
                                                 const RenderSettings& settings, std::optional<std::uint32_t> sample,
                                                 const Progress& progress, std::optional<FrameImages>& images) {
     const glm::vec2 jitter = sample ? sample_jitter(*sample) : glm::vec2(0.0f);
-    set_constants(settings, jitter, sample.value_or(0));
+    set_constants(frame, settings, jitter, sample.value_or(0));
     std::optional<TracedView> traced;
     if (chosen.technique.info.reference) {
-        traced.emplace(TracedView{cpu.tracer(), camera_for(settings), jitter, progress});
+        traced.emplace(
+            TracedView{cpu.tracer(), camera_for(settings), {settings.width, settings.height}, jitter, progress});
         frame.traced = &*traced;
     }
     std::vector<PassTime> times;
@@ -248,59 +215,99 @@ std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings
     }
 }
 
-Renderer::Impl::Picture Renderer::Impl::render_samples(const Frame& frame, const FrameSettings& chosen,
-                                                       const RenderSettings& settings, RenderResult& result) {
-    const bool draws = chosen.technique.trace_picture == nullptr || chosen.view == View::kAnalysis;
+const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSettings& chosen,
+                                               const RenderSettings& settings, RenderResult& part) {
+    const bool draws = draws_picture(chosen);
     // The frame through pixel centres gives the AOVs and counts; alone, it is the picture too.
     std::optional<FrameImages> images;
     const bool alone = draws && settings.samples == 1;
     std::vector<PassTime> times =
         run_frame(frame, chosen, settings, std::nullopt, alone ? settings.progress : Progress(), images);
-    gpu::FrameConstants view{};
-    std::memcpy(&view, constants->mapped(), sizeof(view));
-    read_back(device, *images, view, scene->first_triangles, settings, result);
-    if (auto warning = bad_status_warning(result, chosen.technique.info)) result.warnings.push_back(*warning);
-    result.layer_passes = layer_source.geometry_passes();
-    result.cut_rays = solid_lighting.transmitted().cut_rays();
-    if (result.cut_rays > 0) {
-        result.warnings.push_back(fmt::format(
-            "light meets more than {} surfaces on its way to {} pixels: what is behind them counts as a gap",
-            settings.thickness.layers, result.cut_rays));
-    }
-    if (!draws) return trace_picture(frame, chosen, settings, result);
-    if (alone) {
-        result.frames.push_back(std::move(times));
-        return {images->radiance, 1.0f};
-    }
-    const GpuImage* sum = nullptr;
+    read_back(device, *images, current_constants(), scene->first_triangles, settings, part);
+    part.layer_passes = layer_source.geometry_passes();
+    part.cut_rays = solid_lighting.transmitted().cut_rays();
+    if (!draws) return nullptr;
+    const GpuImage* sum = &images->radiance;
+    if (alone) part.frames.push_back(std::move(times));
     Frame sampled = frame;
     if (settings.still) sampled.samples = settings.samples;
-    const double share = 1.0 / double(settings.samples);
-    for (std::uint32_t sample = 0; sample < settings.samples; ++sample) {
+    for (std::uint32_t sample = 0; !alone && sample < settings.samples; ++sample) {
         const auto progress = [&](double done) {
-            if (settings.progress) settings.progress((double(sample) + done) * share);
+            if (settings.progress) settings.progress((double(sample) + done) / double(settings.samples));
         };
         times = run_frame(sampled, chosen, settings, sample, progress, images);
         // Submitted apart: a frame that overflowed was drawn twice, and counts once.
         sum = &accumulate(recorder, frame, images->radiance, sample);
         for (PassTime& time : recorder.submit_and_wait()) times.push_back(std::move(time));
-        result.frames.push_back(std::move(times));
-        result.layer_passes = layer_source.geometry_passes();
+        part.frames.push_back(std::move(times));
+        part.layer_passes = layer_source.geometry_passes();
         progress(1.0);
     }
-    return {*sum, float(share)};
+    part.radiance = download_rgb(device, *sum);
+    return sum;
 }
 
-Renderer::Impl::Picture Renderer::Impl::trace_picture(const Frame& frame, const FrameSettings& chosen,
-                                                      const RenderSettings& settings, RenderResult& result) {
-    PathTracedImage traced =
-        chosen.technique.trace_picture({cpu.tracer(), camera_for(settings), {0.0f, 0.0f}, settings.progress},
-                                       environment, frame.extent, settings.samples, chosen.parameters);
+Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSettings& chosen,
+                                                 const RenderSettings& settings, RenderResult& result) {
+    const glm::uvec2 size(settings.width, settings.height);
+    // Paths have 16 bytes per pixel in one buffer; other techniques list the pixels with glass.
+    std::uint64_t most = most_tile_pixels(device, chosen.technique.info.whole_scene ? 16 : 4);
+    if (settings.tile_pixels > 0) most = std::min<std::uint64_t>(most, settings.tile_pixels);
+    set_constants(frame, settings, glm::vec2(0.0f), 0);
+    const std::optional<Tile> glass = tile_of_glass(current_constants(), scene->refractive_corners);
+    std::vector<Tile> left = tiles_of(size, glass, most, device);
+    TileProgress progress(settings.progress, size);
+    Drawn drawn;
+    while (!left.empty()) {
+        const Tile tile = left.back();
+        frame.first = tile.first;
+        frame.extent = tile.extent();
+        RenderSettings of_tile = settings;
+        if (progress && draws_picture(chosen)) of_tile.progress = [&](double done) { progress.show(tile, done); };
+        RenderResult part;
+        try {
+            drawn.on_device = render_samples(frame, chosen, of_tile, part);
+        } catch (const TooLarge&) {
+            if (!halve(left)) throw;
+            forget_frame();
+            continue;
+        }
+        left.pop_back();
+        add_tile(result, std::move(part), tile, size);
+        drawn.tiles.push_back(tile);
+        if (draws_picture(chosen) && tile.size != size) progress.show(tile, 1.0);
+        progress.finish(tile);
+    }
+    if (drawn.tiles.size() == 1) return drawn;
+    drawn.on_device = nullptr;
+    drawn.cut = !glass || !scene->opaque.empty() ||
+                std::none_of(drawn.tiles.begin(), drawn.tiles.end(), [&](const Tile& t) { return t.holds(*glass); });
+    return drawn;
+}
+
+void Renderer::Impl::trace_picture(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result) {
+    PathTracedImage traced = chosen.technique.trace_picture(
+        {cpu.tracer(), camera_for(settings), {settings.width, settings.height}, {0.0f, 0.0f}, settings.progress},
+        environment, settings.samples, chosen.parameters);
+    result.radiance = std::move(traced.radiance);
     result.standard_error = std::move(traced.standard_error);
     result.cut_paths = traced.cut_paths;
-    const GpuImage& radiance = workspace.image("traced radiance", vk::Format::eR32G32B32A32Sfloat, frame.extent);
-    upload_rgb(device, radiance, traced.radiance);
-    return {radiance, 1.0f};
+}
+
+Frame Renderer::Impl::frame_of(const RenderSettings& settings) {
+    return {workspace,
+            *scene,
+            *constants,
+            *environment_map,
+            filtered_environment_for_scene(),
+            std::uint32_t(environment.kind),
+            {settings.width, settings.height}};
+}
+
+void Renderer::Impl::forget_frame() {
+    recorder.restart();  // what was recorded may name resources that are gone
+    layer_source = LayerSource();
+    for (int i = 0; i < 2; ++i) workspace.trim();  // the first marks everything as unused
 }
 
 Renderer::Renderer(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options)) {
@@ -368,24 +375,21 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
     impl.prepare(chosen, impl.camera_for(settings), settings.progress, result.warnings);
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
-    Frame frame{impl.workspace,
-                *impl.scene,
-                *impl.constants,
-                *impl.environment_map,
-                impl.filtered_environment_for_scene(),
-                std::uint32_t(impl.environment.kind),
-                {settings.width, settings.height}};
+    Frame frame = impl.frame_of(settings);
     if (settings.view == View::kWavefront) frame.front_exposure = std::exp2(settings.exposure_ev);
     impl.workspace.trim();
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {
-        const auto [radiance, scale] = impl.render_samples(frame, chosen, settings, result);
+        const Impl::Drawn drawn = impl.draw_tiles(frame, chosen, settings, result);
+        warn_of(result, chosen.technique, drawn.cut, settings);
+        const bool draws = draws_picture(chosen);
+        if (!draws) impl.trace_picture(chosen, settings, result);
         if (chosen.technique.report != nullptr) chosen.technique.report(*impl.scene, result.warnings);
-        const GpuImage& display = impl.display(frame, radiance, scale, settings);
-        impl.recorder.submit_and_wait();
+        const float scale = draws ? float(1.0 / double(settings.samples)) : 1.0f;
+        result.display = display_picture(impl.recorder, frame, drawn.tiles, {result.radiance, drawn.on_device, scale},
+                                         impl.adaptation, settings);
         if (settings.tonemap == ToneMap::kKrawczyk) result.adapted_cd_m2 = impl.adaptation.adapted_cd_m2();
-        result.radiance = rgb_image(frame.extent, download(impl.device, radiance, 0), scale);
-        result.display = display_image(frame.extent, download(impl.device, display, 0));
+        for (float& value : result.radiance.pixels) value *= scale;
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
         impl.layer_source = LayerSource();
@@ -408,14 +412,8 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
     }
     ThicknessResult result;
     impl.light_solids(request.settings, {request.light}, request.progress, result.warnings);
-    const Frame frame{impl.workspace,
-                      *impl.scene,
-                      *impl.constants,
-                      *impl.environment_map,
-                      impl.filtered_environment_for_scene(),
-                      std::uint32_t(impl.environment.kind),
-                      {settings.width, settings.height}};
-    impl.set_constants(settings, glm::vec2(0.0f), 0);
+    const Frame frame = impl.frame_of(settings);
+    impl.set_constants(frame, settings, glm::vec2(0.0f), 0);
     TransmittedLight& transmitted = impl.solid_lighting.transmitted();
     try {
         const GpuImage* thickness = nullptr;

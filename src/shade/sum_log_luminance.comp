@@ -10,7 +10,8 @@ layout(set = 0, binding = 0, rgba32f) readonly uniform image2DArray radiance;
 layout(std430, set = 0, binding = 1) writeonly buffer TileSums { float tile_sums[]; };
 layout(push_constant) uniform Push {
     float unit_cd_m2;
-    int side;  // an invocation's share, pixels
+    int side;        // an invocation's share, pixels
+    uint first_sum;  // of this part of the picture
 };
 
 void main() {
@@ -24,5 +25,5 @@ void main() {
         }
     }
     sum = sum_of_group(sum);
-    if (gl_LocalInvocationIndex == 0u) tile_sums[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = sum;
+    if (gl_LocalInvocationIndex == 0u) tile_sums[first_sum + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = sum;
 }

@@ -9,13 +9,13 @@ float reach_zero(float value, float rate) {
     return rate < 0.0 ? max(value, 0.0) / -rate : PELLUCID_EMPTY_DEPTH;
 }
 
-// How far the ray stays within the picture.
+// How far the ray stays within the tile that is drawn.
 float distance_to_screen_edge(vec3 origin, vec3 direction) {
     bool orthographic = frame.orthographic != 0u;
     float depth = orthographic ? 1.0 : -origin.z;
     float depth_rate = orthographic ? 0.0 : -direction.z;
-    vec2 low = vec2(frame.film.x, frame.film.y - float(frame.height) * frame.film.w);
-    vec2 high = vec2(frame.film.x + float(frame.width) * frame.film.z, frame.film.y);
+    vec2 top_left = film_point(vec2(0.0)), bottom_right = film_point(vec2(frame.width, frame.height));
+    vec2 low = vec2(top_left.x, bottom_right.y), high = vec2(bottom_right.x, top_left.y);
     vec2 from_low = origin.xy - low * depth, from_low_rate = direction.xy - low * depth_rate;
     vec2 from_high = high * depth - origin.xy, from_high_rate = high * depth_rate - direction.xy;
     return min(min(reach_zero(from_low.x, from_low_rate.x), reach_zero(from_low.y, from_low_rate.y)),

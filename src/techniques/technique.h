@@ -84,13 +84,15 @@ struct Technique {
     /// `layers` are of all solids together.
     Refraction (*record)(Recorder& recorder, const Frame& frame, const Layers& layers,
                          const ParameterValues& parameters);
+    /// It looks for surfaces in layers of other pixels: in a tile of a picture it knows nothing of the others.
+    bool searches_layers = false;
     /// View::kWavefront: draws the wavefronts of light over `radiance` (RGBA32F), where the scene has been shaded. Null: the
     /// technique traces none. Throws Error if there are none in this scene.
     void (*draw_light)(Recorder& recorder, const Frame& frame, const Opaque& opaque,
                        const GpuImage& radiance) = nullptr;
     /// The picture of a technique that shades its own paths, which shade() then does not do. Null: none.
-    PathTracedImage (*trace_picture)(const TracedView& view, const Environment& environment, vk::Extent2D extent,
-                                     std::uint32_t samples, const ParameterValues& parameters) = nullptr;
+    PathTracedImage (*trace_picture)(const TracedView& view, const Environment& environment, std::uint32_t samples,
+                                     const ParameterValues& parameters) = nullptr;
     /// After a picture: what in it is not as it should be, a line each. Null: nothing ever.
     void (*report)(const GpuScene& scene, std::vector<std::string>& warnings) = nullptr;
 };

@@ -125,7 +125,7 @@ class Bench(CliTest):
                 (["--models", "nowhere"], ("--suite", "thesis", "--models", "nowhere")),
                 (["--frames"], ("shape:sphere", "--frames", "0")),
                 (["--size"], ("shape:sphere", "--size", "big")),
-                (["size 1000000x2"], ("shape:sphere", "missing.obj", "--size", "1000000x2")),
+                (["size 2000000x2"], ("shape:sphere", "missing.obj", "--size", "2000000x2")),
                 (["steps"], ("missing.obj", "--techniques", "wang-2014", "--steps", "-1")),
                 (["nowhere"], ("shape:sphere", "--json", "nowhere/bench.json"))):
             with self.subTest(arguments):

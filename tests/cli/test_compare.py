@@ -168,7 +168,7 @@ class Compare(CliTest):
                 (["--truth"], ("shape:sphere", "--truth", "wang-2014")),
                 (["samples"], ("shape:sphere", "--samples", "0")),
                 (["samples"], ("shape:sphere", "--truth", "path", "--truth-samples", "0")),
-                (["size"], ("shape:sphere", "--size", "100000x2")),
+                (["size"], ("shape:sphere", "--size", "2000000x2")),
                 (["--steps"], ("shape:sphere", "--techniques", "one-interface", "--steps", "10")),
                 (["nowhere"], ("shape:sphere", "--json", "nowhere/runs.json"))):
             with self.subTest(arguments):

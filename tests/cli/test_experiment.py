@@ -46,7 +46,7 @@ class Experiment(CliTest):
                 (["--models", "nowhere"], ("all", "--models", "nowhere")),
                 (["--frames"], ("all", "--frames", "0")),
                 (["--size"], ("all", "--size", "big")),
-                (["size 1000000x2"], ("all", "--size", "1000000x2")),
+                (["size 2000000x2"], ("all", "--size", "2000000x2")),
                 (["nowhere"], ("all", "--json", "nowhere/experiment.json"))):
             with self.subTest(arguments):
                 self.assert_refused(self.run_cli("experiment", *arguments), *words)

@@ -85,6 +85,7 @@ constexpr Technique kKayGreenberg1979{
     // One more tells whether there are surfaces that are not looked at.
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers") + 1u; },
     .record = record,
+    .searches_layers = true,
 };
 
 }  // namespace pellucid

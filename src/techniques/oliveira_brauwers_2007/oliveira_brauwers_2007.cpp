@@ -47,6 +47,7 @@ constexpr Technique kOliveiraBrauwers2007{
              .parameters = kParameters},
     .layer_count = [](const ParameterValues&) { return 1u; },
     .record = record,
+    .searches_layers = true,
 };
 
 }  // namespace pellucid

@@ -28,11 +28,11 @@ Refraction record(Recorder&, const Frame& frame, const Layers&, const ParameterV
     return upload_exact_paths(frame, parameters.whole(kMaxEvents.name));
 }
 
-PathTracedImage trace_picture(const TracedView& view, const Environment& environment, vk::Extent2D extent,
-                              std::uint32_t samples, const ParameterValues& parameters) {
+PathTracedImage trace_picture(const TracedView& view, const Environment& environment, std::uint32_t samples,
+                              const ParameterValues& parameters) {
     return view.tracer.path_trace(view.camera, environment,
-                                  {.width = extent.width,
-                                   .height = extent.height,
+                                  {.width = view.picture.x,
+                                   .height = view.picture.y,
                                    .samples = samples,
                                    .seed = parameters.whole("seed"),
                                    .max_vertices = parameters.whole("vertices")},

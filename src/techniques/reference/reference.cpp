@@ -25,10 +25,12 @@ Refraction record(Recorder&, const Frame& frame, const Layers&, const ParameterV
 Refraction upload_exact_paths(const Frame& frame, std::uint32_t max_events) {
     const TracedView& view = *frame.traced;
     const std::vector<RefractedPath> paths = view.tracer.exact(view.camera,
-                                                               {.width = frame.extent.width,
-                                                                .height = frame.extent.height,
+                                                               {.width = view.picture.x,
+                                                                .height = view.picture.y,
                                                                 .max_events = max_events,
-                                                                .shift_px = glm::dvec2(view.jitter_px)},
+                                                                .shift_px = glm::dvec2(view.jitter_px),
+                                                                .part_first = frame.first,
+                                                                .part_size = {frame.extent.width, frame.extent.height}},
                                                                view.progress);
     Refraction refraction = allocate_refraction(frame);
     refraction.everywhere = true;

@@ -90,7 +90,7 @@ void bounce(ivec2 texel, PathState state, OpaqueLight light) {
     vec3 weight = state.path.transmittance * light.diffuse;
     uint branches_before = waiting[state.pixel].y;
     if (has_mark(state, kBounced) || branches_before >= most_branches || !(max(weight.r, max(weight.g, weight.b)) > threshold)) return;
-    vec2 u = random_numbers(hash(uvec3(texel, 77u + branches_before)).x, state.path.events);
+    vec2 u = random_numbers(hash(uvec3(texel + first_pixel(), 77u + branches_before)).x, state.path.events);
     float radius = sqrt(u.x), angle = 6.283185307 * u.y;
     vec3 across = normalize(abs(light.normal.z) < 0.9 ? cross(light.normal, vec3(0.0, 0.0, 1.0))
                                                       : cross(light.normal, vec3(1.0, 0.0, 0.0)));

@@ -17,7 +17,7 @@ uvec3 hash(uvec3 v) {
     return v;
 }
 
-uint sample_seed(ivec2 texel) { return hash(uvec3(texel, 1u)).x; }
+uint sample_seed(ivec2 texel) { return hash(uvec3(texel + first_pixel(), 1u)).x; }
 
 // 0 to below 1; every event of every sample has its own, so that choices along a path do not depend on each other.
 vec2 random_numbers(uint seed, uint event) {

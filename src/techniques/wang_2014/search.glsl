@@ -25,9 +25,9 @@ struct ScreenRay {
 ScreenRay screen_ray(vec3 origin, vec3 direction) {
     bool orthographic = frame.orthographic != 0u;
     float w = orthographic ? 1.0 : -origin.z, w_rate = orthographic ? 0.0 : -direction.z;
-    vec2 scale = vec2(1.0, -1.0) / frame.film.zw;
-    return ScreenRay(vec3((origin.xy - frame.film.xy * w) * scale, w),
-                     vec3((direction.xy - frame.film.xy * w_rate) * scale, w_rate), -origin.z, -direction.z);
+    vec2 scale = vec2(1.0, -1.0) / frame.film.zw, corner = film_point(vec2(0.0));
+    return ScreenRay(vec3((origin.xy - corner * w) * scale, w), vec3((direction.xy - corner * w_rate) * scale, w_rate),
+                     -origin.z, -direction.z);
 }
 
 vec2 pixel_at(ScreenRay ray, float distance) {

@@ -107,6 +107,7 @@ constexpr Technique kWang2014{
              .many_media = true},
     .layer_count = layer_count,
     .record = record,
+    .searches_layers = true,
 };
 
 }  // namespace pellucid

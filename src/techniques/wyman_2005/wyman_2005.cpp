@@ -87,6 +87,7 @@ constexpr Technique kWyman2005{
     .layer_count = [](const ParameterValues&) { return 1u; },
     .prepare = prepare,
     .record = record,
+    .searches_layers = true,
 };
 
 }  // namespace pellucid

@@ -1,0 +1,62 @@
+#include "render/check_settings.h"
+
+#include "render/aovs.h"
+#include "render/solid_lighting.h"
+#include "render/tiles.h"
+
+#include <pellucid/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pellucid {
+namespace {
+
+constexpr std::uint32_t kMaxSamples = 1u << 20;
+constexpr std::uint32_t kLongestPicture = 1u << 20;  ///< pixels; single precision tells their halves apart
+
+std::uint64_t result_bytes(const RenderSettings& settings) {
+    std::uint64_t per_pixel = 2 * 3 * sizeof(float);  // radiance and display
+    for (const AovInfo& aov : aov_infos()) {
+        if (std::find(settings.aovs.begin(), settings.aovs.end(), aov.name) != settings.aovs.end())
+            per_pixel += std::uint64_t(aov.channels) * sizeof(float);
+    }
+    if (settings.paths) per_pixel += sizeof(RefractedPath);
+    return per_pixel * settings.width * settings.height;
+}
+
+void check_picture_size(const RenderSettings& settings) {
+    const std::uint32_t width = settings.width, height = settings.height;
+    if (width == 0 || height == 0 || width > kLongestPicture || height > kLongestPicture)
+        throw Error(fmt::format("size {}x{}: pictures have 1x1 to {}x{} pixels", width, height, kLongestPicture,
+                                kLongestPicture));
+    const double needed = double(result_bytes(settings));
+    const double memory = double(host_memory());
+    if (needed > memory)
+        throw Error(fmt::format("size {}x{}: the picture takes {:.1f} GiB of memory; this machine has {:.1f} GiB",
+                                width, height, needed / double(1u << 30), memory / double(1u << 30)));
+}
+
+}  // namespace
+
+void check_settings(const RenderSettings& settings, const Device& device) {
+    check_picture_size(settings);
+    if (settings.samples == 0 || settings.samples > kMaxSamples) {
+        throw Error(fmt::format("samples must be 1 to {}, not {}", kMaxSamples, settings.samples));
+    }
+    if (!(std::abs(settings.exposure_ev) <= 64.0f)) {
+        throw Error(fmt::format("exposure must be -64 to 64 stops, not {}", settings.exposure_ev));
+    }
+    if (!(settings.unit_luminance_cd_m2 >= 1e-6f && settings.unit_luminance_cd_m2 <= 1e9f)) {
+        throw Error(
+            fmt::format("luminance of radiance 1 must be 1e-6 to 1e9 cd/m2, not {}", settings.unit_luminance_cd_m2));
+    }
+    if (!(settings.adaptation_s >= 0.0f))
+        throw Error(fmt::format("time to adapt must be at least 0 s, not {}", settings.adaptation_s));
+    check_thickness(settings.thickness, device);
+    check_aov_names(settings.aovs);
+}
+
+}  // namespace pellucid
