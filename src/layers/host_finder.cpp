@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -125,6 +126,9 @@ void check_embree(RTCDevice device) {
 }  // namespace
 
 struct HostFinder::Hierarchy {
+    explicit Hierarchy(std::uint32_t threads) : arena(threads > 0 ? int(threads) : tbb::task_arena::automatic) {}
+
+    mutable tbb::task_arena arena;
     std::unique_ptr<RTCDeviceTy, DeviceDeleter> device;
     std::unique_ptr<RTCSceneTy, SceneDeleter> scene;
     std::vector<Placed> objects;
@@ -145,6 +149,11 @@ struct HostFinder::Hierarchy {
         rtcInitIntersectContext(&search.embree);
         search.embree.filter = accept_hit;
         return search;
+    }
+    /// Calls work(range) for ranges of `count` paths, on all threads.
+    template <class Work>
+    void share_out(std::size_t count, const Work& work) const {
+        arena.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), work); });
     }
     RTCRayHit shoot(Search& search, const Ray& ray, float from, float to) const;
     void add_nearby(Search& search, const Ray& ray, const PathsOnHost& paths, Candidate surface, float t,
@@ -218,7 +227,7 @@ void HostFinder::Hierarchy::name_traits(const GpuScene& gpu_scene) {
     largest_contact = gpu_scene.topology->largest_contact;
 }
 
-HostFinder::HostFinder() : hierarchy_(std::make_unique<Hierarchy>()) {}
+HostFinder::HostFinder(std::uint32_t threads) : hierarchy_(std::make_unique<Hierarchy>(threads)) {}
 HostFinder::~HostFinder() = default;
 
 const Buffer& HostFinder::triangles() const { return hierarchy_->triangles; }
@@ -317,7 +326,7 @@ void HostFinder::find(const PathsOnHost& paths, const CandidatesOnHost& candidat
     std::vector<std::uint32_t> looking(pixels.size());
     std::atomic<std::uint32_t> next{1}, looking_count{0}, ended_count{std::uint32_t(ended.pixels().size())};
     const auto room = std::uint32_t(candidates.all.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), kGrain), [&](const auto& range) {
+    hierarchy_->share_out(pixels.size(), [&](const auto& range) {
         Search search = hierarchy_->search();
         std::vector<Candidate> found;
         std::vector<std::uint32_t> ends, go_on, end;
@@ -352,7 +361,7 @@ void HostFinder::find(const PathsOnHost& paths, const CandidatesOnHost& candidat
 void HostFinder::find_media(const PathsOnHost& paths) const {
     const Hierarchy& own = *hierarchy_;
     const std::span<const std::uint32_t> pixels = paths.list.pixels();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), kGrain), [&](const auto& range) {
+    own.share_out(pixels.size(), [&](const auto& range) {
         Search search = own.search();
         std::vector<Hit> hits;
         std::vector<std::uint32_t> decided(paths.words);

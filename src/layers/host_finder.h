@@ -36,7 +36,7 @@ struct CandidatesOnHost {
     std::span<Candidate> all;
 };
 
-/// Finds the surfaces that paths meet by Embree, on all cores of the host, where that shares its memory with the device:
+/// Finds the surfaces that paths meet by Embree, on the cores of the host, where that shares its memory with the device:
 /// on software drivers.
 ///
 /// It names candidates: the nearest surface that the path can meet and, where others may lie at the same place, those; and
@@ -44,7 +44,8 @@ struct CandidatesOnHost {
 /// (candidates.glsl), so a path goes the same way, bit for bit, whoever has found its surfaces.
 class HostFinder final : public PreparedState {
 public:
-    HostFinder();
+    /// `threads` 0: all cores.
+    explicit HostFinder(std::uint32_t threads);
     ~HostFinder() override;
 
     /// Builds the hierarchy of the scene's triangles, or refits it where vertices have moved. `deforming`: as one that can be

@@ -33,7 +33,7 @@ HostFinder& finder_of(const GpuScene& scene) { return static_cast<HostFinder&>(*
 void prepare(const Preparation& preparation, const ParameterValues& parameters) {
     prepare_paths(preparation, parameters);
     GpuScene& scene = preparation.gpu_scene;
-    if (!scene.host_finder) scene.host_finder = std::make_unique<HostFinder>();
+    if (!scene.host_finder) scene.host_finder = std::make_unique<HostFinder>(preparation.threads);
     finder_of(scene).bring_up_to_date(preparation.device, preparation.scene, scene, parameters["rebuild"] != 0.0);
 }
 
