@@ -23,7 +23,7 @@ LayerImages allocate_layers(const Frame& frame, const LayerRequest& request) {
 const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const LayerImages& images,
                               const LayerRequest& request) {
     const Buffer& covered = list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE,
-                                        request.name + " pixels", 0, frame.extent.height);
+                                        request.name + " pixels", 0, frame.extent.height, frame.wanted_samples);
     const bool one_object = request.solids.size() == 1;
     recorder.compute_indirect(
         frame.workspace.compute({"resolve_normals.comp", kResolveNormals}, {one_object ? 1u : 0u}),

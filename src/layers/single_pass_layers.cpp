@@ -163,7 +163,7 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
                            updates("Counters", counters), writes("Nodes", nodes), updates("heads", heads)},
                           std::array{to.counter, pool_.capacity}, target, request.solids);
         }
-        listed = &list_pixels(recorder, frame, heads, 0, list_name, first_row, first_row + rows);
+        listed = &list_pixels(recorder, frame, heads, 0, list_name, first_row, first_row + rows, frame.wanted_samples);
         recorder.compute_indirect(
             select,
             {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
@@ -179,8 +179,8 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
     recorder.copy(counters, counters_on_host(frame, pool_), counters.size());
     // The list of the last band is that of the picture only if there is one band and nothing opaque.
     if (pool_.bands > 1 || (request.hidden_by_opaque && !frame.scene.opaque.empty())) {
-        listed =
-            &list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height);
+        listed = &list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height,
+                              frame.wanted_samples);
     }
     return {images.depth, images.triangle, images.normal, *listed, request.count, opaque, *this};
 }

@@ -29,6 +29,9 @@ constexpr std::uint32_t kComposePicture[] = {
 constexpr std::uint32_t kAccumulate[] = {
 #include "accumulate.comp.inc"
 };
+constexpr std::uint32_t kAccumulateWanted[] = {
+#include "accumulate_wanted.comp.inc"
+};
 constexpr std::uint32_t kTonemap[] = {
 #include "tonemap.comp.inc"
 };
@@ -170,11 +173,17 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
     return radiance;
 }
 
-const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample) {
+const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample,
+                           const GpuImage* wanted) {
     const GpuImage& sum = frame.workspace.image("radiance sum", kRadianceFormat, frame.extent);
     const Recorder::Scope scope(recorder, "accumulate");
-    recorder.compute(frame.workspace.compute({"accumulate.comp", kAccumulate}),
-                     {reads("radiance", radiance), updates("radiance_sum", sum)}, sample, frame.extent);
+    if (wanted != nullptr)
+        recorder.compute(frame.workspace.compute({"accumulate_wanted.comp", kAccumulateWanted}),
+                         {reads("radiance", radiance), updates("radiance_sum", sum), reads("wanted_samples", *wanted)},
+                         sample, frame.extent);
+    else
+        recorder.compute(frame.workspace.compute({"accumulate.comp", kAccumulate}),
+                         {reads("radiance", radiance), updates("radiance_sum", sum)}, sample, frame.extent);
     return sum;
 }
 
