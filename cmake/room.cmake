@@ -1,21 +1,24 @@
 # A room is one folder under src/ and one static library that links only the rooms it names.
-#   pellucid_room(NAME SOURCES a.cpp ... USES other rooms ... LIBRARIES packages ...)
+#   pellucid_room(NAME HEADERS a.h ... SOURCES a.cpp ... USES other rooms ... LIBRARIES packages ...)
+# HEADERS are those of include/pellucid that belong to it; tools/check_rooms.py checks who includes them.
 add_library(pellucid_options INTERFACE)
-target_include_directories(pellucid_options INTERFACE
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+target_include_directories(pellucid_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
+target_link_libraries(pellucid_options INTERFACE glm::glm)
 target_compile_options(pellucid_options INTERFACE
     -Wall -Wextra -Wshadow -Wnon-virtual-dtor $<$<BOOL:${PELLUCID_WERROR}>:-Werror>)
 
 function(pellucid_room name)
-    cmake_parse_arguments(ROOM "" "PCH_OF" "SOURCES;USES;LIBRARIES;PCH;SHADERS" ${ARGN})
+    cmake_parse_arguments(ROOM "" "PCH_OF" "HEADERS;SOURCES;USES;LIBRARIES;PCH;SHADERS" ${ARGN})
     set(target pellucid_${name})
     list(TRANSFORM ROOM_USES PREPEND pellucid_)
     if(NOT ROOM_SOURCES)  # headers only
         add_library(${target} INTERFACE)
+        target_include_directories(${target} INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
         target_link_libraries(${target} INTERFACE pellucid_options ${ROOM_USES} ${ROOM_LIBRARIES})
         return()
     endif()
     add_library(${target} OBJECT ${ROOM_SOURCES})
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>)
     target_link_libraries(${target} PUBLIC pellucid_options ${ROOM_USES} ${ROOM_LIBRARIES})
     if(ROOM_PCH_OF)
         target_precompile_headers(${target} REUSE_FROM pellucid_${ROOM_PCH_OF})

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""Checks that the rooms under src/ use only the rooms they say they use.
+"""Checks that rooms and programs include only what they may.
 
-    tools/check_rooms.py [SRC]
+    tools/check_rooms.py [ROOT]
 
-A room is a folder of SRC (default: src/ beside this folder) and a pellucid_room() call in
-SRC/CMakeLists.txt. Its files, C++ and GLSL alike, may include files of itself and of the rooms that
-its USES reach, directly or through others; its SOURCES and SHADERS lie in its own folder, and rooms
-use no circle. CMake itself would not notice: all rooms share one include folder.
+A room is a folder of ROOT/src (default: of this project) and a pellucid_room() call in ROOT/src/CMakeLists.txt. Its
+files, C++ and GLSL alike, may include files of itself and of the rooms that its USES reach, directly or through others.
+Its SOURCES and SHADERS lie in its own folder, and rooms use no circle. CMake itself would not notice: all rooms share
+one include folder.
+
+Its HEADERS lie in ROOT/include/pellucid, where every header belongs to one room. They include public headers only, by the
+same rule. pellucid.h includes all of them, belongs to no room, and no room includes it.
+ROOT/apps and ROOT/examples include no file of a room but public headers.
 
 Prints one line for each offence and exits 1, or one line that all is well and exits 0.
 """
@@ -16,6 +20,8 @@ import sys
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.MULTILINE)
 CODE = (".h", ".hpp", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".geom", ".rgen", ".rchit", ".rmiss")
+ALL_HEADERS = "pellucid.h"
+PROGRAMS = ("apps", "examples")
 
 
 def read(path):
@@ -29,7 +35,7 @@ def read_rooms(cmake_file):
     text = re.sub(r"#.*", "", read(cmake_file))
     for call in re.finditer(r"\bpellucid_room\s*\(([^)]*)\)", text):
         name, *words = call.group(1).split()
-        room = rooms[name] = {"SOURCES": [], "USES": [], "SHADERS": []}
+        room = rooms[name] = {"HEADERS": [], "SOURCES": [], "USES": [], "SHADERS": []}
         keyword = None
         for word in words:
             if word.isupper():
@@ -51,62 +57,101 @@ def reach(rooms, name):
     return seen
 
 
-def included_room(folder, src, included, rooms):
-    """The room that an include line leads into; None for system and generated files."""
-    beside = os.path.normpath(os.path.join(folder, included))
-    path = beside if os.path.exists(beside) else os.path.normpath(os.path.join(src, included))
-    first = os.path.relpath(path, src).split(os.sep)[0]
-    # A room's name counts even where there is no such file (any more).
-    return first if first in rooms else None
+class Tree:
+    def __init__(self, root):
+        self.root, self.src = root, os.path.join(root, "src")
+        self.public = os.path.join(root, "include", "pellucid")
+        self.rooms = read_rooms(os.path.join(self.src, "CMakeLists.txt"))
+        self.owners = {header: name for name, room in self.rooms.items() for header in room["HEADERS"]}
+
+    def includes(self, path):
+        """Line, included file as written, and its room, for each include of a room's file. System and generated files
+        have none; public headers without a room have "a header of no room"."""
+        text = read(path)
+        for match in INCLUDE.finditer(text):
+            included = match.group(1)
+            if included.startswith("pellucid/"):
+                room = self.owners.get(included.removeprefix("pellucid/"), "a header of no room")
+            else:
+                room = self.room_of_private(os.path.dirname(path), included)
+            if room:
+                yield text.count("\n", 0, match.start()) + 1, included, room
+
+    def room_of_private(self, folder, included):
+        beside = os.path.normpath(os.path.join(folder, included))
+        path = beside if os.path.exists(beside) else os.path.normpath(os.path.join(self.src, included))
+        first = os.path.relpath(path, self.src).split(os.sep)[0]
+        # A room's name counts even where there is no such file (any more).
+        return first if first in self.rooms else None
+
+    def check_file(self, path, name):
+        allowed = reach(self.rooms, name) | {name}
+        for line, included, used in self.includes(path):
+            if used not in allowed:
+                yield f"{os.path.relpath(path, self.root)}:{line}: includes {included}, but {name} does not use {used}"
+
+    def check_public_only(self, path):
+        for line, included, _ in self.includes(path):
+            if not included.startswith("pellucid/"):
+                yield f"{os.path.relpath(path, self.root)}:{line}: includes {included}, which is not public"
 
 
-def check_includes(src, rooms, name):
-    allowed = reach(rooms, name) | {name}
-    for folder, _, files in os.walk(os.path.join(src, name)):
-        for file in sorted(files):
-            if not file.endswith(CODE):
-                continue
-            path = os.path.join(folder, file)
-            text = read(path)
-            for match in INCLUDE.finditer(text):
-                used = included_room(folder, src, match.group(1), rooms)
-                if used and used not in allowed:
-                    line = text.count("\n", 0, match.start()) + 1
-                    yield (f"{os.path.relpath(path, src)}:{line}: includes {match.group(1)}, "
-                           f"but {name} does not use {used}")
+def code_below(folder):
+    for parent, _, files in sorted(os.walk(folder)):
+        yield from (os.path.join(parent, file) for file in sorted(files) if file.endswith(CODE))
 
 
-def check_room(src, rooms, name):
-    for used in rooms[name]["USES"]:
-        if used not in rooms:
+def check_room(tree, name):
+    for used in tree.rooms[name]["USES"]:
+        if used not in tree.rooms:
             yield f"CMakeLists.txt: {name} uses {used}, which is no room"
-    if name in reach(rooms, name):
+    if name in reach(tree.rooms, name):
         yield f"CMakeLists.txt: {name} uses itself through others"
-    for file in rooms[name]["SOURCES"] + rooms[name]["SHADERS"]:
+    for file in tree.rooms[name]["SOURCES"] + tree.rooms[name]["SHADERS"]:
         if file.split("/")[0] != name:
             yield f"CMakeLists.txt: {file} is not in the folder of its room, {name}"
-    yield from check_includes(src, rooms, name)
+    for path in code_below(os.path.join(tree.src, name)):
+        yield from tree.check_file(path, name)
 
 
-def check(src):
-    rooms = read_rooms(os.path.join(src, "CMakeLists.txt"))
-    if not rooms:
+def check_headers(tree):
+    listed = sorted(header for room in tree.rooms.values() for header in room["HEADERS"])
+    there = sorted(set(os.listdir(tree.public)) - {ALL_HEADERS})
+    for header in sorted(set(listed) ^ set(there)):
+        yield f"{header}: " + ("belongs to no room" if header in there else "is not in include/pellucid")
+    for header in sorted({header for header in listed if listed.count(header) > 1}):
+        yield f"{header}: belongs to several rooms"
+    for header in set(listed) & set(there):
+        path = os.path.join(tree.public, header)
+        yield from tree.check_public_only(path)
+        yield from tree.check_file(path, tree.owners[header])
+    included = {file.removeprefix("pellucid/") for _, file, _ in tree.includes(os.path.join(tree.public, ALL_HEADERS))}
+    for header in sorted(set(there) - included):
+        yield f"{ALL_HEADERS}: does not include {header}"
+
+
+def check(tree):
+    if not tree.rooms:
         yield "CMakeLists.txt: has no pellucid_room()"
-    for folder in sorted(os.listdir(src)):
-        if os.path.isdir(os.path.join(src, folder)) and folder not in rooms:
+    for folder in sorted(os.listdir(tree.src)):
+        if os.path.isdir(os.path.join(tree.src, folder)) and folder not in tree.rooms:
             yield f"{folder}/: is no pellucid_room() of CMakeLists.txt"
-    for name in rooms:
-        yield from check_room(src, rooms, name)
+    for name in tree.rooms:
+        yield from check_room(tree, name)
+    yield from check_headers(tree)
+    for folder in PROGRAMS:
+        for path in code_below(os.path.join(tree.root, folder)):
+            yield from tree.check_public_only(path)
 
 
 def main():
-    default = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "src")
-    src = os.path.normpath(sys.argv[1] if len(sys.argv) > 1 else default)
-    offences = list(check(src))
+    default = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir)
+    tree = Tree(os.path.normpath(sys.argv[1] if len(sys.argv) > 1 else default))
+    offences = list(check(tree))
     for offence in offences:
         print(offence)
     if not offences:
-        print(f"rooms: {', '.join(read_rooms(os.path.join(src, 'CMakeLists.txt')))}: every include is allowed")
+        print(f"rooms: {', '.join(tree.rooms)}: every include is allowed")
     return 1 if offences else 0
 
 

@@ -1,8 +1,7 @@
 #include "commands.h"
 #include "options/options.h"
 
-#include "core/fail.h"
-
+#include <pellucid/error.h>
 #include <pellucid/pellucid.h>
 
 #include <fmt/format.h>

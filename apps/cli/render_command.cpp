@@ -4,9 +4,7 @@
 #include "options/options.h"
 #include "options/progress_bar.h"
 
-#include "core/file_extension.h"
-#include "core/math.h"
-
+#include <pellucid/file.h>
 #include <pellucid/pellucid.h>
 
 #include <fmt/format.h>
@@ -62,7 +60,7 @@ std::optional<Camera> chosen_camera(const RenderArguments& arguments, const Rend
     if (arguments.fov_deg && of_the_file) {
         throw Error("--fov: a camera of the file has its own field of view; give --camera orbit:AZ,EL,DIST with it");
     }
-    const float fov = arguments.fov_deg ? radians_from_degrees(float(*arguments.fov_deg)) : Camera{}.vertical_fov;
+    const float fov = arguments.fov_deg ? glm::radians(float(*arguments.fov_deg)) : Camera{}.vertical_fov;
     if (arguments.camera) return parse_camera(*arguments.camera, scene, fov);
     if (!arguments.fov_deg) return std::nullopt;
     return framing_camera(scene_bounds(scene), settings.width, settings.height, fov);

@@ -3,7 +3,7 @@
 #include "options/progress_bar.h"
 #include "options/translucency_options.h"
 
-#include "core/file_extension.h"
+#include <pellucid/file.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,8 @@
 #include "commands.h"
 #include "options/options.h"
 
-#include "core/fail.h"
-#include "core/file_extension.h"
-
+#include <pellucid/error.h>
+#include <pellucid/file.h>
 #include <pellucid/pellucid.h>
 
 #include <fmt/format.h>

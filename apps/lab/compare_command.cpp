@@ -4,7 +4,7 @@
 #include "options/options.h"
 #include "options/progress_bar.h"
 
-#include "measure/report.h"
+#include "report/report.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,9 +2,8 @@
 
 #include "lab/experiment_figures.h"
 
-#include "core/file.h"
-
 #include <pellucid/error.h>
+#include <pellucid/file.h>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "lab/experiments.h"
 
-#include "measure/report/report_folder.h"
+#include "report/report_folder.h"
 
 #include <nlohmann/json.hpp>
 

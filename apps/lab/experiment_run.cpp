@@ -5,7 +5,7 @@
 #include "lab/experiment_scenes.h"
 #include "options/progress_bar.h"
 
-#include "measure/report/worst_region.h"
+#include "report/worst_region.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,9 @@
 
 #include "lab/experiment_run.h"
 
-#include "reference/ball_photons.h"
-#include "volume/measure_light.h"
+#include "lab/ball_photons.h"
+
+#include <pellucid/volume_light.h>
 
 #include <fmt/format.h>
 

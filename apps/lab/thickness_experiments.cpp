@@ -5,9 +5,8 @@
 #include "options/progress_bar.h"
 #include "options/translucency_options.h"
 
-#include "core/math.h"
-
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "options/arguments.h"
 
-#include "core/file_extension.h"
+#include <pellucid/file.h>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "options/options.h"
 
-#include "core/file.h"
-#include "core/math.h"
+#include <pellucid/file.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -89,7 +88,7 @@ LoadOptions load_options(const SceneArguments& arguments) {
         options.attenuation_color = glm::vec3(float(color[0]), float(color[1]), float(color[2]));
     }
     if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
-    if (arguments.crease_angle_deg) options.crease_angle = radians_from_degrees(float(*arguments.crease_angle_deg));
+    if (arguments.crease_angle_deg) options.crease_angle = glm::radians(float(*arguments.crease_angle_deg));
     options.remake_normals = arguments.remake_normals;
     for (const std::string& text : arguments.priorities) options.priorities.push_back(parse_priority(text));
     options.translucent = parse_translucency(arguments.translucency);

@@ -3,14 +3,14 @@
 #include "options/arguments.h"
 #include "options/options.h"
 
-#include "core/math.h"
-#include "measure/report/color_scale.h"
+#include "report/color_scale.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace pellucid::cli {
 namespace {
@@ -34,7 +34,7 @@ std::string light_forms() {
 glm::dvec3 vec3_at(const std::vector<double>& v, std::size_t first) { return {v[first], v[first + 1], v[first + 2]}; }
 
 Light sun(const std::vector<double>& v) {
-    const float azimuth = radians_from_degrees(float(v[0])), elevation = radians_from_degrees(float(v[1]));
+    const float azimuth = glm::radians(float(v[0])), elevation = glm::radians(float(v[1]));
     Light light;
     light.kind = Light::Kind::kDirectional;
     light.direction = -glm::vec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
@@ -52,7 +52,7 @@ Light spot(const std::vector<double>& v, const glm::dvec3& origin, const std::st
     light.direction = glm::normalize(way);
     if (!(v[6] > 0.0 && v[6] <= 90.0))
         throw Error(fmt::format("--add-light: '{}': half the cone's angle is 0 to 90 degrees", text));
-    light.outer_cone_angle = radians_from_degrees(float(v[6]));
+    light.outer_cone_angle = glm::radians(float(v[6]));
     light.inner_cone_angle = 0.8f * light.outer_cone_angle;
     light.intensity = glm::vec3(float(v[7]));
     return light;
@@ -145,7 +145,7 @@ std::vector<NamedCamera> cameras_about_light(const Scene& scene, const Light& li
     glm::vec3 way = light.direction;
     if (light.kind != Light::Kind::kDirectional && glm::distance(bounds.center, light.position) > 0.0f)
         way = glm::normalize(bounds.center - light.position);
-    const float azimuth = degrees_from_radians(std::atan2(way.x, way.z));
+    const float azimuth = std::atan2(way.x, way.z) * (180.0f / std::numbers::pi_v<float>);
     const float fov = Camera{}.vertical_fov;
     const float share = 0.95f * std::min(1.0f, float(width) / float(height));
     const float distance = framing_distance(fov, share);

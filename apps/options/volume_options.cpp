@@ -2,9 +2,8 @@
 
 #include "options/arguments.h"
 
-#include "core/file_extension.h"
-
 #include <pellucid/error.h>
+#include <pellucid/file.h>
 
 #include <fmt/format.h>
 

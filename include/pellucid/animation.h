@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pellucid/api.h>
 #include <pellucid/scene.h>
 
 #include <glm/glm.hpp>
@@ -20,10 +21,10 @@ struct AnimationInfo {
 };
 
 /// Animations of the scene's file, in the file's order; none for files other than glTF.
-std::vector<AnimationInfo> animations(const Scene& scene);
+PELLUCID_API std::vector<AnimationInfo> animations(const Scene& scene);
 
 /// Index of the animation of that name, or else of that number ("2"). Throws Error listing the known ones.
-std::size_t find_animation(const Scene& scene, std::string_view name_or_number);
+PELLUCID_API std::size_t find_animation(const Scene& scene, std::string_view name_or_number);
 
 /// Vertices of one mesh in a pose.
 struct PosedMesh {
@@ -43,7 +44,7 @@ struct Pose {
     std::vector<PosedMesh> meshes;
     std::vector<PosedObject> objects;
     /// For Renderer::set_positions() or Tracer::set_positions(). Refers to this pose, which must stay alive.
-    std::vector<MovedMesh> moved_meshes() const;
+    PELLUCID_API std::vector<MovedMesh> moved_meshes() const;
 };
 
 /// The scene at a time from 0 (s), which clamps to the ends of the animation. Vertices are as many as the scene's
@@ -54,6 +55,6 @@ struct Pose {
 /// On the CPU, single-threaded; the cost grows with the vertices moved, their morph targets and joints.
 /// Throws Error if there is no such animation, the time is negative or not finite, the scene's meshes were changed,
 /// or numbers become too large.
-Pose pose_at(const Scene& scene, std::size_t animation, double time_s);
+PELLUCID_API Pose pose_at(const Scene& scene, std::size_t animation, double time_s);
 
 }  // namespace pellucid

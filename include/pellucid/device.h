@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pellucid/api.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,6 +30,12 @@ struct DeviceInfo {
 };
 
 /// Every Vulkan device on this machine, usable or not. Throws DeviceError if Vulkan itself fails.
-std::vector<DeviceInfo> list_devices();
+PELLUCID_API std::vector<DeviceInfo> list_devices();
+
+/// Time that one group of passes took on the device.
+struct PassTime {
+    std::string name;
+    double time_ms;
+};
 
 }  // namespace pellucid

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pellucid/api.h>
 #include <pellucid/image.h>
 
 #include <glm/glm.hpp>
@@ -27,15 +28,15 @@ struct Environment {
 /// `studio`, `checker`, `sky`, `uniform` (radiance 1, the furnace test), or an equirectangular
 /// `.hdr` / `.exr` file. Throws Error for a missing or unreadable file and for an unknown name,
 /// listing the known ones. Negative, infinite and NaN texels become 0 and are counted in `warning`.
-Environment load_environment(const std::string& name_or_file, std::string* warning = nullptr);
+PELLUCID_API Environment load_environment(const std::string& name_or_file, std::string* warning = nullptr);
 
 /// Radiance from `direction` (unit, pointing away from the scene). Maps are sampled bilinearly,
 /// wrapping in u and clamped in v.
-glm::vec3 radiance(const Environment& environment, glm::vec3 direction);
+PELLUCID_API glm::vec3 radiance(const Environment& environment, glm::vec3 direction);
 
 /// Irradiance of the environment in nine spherical-harmonics coefficients, already convolved with
 /// the clamped cosine: `E(n) = sum c[i] Y_i(n)`, order l = 0, 1, 2 with m ascending
 /// (Ramamoorthi & Hanrahan 2001, section 3).
-std::array<glm::vec3, 9> irradiance_coefficients(const Environment& environment);
+PELLUCID_API std::array<glm::vec3, 9> irradiance_coefficients(const Environment& environment);
 
 }  // namespace pellucid

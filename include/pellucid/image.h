@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pellucid/api.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -31,17 +33,18 @@ private:
 /// Reads any format that OpenImageIO knows. 8 and 16 bit values map to 0..1 and are not decoded
 /// (an sRGB file stays sRGB-encoded); float files are returned as they are.
 /// Throws Error naming the file if it is missing, is no image, or is larger than 2^28 pixels.
-Image read_image(const std::filesystem::path& file);
+PELLUCID_API Image read_image(const std::filesystem::path& file);
 
 /// As read_image, from the bytes of an image file; `name` stands for the file in error messages.
-Image decode_image(const void* bytes, std::size_t size, const std::string& name);
+PELLUCID_API Image decode_image(const void* bytes, std::size_t size, const std::string& name);
 
 /// Writes `image` in the format of the file's extension: `.exr` as 32-bit float (ZIP), `.png` as
 /// 8 bit, where values are expected in 0..1 and already encoded for display.
 /// The file appears complete or not at all. Throws Error if it cannot be written.
-void write_image(const std::filesystem::path& file, const Image& image);
+PELLUCID_API void write_image(const std::filesystem::path& file, const Image& image);
 
 /// As above with a name for every channel (EXR keeps them; the default is Y, or R, G, B, A).
-void write_image(const std::filesystem::path& file, const Image& image, const std::vector<std::string>& channel_names);
+PELLUCID_API void write_image(const std::filesystem::path& file, const Image& image,
+                              const std::vector<std::string>& channel_names);
 
 }  // namespace pellucid

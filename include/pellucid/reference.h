@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pellucid/api.h>
 #include <pellucid/environment.h>
 #include <pellucid/image.h>
 #include <pellucid/progress.h>
@@ -64,7 +65,7 @@ struct PathTracedImage {
 /// follows from the triangles it crossed. Where solids overlap, the one of the highest priority fills the
 /// place, then the one of less volume: liquid displaces the goblet, a bubble the block around it. Around all
 /// solids rays bend in the scene's volumes.
-class Tracer {
+class PELLUCID_API Tracer {
 public:
     /// Builds the hierarchy. `scene` must be checked (load_scene does it) and outlive the tracer.
     explicit Tracer(const Scene& scene, const TracerOptions& options = {});

@@ -1,12 +1,25 @@
 #pragma once
 
-#include <pellucid/technique.h>
+#include <pellucid/api.h>
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <string_view>
 
 namespace pellucid {
+
+/// Why a pixel's refraction may be wrong. The numbers are those of the `status` AOV.
+enum class Status : std::uint32_t {
+    kOk = 0,            ///< every interface on the path was found (or there is no glass here)
+    kMissingLayer = 1,  ///< an interface lies in no layer that the technique looks at
+    kLeftScreen = 2,    ///< the path went where no layer was recorded: outside the picture
+    kStepLimit = 3,     ///< the search used up its steps
+    kEventLimit = 4,    ///< more interface events than the technique follows
+};
+inline constexpr std::uint32_t kStatusCount = 5;
+/// The name of a status, "missing_layer".
+PELLUCID_API std::string_view status_name(Status status);
 
 /// Where the light path through one pixel comes from: the view ray, refracted at every interface of
 /// glass, reflected where it is totally reflected. The common measure of all techniques.

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <pellucid/api.h>
 #include <pellucid/device.h>
+#include <pellucid/display.h>
 #include <pellucid/environment.h>
 #include <pellucid/image.h>
+#include <pellucid/layer_builder.h>
 #include <pellucid/progress.h>
 #include <pellucid/reference.h>
 #include <pellucid/refracted_path.h>
@@ -22,37 +25,6 @@
 #include <vector>
 
 namespace pellucid {
-
-/// What the picture shows.
-enum class View {
-    kRadiance,
-    /// Interfaces on each path (Wang 2014, figure 4.5): red up to two, blue more, green total internal
-    /// reflection; grey where the technique gave up (status other than ok).
-    kAnalysis,
-    /// Wavefronts of light at equal optical lengths, coloured by their irradiance in W/m2, times 2^exposure_ev, on a
-    /// logarithmic scale: 1/16 dark blue, 1/4 blue, 1 white, 4 orange, 16 and more red; fainter light is not shown. Over a
-    /// dim picture of the scene. Needs a technique that traces them (ihrke-2007), lights and volumes.
-    kWavefront,
-};
-
-/// How layers are gathered. All give the same layers; kCompute but for pixels whose centres lie on an edge to within
-/// rounding.
-enum class LayerBuilder {
-    kAutomatic,         ///< kCompute on devices that are CPUs, kSinglePass on others (default)
-    kSinglePass,        ///< per-pixel lists, one geometry pass
-    kDepthPeeling,      ///< one geometry pass per layer (Everitt 2001)
-    kCompute,           ///< per-pixel lists, triangles rasterised in compute shaders; visibility techniques use it
-    kDualDepthPeeling,  ///< nearest and farthest in one geometry pass, half as many (Bavoil & Myers 2008)
-};
-
-/// Curves from scene-linear radiance to display values; every one ends with the sRGB curve.
-enum class ToneMap {
-    kNone,      ///< clips to 0..1
-    kReinhard,  ///< L / (1 + L) on luminance (Reinhard et al. 2002)
-    kAces,      ///< Narkowicz 2015, fit of the ACES filmic curve
-    kNeutral,   ///< Khronos PBR Neutral 1.0: keeps base colours, compresses highlights (default)
-    kKrawczyk,  ///< for an eye that adapts to the picture (Krawczyk et al. 2005); needs luminances, see RenderSettings
-};
 
 struct RenderSettings {
     std::uint32_t width = 512;  ///< pixels, >= 1
@@ -94,13 +66,7 @@ struct AovInfo {
     int channels;
     std::string_view doc;
 };
-std::span<const AovInfo> aov_infos();
-
-/// Time that one group of passes took on the device.
-struct PassTime {
-    std::string name;
-    double time_ms;
-};
+PELLUCID_API std::span<const AovInfo> aov_infos();
 
 struct RenderResult {
     Image radiance;  ///< RGB, scene-linear, before exposure; the colours of other views in these
@@ -123,7 +89,7 @@ struct RenderResult {
 };
 
 /// Draws scenes on one Vulkan device. Needs no window. Not thread safe; any number may exist.
-class Renderer {
+class PELLUCID_API Renderer {
 public:
     explicit Renderer(const DeviceOptions& options = {});
     ~Renderer();
@@ -176,13 +142,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Names that the command line and files use for the enumerations above.
-/// The parsers throw Error listing the known names.
-View parse_view(std::string_view name);
-LayerBuilder parse_layer_builder(std::string_view name);
-ToneMap parse_tonemap(std::string_view name);
-
 /// The version of the library, "0.1.0".
-std::string_view version();
+PELLUCID_API std::string_view version();
 
 }  // namespace pellucid

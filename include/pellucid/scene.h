@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pellucid/api.h>
 #include <pellucid/image.h>
 #include <pellucid/volume.h>
 
@@ -67,7 +68,7 @@ struct Material {
     /// Bounds a solid of glass, as opposed to an opaque or a thin-walled surface.
     bool refractive() const { return transmissive() && thickness > 0.0f; }
     /// Absorption (translucent: extinction) coefficient per metre, `-ln(attenuation_color) / attenuation_distance`.
-    glm::vec3 sigma_a() const;
+    PELLUCID_API glm::vec3 sigma_a() const;
 };
 
 /// An indexed triangle mesh in its own coordinate frame.
@@ -159,9 +160,9 @@ struct Scene {
     std::vector<VolumeObject> volume_objects;            ///< where boxes overlap, the smaller one counts
     std::vector<Camera> cameras;
     std::vector<Light> lights;
-    std::shared_ptr<const Rig> rig;        ///< what pose_at() poses; copies share it; null where nothing is animated
-    std::vector<std::string> warnings;     ///< one line each; what was approximated, repaired or left out
-    std::uint64_t triangle_count() const;  ///< over all objects; instances count each time
+    std::shared_ptr<const Rig> rig;     ///< what pose_at() poses; copies share it; null where nothing is animated
+    std::vector<std::string> warnings;  ///< one line each; what was approximated, repaired or left out
+    PELLUCID_API std::uint64_t triangle_count() const;  ///< over all objects; instances count each time
 };
 
 /// Sphere around a set of objects, in the scene's frame, and their axis-aligned box about the same centre.
@@ -171,7 +172,7 @@ struct Bounds {
     glm::vec3 half_size{0.0f};  ///< half the sides of the box, m
 };
 /// Bounds of all objects and volumes: centre of the box, radius to the farthest vertex or corner of a volume's box.
-Bounds scene_bounds(const Scene& scene);
+PELLUCID_API Bounds scene_bounds(const Scene& scene);
 
 /// What makes a solid wax, jade or skin.
 struct Translucency {
@@ -180,7 +181,7 @@ struct Translucency {
 };
 /// Makes every material of the scene translucent: opaque and no metal, half of what it scatters on either side. Its
 /// base colour, roughness and textures stay. Throws Error for values out of range.
-void make_translucent(Scene& scene, const Translucency& translucency);
+PELLUCID_API void make_translucent(Scene& scene, const Translucency& translucency);
 
 /// A crease angle that each shell of a mesh gets by itself. Where some of its edges are sharp, others bend gently and
 /// hardly any lie between, the sharp ones stay sharp: a cube is a cube, a cylinder has rims. Otherwise it is smooth.
@@ -220,7 +221,7 @@ struct LoadOptions {
 /// LoadOptions::animation says; meshes with a skin get vertices in the world's frame and objects at the identity.
 /// Throws Error in one line if the file is missing, malformed, empty, or requires a glTF extension
 /// that is not supported. What could be repaired or was left out is in Scene::warnings.
-Scene load_scene(const std::string& source, const LoadOptions& options = {});
+PELLUCID_API Scene load_scene(const std::string& source, const LoadOptions& options = {});
 
 /// Names that `shape:` accepts, with a line about each and its parameters.
 struct ShapeParameter {
@@ -235,20 +236,21 @@ struct ShapeInfo {
     std::string_view doc;
     std::vector<ShapeParameter> parameters;
 };
-const std::vector<ShapeInfo>& shape_infos();
+PELLUCID_API const std::vector<ShapeInfo>& shape_infos();
 /// The same of `volume:`.
-const std::vector<ShapeInfo>& volume_infos();
+PELLUCID_API const std::vector<ShapeInfo>& volume_infos();
 
 /// Camera on a sphere around `bounds`, looking at its centre.
 /// azimuth_deg 0 looks along -Z from +Z, growing towards +X; elevation_deg -90..90;
 /// distance in bounding-sphere radii, > 1.
-Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg, float distance, float vertical_fov);
+PELLUCID_API Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg, float distance,
+                                 float vertical_fov);
 
 /// Distance, in radii, at which a sphere fills `share` of the image height (0 < share < 1).
-float framing_distance(float vertical_fov, float share);
+PELLUCID_API float framing_distance(float vertical_fov, float share);
 
 /// The default camera: azimuth 0, elevation 15 degrees, `bounds` filling 70% of the picture's height,
 /// or of its width where that is less.
-Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov);
+PELLUCID_API Camera framing_camera(const Bounds& bounds, std::uint32_t width, std::uint32_t height, float vertical_fov);
 
 }  // namespace pellucid

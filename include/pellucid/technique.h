@@ -1,6 +1,8 @@
 #pragma once
 
-#include <cstdint>
+#include <pellucid/api.h>
+#include <pellucid/refracted_path.h>
+
 #include <map>
 #include <span>
 #include <string>
@@ -56,10 +58,10 @@ struct TechniqueInfo {
 
 /// Every technique there is: those that others are drawn by in the order of their publication, then those
 /// that trace rays.
-std::span<const TechniqueInfo* const> techniques();
+PELLUCID_API std::span<const TechniqueInfo* const> techniques();
 
 /// Throws Error listing the known names if there is none of this name.
-const TechniqueInfo& find_technique(std::string_view name);
+PELLUCID_API const TechniqueInfo& find_technique(std::string_view name);
 
 /// Parameters given by name; what is not named keeps its default.
 using ParameterMap = std::map<std::string, double, std::less<>>;
@@ -71,26 +73,15 @@ struct PresetInfo {
     std::string_view summary;  ///< one line
 };
 /// `fast`, `balanced` and `exact`, in this order.
-std::span<const PresetInfo> presets();
+PELLUCID_API std::span<const PresetInfo> presets();
 
 /// Throws Error listing the known names if there is neither a technique nor a preset of this name.
-void check_technique_name(std::string_view name);
+PELLUCID_API void check_technique_name(std::string_view name);
 
 /// What the name of a technique or preset stands for.
 struct TechniqueChoice {
     const TechniqueInfo* technique;
     ParameterMap parameters;  ///< of the preset; others have their defaults
 };
-
-/// Why a pixel's refraction may be wrong. The numbers are those of the `status` AOV.
-enum class Status : std::uint32_t {
-    kOk = 0,            ///< every interface on the path was found (or there is no glass here)
-    kMissingLayer = 1,  ///< an interface lies in no layer that the technique looks at
-    kLeftScreen = 2,    ///< the path went where no layer was recorded: outside the picture
-    kStepLimit = 3,     ///< the search used up its steps
-    kEventLimit = 4,    ///< more interface events than the technique follows
-};
-inline constexpr std::uint32_t kStatusCount = 5;
-std::string_view status_name(Status status);
 
 }  // namespace pellucid

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pellucid/api.h>
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -35,19 +37,19 @@ struct Volume {
 };
 
 /// Throws Error naming the volume if a field's length is not that of the grid, or a number is not finite or out of range.
-void check_volume(const Volume& volume);
+PELLUCID_API void check_volume(const Volume& volume);
 
 /// Throws Error naming `what` if `size` voxels of `bytes_per_voxel` are more than the machine has free: before allocation
 /// fails.
-void check_volume_fits(const std::string& what, glm::uvec3 size, std::size_t bytes_per_voxel);
+PELLUCID_API void check_volume_fits(const std::string& what, glm::uvec3 size, std::size_t bytes_per_voxel);
 
 /// Smooths the index (all colours) and the boundary by a Gaussian of standard deviation `sigma` voxels, 0..16; outside the
 /// box the voxels at its faces go on. 0 changes nothing.
-void smooth_index(Volume& volume, float sigma);
+PELLUCID_API void smooth_index(Volume& volume, float sigma);
 
 /// Makes a volume: `NAME[,PARAMETER=VALUE...]` with names and parameters of volume_infos(). Throws Error in one line for
 /// what is unknown, malformed, out of range, or does not fit into memory.
-Volume make_volume(const std::string& spec);
+PELLUCID_API Volume make_volume(const std::string& spec);
 
 /// Which field a grid of an OpenVDB file becomes.
 struct GridMapping {
@@ -62,13 +64,14 @@ struct GridMapping {
 /// Loads an OpenVDB file: the grids that `mapping` names, or without one those that have the names of fields. Voxels must be
 /// cubes along the axes. Throws Error naming the file, in one line, if it is missing, damaged, of other values than
 /// float, double, vec3s or vec3d, or does not fit into memory.
-Volume load_volume(const std::filesystem::path& file, std::span<const GridMapping> mapping = {});
+PELLUCID_API Volume load_volume(const std::filesystem::path& file, std::span<const GridMapping> mapping = {});
 
 struct VolumeFileOptions {
     bool double_precision = false;
     bool compress = true;  ///< by Blosc
 };
 /// Saves the fields as grids of their names. Throws Error if there are none or the file cannot be written.
-void save_volume(const std::filesystem::path& file, const Volume& volume, const VolumeFileOptions& options = {});
+PELLUCID_API void save_volume(const std::filesystem::path& file, const Volume& volume,
+                              const VolumeFileOptions& options = {});
 
 }  // namespace pellucid

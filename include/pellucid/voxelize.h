@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pellucid/api.h>
 #include <pellucid/device.h>
 #include <pellucid/scene.h>
 #include <pellucid/volume.h>
@@ -30,6 +31,7 @@ struct VoxelizedScene {
 /// of its material; where they overlap, the one with the smaller box displaces the other. `boundary` is 1 on their surfaces.
 /// Columns of an open mesh that go through its holes are left empty, with a warning that names the object, unless
 /// `closed_only`. Throws Error for settings out of range, if there are no such objects, or if the voxels do not fit into memory.
-VoxelizedScene voxelize(const Scene& scene, const VoxelSettings& settings = {}, const DeviceOptions& device = {});
+PELLUCID_API VoxelizedScene voxelize(const Scene& scene, const VoxelSettings& settings = {},
+                                     const DeviceOptions& device = {});
 
 }  // namespace pellucid

@@ -1,7 +1,5 @@
 #include "core/fail.h"
 
-#include <pellucid/error.h>
-
 namespace pellucid {
 
 std::string one_line(std::string_view text) {

@@ -2,9 +2,9 @@
 
 #include "core/fail.h"
 #include "core/file.h"
-#include "core/file_extension.h"
 
 #include <pellucid/error.h>
+#include <pellucid/file.h>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -3,20 +3,11 @@
 #include "gpu/gpu_scene.h"
 #include "gpu/workspace.h"
 
-#include <pellucid/reference.h>
-
 #include <optional>
 
 namespace pellucid {
 
-/// What a technique that traces on the CPU looks at.
-struct TracedView {
-    const Tracer& tracer;
-    Camera camera;
-    glm::uvec2 picture;   ///< pixels, of which a frame may draw a part
-    glm::vec2 jitter_px;  ///< of the sample within the pixel, from its centre
-    Progress progress;
-};
+struct TracedView;
 
 /// How many samples every pixel gets, where that differs from pixel to pixel.
 struct WantedSamples {

@@ -4,7 +4,7 @@
 #include "gpu/memory.h"
 #include "gpu/program.h"
 
-#include <pellucid/renderer.h>
+#include <pellucid/device.h>
 
 #include <array>
 #include <functional>

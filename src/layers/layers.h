@@ -5,7 +5,7 @@
 #include "layers/mesh_maps.h"
 #include "layers/surface_map.h"
 
-#include <pellucid/renderer.h>
+#include <pellucid/layer_builder.h>
 
 #include <map>
 #include <optional>

@@ -1,5 +1,5 @@
 #include <pellucid/error.h>
-#include <pellucid/thickness.h>
+#include <pellucid/measure.h>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "scene/check_scene.h"
 
 #include <pellucid/error.h>
-#include <pellucid/thickness.h>
+#include <pellucid/exact_thickness.h>
 
 #include <fmt/format.h>
 

@@ -2,6 +2,8 @@
 
 #include "render/frame.h"
 
+#include <pellucid/renderer.h>
+
 #include <string>
 #include <vector>
 

@@ -1,8 +1,8 @@
 #include <pellucid/environment.h>
 #include <pellucid/error.h>
+#include <pellucid/file.h>
 
 #include "core/fail.h"
-#include "core/file_extension.h"
 #include "core/math.h"
 
 #include <algorithm>

@@ -2,12 +2,13 @@
 
 #include "core/fail.h"
 #include "core/file.h"
-#include "core/file_extension.h"
 #include "core/math.h"
 #include "scene/far_positions.h"
 #include "scene/mesh_file_checks.h"
 #include "scene/mesh_repair.h"
 #include "scene/text_positions.h"
+
+#include <pellucid/file.h>
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

@@ -1,8 +1,8 @@
 #include <pellucid/error.h>
+#include <pellucid/file.h>
 #include <pellucid/scene.h>
 
 #include "core/fail.h"
-#include "core/file_extension.h"
 #include "core/math.h"
 #include "scene/animation_names.h"
 #include "scene/far_positions.h"

@@ -3,7 +3,7 @@
 #include "layers/layers.h"
 #include "techniques/technique.h"
 
-#include <pellucid/renderer.h>
+#include <pellucid/display.h>
 
 namespace pellucid {
 

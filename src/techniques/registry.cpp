@@ -25,9 +25,8 @@ namespace {
 
 // Every technique, one line each.
 constexpr std::array kTechniques = {
-    &kOneInterface, &kKayGreenberg1979, &kWyman2005,      &kOliveiraBrauwers2007, &kIhrke2007,
-    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,           &kRayTracingCpu,
-    &kPath,         &kReference,
+    &kOneInterface,     &kKayGreenberg1979, &kWyman2005,  &kOliveiraBrauwers2007, &kIhrke2007, &kWang2014,
+    &kVisibilityLayers, &kVisibilityCube,   &kRayTracing, &kRayTracingCpu,        &kPath,      &kReference,
 };
 
 constexpr auto kInfos = [] {
@@ -66,12 +65,6 @@ const Technique& technique_of(const TechniqueInfo& info) {
 std::string lacking_for(const Device& device, const TechniqueInfo& info) {
     const Technique& technique = technique_of(info);
     return technique.lacking ? technique.lacking(device) : std::string();
-}
-
-std::string_view status_name(Status status) {
-    constexpr std::array<std::string_view, kStatusCount> kNames = {"ok", "missing_layer", "left_screen", "step_limit",
-                                                                   "event_limit"};
-    return kNames.at(std::size_t(status));
 }
 
 ParameterValues::ParameterValues(const TechniqueInfo& technique, const ParameterMap& given) : technique_(technique) {

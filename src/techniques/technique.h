@@ -3,6 +3,7 @@
 #include "bake/bake_cache.h"
 #include "layers/layers.h"
 
+#include <pellucid/reference.h>
 #include <pellucid/technique.h>
 
 #include <span>
@@ -78,6 +79,15 @@ struct PictureSamples {
     std::uint32_t count = 1;               ///< of every pixel
     std::vector<std::uint32_t> of_pixels = {};  ///< in place of `count`, rows from the top; empty: all alike
     std::uint32_t first = 0;
+};
+
+/// What a technique that traces on the CPU looks at.
+struct TracedView {
+    const Tracer& tracer;
+    Camera camera;
+    glm::uvec2 picture;   ///< pixels, of which a frame may draw a part
+    glm::vec2 jitter_px;  ///< of the sample within the pixel, from its centre
+    Progress progress;
 };
 
 /// A row of the registry: what the technique is, what it needs, and how it is recorded.

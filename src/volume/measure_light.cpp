@@ -1,4 +1,4 @@
-#include "volume/measure_light.h"
+#include <pellucid/volume_light.h>
 
 #include "volume/upload_volumes.h"
 #include "volume/wavefront.h"

@@ -5,10 +5,10 @@
 #include "gpu/workspace.h"
 #include "volume/light_fronts.h"
 #include "volume/light_records.h"
-#include "volume/light_settings.h"
 #include "volume/volume_records.h"
 
 #include <pellucid/scene.h>
+#include <pellucid/volume_light.h>
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 // Light through volumes on the device: power, the inverse square, caustics, folds, and what is reported.
+#include "lab/ball_photons.h"
 #include "optics/index_fields.h"
 #include "optics/phase.h"
-#include "reference/ball_photons.h"
 
 #include "gpu/wavefront_test.h"
 

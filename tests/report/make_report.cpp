@@ -1,6 +1,6 @@
 // Writes a small report for test_report.py into the folder that it is given: names that would break a careless page,
 // a picture, a map and a time that are missing, and errors whose worst place is known.
-#include "measure/report.h"
+#include "report/report.h"
 
 #include <cstdio>
 

@@ -1,7 +1,7 @@
-#include "measure/report.h"
-#include "measure/report/color_scale.h"
-#include "measure/report/frontier.h"
-#include "measure/report/worst_region.h"
+#include "report/color_scale.h"
+#include "report/frontier.h"
+#include "report/report.h"
+#include "report/worst_region.h"
 #include "test_files.h"
 
 #include <pellucid/error.h>

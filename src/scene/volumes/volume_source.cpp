@@ -1,7 +1,8 @@
 #include "scene/volumes/volume_source.h"
 
 #include "core/fail.h"
-#include "core/file_extension.h"
+
+#include <pellucid/file.h>
 
 namespace pellucid {
 

@@ -1,7 +1,7 @@
-#include "measure/report/report_folder.h"
+#include "report/report_folder.h"
 
-#include "core/fail.h"
-#include "core/file.h"
+#include <pellucid/error.h>
+#include <pellucid/file.h>
 
 #include <algorithm>
 #include <string>
@@ -10,6 +10,10 @@
 
 namespace pellucid {
 namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& cause) {
+    throw Error(one_line(file.string() + ": " + cause));
+}
 
 namespace fs = std::filesystem;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measure/report/report_folder.h"
+#include "report/report_folder.h"
 
 #include <pellucid/image.h>
 

@@ -1,4 +1,4 @@
-#include "measure/report/worst_region.h"
+#include "report/worst_region.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,6 +1,6 @@
-#include "measure/report/frontier.h"
+#include "report/frontier.h"
 
-#include "core/fail.h"
+#include <pellucid/error.h>
 
 #include <fmt/format.h>
 

@@ -1,9 +1,10 @@
-#include "measure/report.h"
+#include "report/report.h"
 
-#include "core/file.h"
-#include "measure/report/color_scale.h"
-#include "measure/report/frontier.h"
-#include "measure/report/worst_region.h"
+#include "report/color_scale.h"
+#include "report/frontier.h"
+#include "report/worst_region.h"
+
+#include <pellucid/file.h>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,4 @@
-#include "measure/report/color_scale.h"
-
-#include "core/math.h"
+#include "report/color_scale.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +26,7 @@ float srgb_encoded(float linear) {
 /// Lightness and hue run evenly; chroma is what the sRGB gamut has room for along that way.
 glm::vec3 scale_color(float share) {
     const float lightness = glm::mix(0.32f, 0.96f, share);
-    const float hue = radians_from_degrees(glm::mix(268.0f, 460.0f, share));
+    const float hue = glm::radians(glm::mix(268.0f, 460.0f, share));
     const float chroma = std::min(0.17f, 0.085f + 0.55f * (1.0f - share) * (1.0f - share));
     const glm::vec3 linear = linear_from_oklab({lightness, chroma * std::cos(hue), chroma * std::sin(hue)});
     return {srgb_encoded(linear.r), srgb_encoded(linear.g), srgb_encoded(linear.b)};

@@ -3,7 +3,7 @@
 // Photons through a ball of glass, counted where they land on a plane and in voxels behind it: the truth for caustics of
 // volumes. Shares no code with the tracing of wavefronts.
 
-#include "core/math.h"
+#include <glm/glm.hpp>
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "reference/ball_photons.h"
+#include "lab/ball_photons.h"
 
 #include <algorithm>
 #include <cmath>
