@@ -36,7 +36,8 @@ struct TechniqueInfo {
     std::string_view summary;  ///< one line
     Source source;
     std::span<const ParameterInfo> parameters;
-    /// Traces rays on the CPU: the truth that the others are held against, not a frame's work.
+    /// A truth that techniques are measured against: the exact tracer traces it on the CPU. Drawn by its name as a
+    /// technique is.
     bool reference = false;
     /// Its picture has all light: reflections inside, opaque things behind glass, lamps, metal, rough glass,
     /// dispersion. RenderSettings::samples are paths per pixel.
@@ -56,8 +57,7 @@ struct TechniqueInfo {
     bool volumes = false;
 };
 
-/// Every technique there is: those that others are drawn by in the order of their publication, then those
-/// that trace rays.
+/// Every technique by its publication, then those that trace rays, then the truths (TechniqueInfo::reference).
 PELLUCID_API std::span<const TechniqueInfo* const> techniques();
 
 /// Throws Error listing the known names if there is none of this name.

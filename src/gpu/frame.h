@@ -7,8 +7,6 @@
 
 namespace pellucid {
 
-struct TracedView;
-
 /// How many samples every pixel gets, where that differs from pixel to pixel.
 struct WantedSamples {
     const GpuImage& counts;    ///< R32UI, of the tile
@@ -28,7 +26,6 @@ struct Frame {
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
     std::optional<WantedSamples> wanted_samples = std::nullopt;
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
-    const TracedView* traced = nullptr;                  ///< for techniques that trace on the CPU; null for others
 };
 
 }  // namespace pellucid

@@ -119,8 +119,8 @@ std::optional<std::string> bad_status_warning(const RenderResult& result, const 
 
 }  // namespace
 
-void warn_of(RenderResult& result, const Technique& technique, bool cut, const RenderSettings& settings) {
-    if (auto warning = bad_status_warning(result, technique.info)) result.warnings.push_back(*warning);
+void warn_of(RenderResult& result, const FrameSettings& chosen, bool cut, const RenderSettings& settings) {
+    if (auto warning = bad_status_warning(result, chosen.info)) result.warnings.push_back(*warning);
     if (result.cut_rays > 0) {
         result.warnings.push_back(fmt::format(
             "light meets more than {} surfaces on its way to {} pixels: what is behind them counts as a gap",
@@ -134,9 +134,9 @@ void warn_of(RenderResult& result, const Technique& technique, bool cut, const R
                 fmt::format("{} pixels have {} samples, the most: their error may be more than {}", capped,
                             settings.most_samples, settings.error));
     }
-    if (cut && technique.searches_layers) {
+    if (cut && chosen.technique && chosen.technique->searches_layers) {
         result.warnings.push_back(fmt::format(
-            "drawn in tiles: {} finds no surface that lies beyond the tile of the pixel", technique.info.name));
+            "drawn in tiles: {} finds no surface that lies beyond the tile of the pixel", chosen.info.name));
     }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "gpu/scene_topology.h"
-#include "techniques/technique.h"
+#include "render/frame.h"
 
 #include <pellucid/renderer.h>
 #include <pellucid/scene.h>
@@ -20,6 +20,6 @@ std::vector<std::string> unknown_solids(const SceneTopology& topology, const Tec
 
 /// Adds what may be wrong in a picture, by its counts, to its warnings. `cut`: it was drawn in tiles and glass lies in
 /// several.
-void warn_of(RenderResult& result, const Technique& technique, bool cut, const RenderSettings& settings);
+void warn_of(RenderResult& result, const FrameSettings& chosen, bool cut, const RenderSettings& settings);
 
 }  // namespace pellucid

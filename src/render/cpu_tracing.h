@@ -8,7 +8,7 @@
 
 namespace pellucid {
 
-/// The scene for techniques that trace on the CPU. Its hierarchy is built when the first of them asks.
+/// The scene on the CPU, and the tracer of truths. Its hierarchy is built when it is first asked for.
 class CpuTracing {
 public:
     explicit CpuTracing(std::uint32_t threads) : threads_(threads) {}

@@ -2,16 +2,18 @@
 
 namespace pellucid {
 FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source,
-                         TransmittedLight& transmitted) {
-    const std::uint32_t layer_count = settings.technique.layer_count(settings.parameters);
+                         TransmittedLight& transmitted, const TracedView* traced) {
+    const std::uint32_t layer_count = settings.technique ? settings.technique->layer_count(settings.parameters) : 1;
     source.begin_frame(settings.layer_builder);
     const Opaque opaque = draw_opaque(recorder, frame);
     transmitted.add(recorder, frame, opaque);
     const Layers layers = source.build(recorder, frame, opaque, {frame.scene.refractive, layer_count});
-    const Refraction refraction = settings.technique.record(recorder, frame, layers, settings.parameters);
+    const Refraction refraction = settings.truth
+                                      ? upload_exact_paths(frame, *traced, settings.parameters)
+                                      : settings.technique->record(recorder, frame, layers, settings.parameters);
     const ThinWalls walls = draw_thin_walls(recorder, frame, opaque, layers);
     const GpuImage& radiance = shade(recorder, frame, opaque, layers, walls, refraction, settings.view);
-    if (frame.front_exposure) settings.technique.draw_light(recorder, frame, opaque, radiance);
+    if (frame.front_exposure) settings.technique->draw_light(recorder, frame, opaque, radiance);
     return {layers, refraction, radiance};
 }
 

@@ -2,13 +2,15 @@
 
 #include "shade/shade.h"
 #include "shade/transmitted_light.h"
-#include "techniques/technique.h"
+#include "techniques/truth.h"
 
 namespace pellucid {
 
 /// What the caller chose for a frame.
 struct FrameSettings {
-    const Technique& technique;
+    const TechniqueInfo& info;
+    const Technique* technique;  ///< null for a truth
+    const Truth* truth;          ///< null for a technique
     ParameterValues parameters;
     LayerBuilder layer_builder;
     View view;
@@ -22,7 +24,8 @@ struct FrameImages {
 };
 
 /// Records one frame: the whole renderer in six lines. To be recorded again if `source` or `transmitted` must_repeat().
+/// `traced`: for truths.
 FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source,
-                         TransmittedLight& transmitted);
+                         TransmittedLight& transmitted, const TracedView* traced);
 
 }  // namespace pellucid

@@ -57,9 +57,9 @@ const GpuImage& upload_counts(const Frame& frame, const std::vector<std::uint32_
     return image;
 }
 
-/// Whether frames make the picture; a technique that shades its own paths makes it apart.
+/// Whether frames make the image, or a truth traces its own.
 bool draws_picture(const FrameSettings& chosen) {
-    return chosen.technique.trace_picture == nullptr || chosen.view == View::kAnalysis;
+    return chosen.truth == nullptr || chosen.truth->trace_image == nullptr || chosen.view == View::kAnalysis;
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ struct Renderer::Impl {
     /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
     /// the pass times. `progress` is of this sample.
     /// `sample`: none for the frame through the centres of the pixels.
-    std::vector<PassTime> run_frame(Frame frame, const FrameSettings& chosen, const RenderSettings& settings,
+    std::vector<PassTime> run_frame(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
                                     std::optional<std::uint32_t> sample, const Progress& progress,
                                     std::optional<FrameImages>& images);
     /// Draws a sample of every pixel, of those that want one; counts and times go to `part`. Returns its radiance.
@@ -113,13 +113,14 @@ struct Renderer::Impl {
                                            const RenderSettings& settings, const Progress& progress,
                                            RenderResult& part);
     /// Draws the samples of a tile; fills the radiance (the sum of the samples), AOVs, paths, counts and times of `part`.
-    /// Returns the radiance on the device; null where the technique shades its own paths.
+    /// Returns the radiance on the device; null where a truth traces the image.
     const GpuImage* render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
                                    RenderResult& part);
     /// Draws all tiles; they are smaller in the end than at first where one did not fit the device.
     Drawn draw_tiles(Frame frame, const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
-    /// The picture of a technique that shades its own paths.
-    void trace_picture(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
+    TracedView traced_view(const RenderSettings& settings, glm::vec2 jitter_px, const Progress& progress);
+    /// The image that a truth traces itself.
+    void trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
     Frame frame_of(const RenderSettings& settings);
     /// Takes back what a frame that failed has left. Rooms for what frames need are learnt anew.
     void forget_frame();
@@ -169,9 +170,14 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
     warnings = approximations(cpu.scene(), info);
     ParameterMap parameters = settings.parameters;
     parameters.merge(choice.parameters);  // what is there already stays
-    FrameSettings chosen{technique_of(info), ParameterValues(info, parameters), settings.layer_builder, settings.view};
+    FrameSettings chosen{.info = info,
+                         .technique = technique_of(info),
+                         .truth = truth_of(info),
+                         .parameters = ParameterValues(info, parameters),
+                         .layer_builder = settings.layer_builder,
+                         .view = settings.view};
     if (settings.view == View::kWavefront) {
-        if (chosen.technique.draw_light == nullptr)
+        if (chosen.truth || chosen.technique->draw_light == nullptr)
             throw Error(fmt::format("view wavefront: {} traces no wavefronts of light; ihrke-2007 does", info.name));
         if (cpu.scene().lights.empty()) throw Error("view wavefront: the scene has no lights");
     }
@@ -192,17 +198,17 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
 
 void Renderer::Impl::prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
                              std::vector<std::string>& warnings) {
-    const TechniqueInfo& info = chosen.technique.info;
-    if (!info.whole_scene && !info.reference) {
+    if (chosen.truth) return;
+    if (!chosen.info.whole_scene) {
         if (!scene->topology) scene->prepare_topology(device, cpu.scene());
         scene->topology->look_from(device, cpu.scene(), view);
-        for (std::string& line : unknown_solids(*scene->topology, info)) warnings.push_back(std::move(line));
+        for (std::string& line : unknown_solids(*scene->topology, chosen.info)) warnings.push_back(std::move(line));
     }
-    if (chosen.technique.prepare == nullptr) return;
+    if (chosen.technique->prepare == nullptr) return;
     // Shapes that a deforming mesh passes through are not worth a file each.
     bake::BakeCache passing{std::filesystem::path()};
     bake::BakeCache& cache = scene->moves > 0 ? passing : bake_cache;
-    chosen.technique.prepare({device, cpu.scene(), *scene, cache, threads, progress, warnings}, chosen.parameters);
+    chosen.technique->prepare({device, cpu.scene(), *scene, cache, threads, progress, warnings}, chosen.parameters);
     if (scene->topology) scene->topology->look_from(device, cpu.scene(), view);
 }
 
@@ -217,21 +223,17 @@ void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& set
     std::memcpy(constants->mapped(), &values, sizeof(values));
 }
 
-std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings& chosen,
+std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameSettings& chosen,
                                                 const RenderSettings& settings, std::optional<std::uint32_t> sample,
                                                 const Progress& progress, std::optional<FrameImages>& images) {
     const glm::vec2 jitter = sample ? sample_jitter(*sample) : glm::vec2(0.0f);
     set_constants(frame, settings, jitter, sample.value_or(0));
     std::optional<TracedView> traced;
-    if (chosen.technique.info.reference) {
-        traced.emplace(
-            TracedView{cpu.tracer(), camera_for(settings), {settings.width, settings.height}, jitter, progress});
-        frame.traced = &*traced;
-    }
+    if (chosen.truth) traced.emplace(traced_view(settings, jitter, progress));
     std::vector<PassTime> times;
     for (;;) {
         TransmittedLight& transmitted = solid_lighting.transmitted();
-        images.emplace(record_frame(recorder, frame, chosen, layer_source, transmitted));
+        images.emplace(record_frame(recorder, frame, chosen, layer_source, transmitted, traced ? &*traced : nullptr));
         times = with_missing_passes(recorder.submit_and_wait(), times);
         const bool light_again = transmitted.must_repeat(frame);
         if (!layer_source.must_repeat(frame) && !light_again) return times;
@@ -293,7 +295,7 @@ const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSe
     for (std::uint32_t sample = 0; sample < samples; ++sample) {
         const auto share = [&](std::uint32_t done) { return before + (1.0 - before) * done / samples; };
         const Progress progress = part_of(settings.progress, share(sample), share(sample + 1));
-        if (wanted != nullptr && !chosen.technique.searches_layers)
+        if (wanted != nullptr && (chosen.truth || !chosen.technique->searches_layers))
             sampled.wanted_samples.emplace(WantedSamples{*wanted, sample});
         const GpuImage& radiance = draw_sample(sampled, chosen, settings, sample, progress, part);
         // Submitted apart: a frame that overflowed was drawn twice, and counts once.
@@ -309,7 +311,7 @@ Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSetting
                                                  const RenderSettings& settings, RenderResult& result) {
     const glm::uvec2 size(settings.width, settings.height);
     // Paths have 16 bytes per pixel in one buffer; other techniques list the pixels with glass.
-    std::uint64_t most = most_tile_pixels(device, chosen.technique.info.whole_scene ? 16 : 4);
+    std::uint64_t most = most_tile_pixels(device, chosen.info.whole_scene ? 16 : 4);
     if (settings.tile_pixels > 0) most = std::min<std::uint64_t>(most, settings.tile_pixels);
     set_constants(frame, settings, glm::vec2(0.0f), 0);
     const std::optional<Tile> glass = tile_of_glass(current_constants(), scene->refractive_corners);
@@ -343,11 +345,14 @@ Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSetting
     return drawn;
 }
 
-void Renderer::Impl::trace_picture(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result) {
+TracedView Renderer::Impl::traced_view(const RenderSettings& settings, glm::vec2 jitter_px, const Progress& progress) {
+    return {cpu.tracer(), camera_for(settings), {settings.width, settings.height}, jitter_px, progress};
+}
+
+void Renderer::Impl::trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result) {
     const auto trace = [&](const PictureSamples& samples, const Progress& progress) {
-        return chosen.technique.trace_picture(
-            {cpu.tracer(), camera_for(settings), {settings.width, settings.height}, {0.0f, 0.0f}, progress},
-            environment, samples, chosen.parameters);
+        return chosen.truth->trace_image(traced_view(settings, glm::vec2(0.0f), progress), environment, samples,
+                                         chosen.parameters);
     };
     PictureSamples samples{.count = settings.samples};
     const double before = settings.error > 0.0f ? kPilotShare : 0.0;
@@ -451,10 +456,10 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {
         const Impl::Drawn drawn = impl.draw_tiles(frame, chosen, settings, result);
-        warn_of(result, chosen.technique, drawn.cut, settings);
+        warn_of(result, chosen, drawn.cut, settings);
         const bool draws = draws_picture(chosen);
-        if (!draws) impl.trace_picture(chosen, settings, result);
-        if (chosen.technique.report != nullptr) chosen.technique.report(*impl.scene, result.warnings);
+        if (!draws) impl.trace_image(chosen, settings, result);
+        if (chosen.technique && chosen.technique->report) chosen.technique->report(*impl.scene, result.warnings);
         const bool summed = draws && settings.error <= 0.0f;  // otherwise it is a mean already
         const float scale = summed ? float(1.0 / double(settings.samples)) : 1.0f;
         result.display = display_picture(impl.recorder, frame, drawn.tiles, {result.radiance, drawn.on_device, scale},

@@ -23,17 +23,27 @@
 namespace pellucid {
 namespace {
 
-// Every technique, one line each.
+// Every technique, and the truths that they are measured against, one line each.
 constexpr std::array kTechniques = {
-    &kOneInterface,     &kKayGreenberg1979, &kWyman2005,  &kOliveiraBrauwers2007, &kIhrke2007, &kWang2014,
-    &kVisibilityLayers, &kVisibilityCube,   &kRayTracing, &kRayTracingCpu,        &kPath,      &kReference,
+    &kOneInterface, &kKayGreenberg1979, &kWyman2005,      &kOliveiraBrauwers2007, &kIhrke2007,
+    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,           &kRayTracingCpu,
 };
+constexpr std::array kTruths = {&kPath, &kReference};
 
 constexpr auto kInfos = [] {
-    std::array<const TechniqueInfo*, kTechniques.size()> infos{};
-    for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = &kTechniques[i]->info;
+    std::array<const TechniqueInfo*, kTechniques.size() + kTruths.size()> infos{};
+    const auto info = [](const auto* row) { return &row->info; };
+    std::transform(kTruths.begin(), kTruths.end(),
+                   std::transform(kTechniques.begin(), kTechniques.end(), infos.begin(), info), info);
     return infos;
 }();
+
+/// The row of that name, or null.
+template <class Rows>
+auto find_row(const Rows& rows, std::string_view name) {
+    const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto* row) { return row->info.name == name; });
+    return found == rows.end() ? nullptr : *found;
+}
 
 void check_value(const TechniqueInfo& technique, const ParameterInfo& parameter, double value) {
     if (!(value >= parameter.minimum && value <= parameter.maximum) ||
@@ -57,14 +67,12 @@ const TechniqueInfo& find_technique(std::string_view name) {
     throw Error(fmt::format("unknown technique '{}'; known: {}", name, fmt::join(known, ", ")));
 }
 
-const Technique& technique_of(const TechniqueInfo& info) {
-    return **std::find_if(kTechniques.begin(), kTechniques.end(),
-                          [&](const Technique* t) { return t->info.name == info.name; });
-}
+const Technique* technique_of(const TechniqueInfo& info) { return find_row(kTechniques, info.name); }
+const Truth* truth_of(const TechniqueInfo& info) { return find_row(kTruths, info.name); }
 
 std::string lacking_for(const Device& device, const TechniqueInfo& info) {
-    const Technique& technique = technique_of(info);
-    return technique.lacking ? technique.lacking(device) : std::string();
+    const Technique* technique = technique_of(info);
+    return technique && technique->lacking ? technique->lacking(device) : std::string();
 }
 
 ParameterValues::ParameterValues(const TechniqueInfo& technique, const ParameterMap& given) : technique_(technique) {

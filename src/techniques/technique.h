@@ -3,7 +3,7 @@
 #include "bake/bake_cache.h"
 #include "layers/layers.h"
 
-#include <pellucid/reference.h>
+#include <pellucid/progress.h>
 #include <pellucid/technique.h>
 
 #include <span>
@@ -74,22 +74,6 @@ struct Preparation {
     std::vector<std::string>& warnings;
 };
 
-/// Which samples a picture has.
-struct PictureSamples {
-    std::uint32_t count = 1;               ///< of every pixel
-    std::vector<std::uint32_t> of_pixels = {};  ///< in place of `count`, rows from the top; empty: all alike
-    std::uint32_t first = 0;
-};
-
-/// What a technique that traces on the CPU looks at.
-struct TracedView {
-    const Tracer& tracer;
-    Camera camera;
-    glm::uvec2 picture;   ///< pixels, of which a frame may draw a part
-    glm::vec2 jitter_px;  ///< of the sample within the pixel, from its centre
-    Progress progress;
-};
-
 /// A row of the registry: what the technique is, what it needs, and how it is recorded.
 struct Technique {
     TechniqueInfo info;
@@ -107,13 +91,11 @@ struct Technique {
     /// technique traces none. Throws Error if there are none in this scene.
     void (*draw_light)(Recorder& recorder, const Frame& frame, const Opaque& opaque,
                        const GpuImage& radiance) = nullptr;
-    /// The picture of a technique that shades its own paths, which shade() then does not do. Null: none.
-    PathTracedImage (*trace_picture)(const TracedView& view, const Environment& environment,
-                                     const PictureSamples& samples, const ParameterValues& parameters) = nullptr;
     /// After a picture: what in it is not as it should be, a line each. Null: nothing ever.
     void (*report)(const GpuScene& scene, std::vector<std::string>& warnings) = nullptr;
 };
-const Technique& technique_of(const TechniqueInfo& info);
+/// Null for a truth (truth.h).
+const Technique* technique_of(const TechniqueInfo& info);
 /// What the device lacks for it, in words that follow "needs"; empty: nothing.
 std::string lacking_for(const Device& device, const TechniqueInfo& info);
 /// See Renderer::choose().

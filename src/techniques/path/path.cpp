@@ -1,7 +1,5 @@
 #include "techniques/path/path.h"
 
-#include "techniques/reference/reference.h"
-
 namespace pellucid {
 namespace {
 
@@ -23,13 +21,8 @@ constexpr ParameterInfo kParameters[] = {
      .doc = "surfaces after which a path is cut"},
 };
 
-/// What is asked about the refraction behind the picture (AOVs, counts) is the exact path's.
-Refraction record(Recorder&, const Frame& frame, const Layers&, const ParameterValues& parameters) {
-    return upload_exact_paths(frame, parameters.whole(kMaxEvents.name));
-}
-
-PathTracedImage trace_picture(const TracedView& view, const Environment& environment, const PictureSamples& samples,
-                              const ParameterValues& parameters) {
+PathTracedImage trace_image(const TracedView& view, const Environment& environment, const PictureSamples& samples,
+                            const ParameterValues& parameters) {
     return view.tracer.path_trace(view.camera, environment,
                                   {.width = view.picture.x,
                                    .height = view.picture.y,
@@ -43,7 +36,7 @@ PathTracedImage trace_picture(const TracedView& view, const Environment& environ
 
 }  // namespace
 
-constexpr Technique kPath{
+constexpr Truth kPath{
     .info = {.name = "path",
              .summary = "path tracing on the CPU: all light, converging with the samples",
              .source = {.authors = "James T. Kajiya",
@@ -56,9 +49,7 @@ constexpr Technique kPath{
              .all_light = true,
              .many_media = true,
              .volumes = true},
-    .layer_count = [](const ParameterValues&) { return 1u; },
-    .record = record,
-    .trace_picture = trace_picture,
+    .trace_image = trace_image,
 };
 
 }  // namespace pellucid

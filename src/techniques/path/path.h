@@ -1,9 +1,9 @@
 #pragma once
 
-#include "techniques/technique.h"
+#include "techniques/truth.h"
 
 namespace pellucid {
 
-extern const Technique kPath;
+extern const Truth kPath;
 
 }  // namespace pellucid
