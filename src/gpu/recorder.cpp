@@ -14,6 +14,7 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using AccessBit = vk::AccessFlagBits2;
 
+constexpr vk::DeviceSize kReadBufferSize = 1 << 16;
 constexpr std::uint32_t kQueriesPerPool = 64;
 constexpr std::uint32_t kSetsPerPool = 64;
 constexpr std::uint32_t kDescriptorsPerPool = 16 * kSetsPerPool;
@@ -93,6 +94,7 @@ void Recorder::restart() {
     timestamps_ = 0;
     states_.clear();
     when_done_.clear();
+    read_end_ = 0;
     begin_commands();
 }
 
@@ -332,12 +334,26 @@ void Recorder::fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize 
     commands_.fillBuffer(buffer.handle(), offset, bytes, word);
 }
 
-void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes,
-                    vk::DeviceSize destination_offset) {
+void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes) {
     synchronise(std::array{Use{source.id(), Stage::eCopy, AccessBit::eTransferRead, false},
                            Use{destination.id(), Stage::eCopy, AccessBit::eTransferWrite, true}});
-    commands_.copyBuffer(source.handle(), destination.handle(),
-                         vk::BufferCopy{.dstOffset = destination_offset, .size = bytes});
+    commands_.copyBuffer(source.handle(), destination.handle(), vk::BufferCopy{.size = bytes});
+}
+
+// Values lie side by side in buffers on the host, so no copy waits for another.
+const std::byte* Recorder::read_bytes(const Buffer& source, vk::DeviceSize offset, vk::DeviceSize bytes) {
+    if (read_end_ % kReadBufferSize + bytes > kReadBufferSize)
+        read_end_ += kReadBufferSize - read_end_ % kReadBufferSize;
+    const std::size_t number = read_end_ / kReadBufferSize;
+    const vk::DeviceSize at = read_end_ % kReadBufferSize;
+    read_end_ += bytes;
+    if (number == read_buffers_.size()) {
+        read_buffers_.emplace_back(device_, "values read", kReadBufferSize, vk::BufferUsageFlagBits::eTransferDst,
+                                   true);
+    }
+    synchronise(std::array{Use{source.id(), Stage::eCopy, AccessBit::eTransferRead, false}});
+    commands_.copyBuffer(source.handle(), read_buffers_[number].handle(), vk::BufferCopy{offset, at, bytes});
+    return read_buffers_[number].mapped() + at;
 }
 
 void Recorder::write_timestamp(Stage stage) {

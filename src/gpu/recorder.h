@@ -7,6 +7,7 @@
 #include <pellucid/renderer.h>
 
 #include <array>
+#include <cstring>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -142,8 +143,16 @@ public:
     void clear_layer(const GpuImage& image, std::uint32_t layer, vk::ClearColorValue value);
     void fill(const Buffer& buffer, std::uint32_t word) { fill(buffer, 0, VK_WHOLE_SIZE, word); }
     void fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize bytes, std::uint32_t word);
-    void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes,
-              vk::DeviceSize destination_offset = 0);
+    void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes);
+    /// Calls `then` with the T at byte `offset` of `source`, once what is being recorded has run.
+    template <class T, class Then>
+    void read(const Buffer& source, vk::DeviceSize offset, Then then) {
+        when_done([from = read_bytes(source, offset, sizeof(T)), then = std::move(then)] {
+            T value;
+            std::memcpy(&value, from, sizeof(T));
+            then(value);
+        });
+    }
 
     /// Runs `step` on the host between what is recorded before, whose results it sees in mapped buffers, and what is
     /// recorded after, which sees what it wrote there. Where it returns false, what is recorded from here to end_of_steps()
@@ -187,6 +196,7 @@ private:
                     const RenderTarget& target, std::span<const DrawCall> calls);
     void trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
                      vk::Extent2D rays);
+    const std::byte* read_bytes(const Buffer& source, vk::DeviceSize offset, vk::DeviceSize bytes);
     void begin_commands();
     void begin_label();
     void add_step(std::function<bool()> step);
@@ -219,6 +229,8 @@ private:
     std::uint32_t timestamps_ = 0;
     std::map<ResourceId, State> states_;
     std::vector<std::function<void()>> when_done_;
+    std::vector<Buffer> read_buffers_;  // of kReadBufferSize, on the host
+    vk::DeviceSize read_end_ = 0;       // in all of them
 };
 
 }  // namespace pellucid

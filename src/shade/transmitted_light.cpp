@@ -44,15 +44,15 @@ struct TransmittedLight::Surfaces {
 
 void TransmittedLight::begin(TransmittedLightSetup setup) {
     workspace_.trim();
-    counted_ = nullptr;
+    cut_rays_ = 0;
     any_ = false;
     const bool same_maps = setup.resolution == setup_.resolution && setup.layers == setup_.layers &&
                            setup.views.size() == setup_.views.size();
-    if (!same_maps) source_ = LayerSource({.builds = std::uint32_t(setup.views.size())});
+    if (!same_maps) source_ = LayerSource();
     setup_ = std::move(setup);
 }
 
-void TransmittedLight::forget() { source_ = LayerSource({.builds = std::uint32_t(setup_.views.size())}); }
+void TransmittedLight::forget() { source_ = LayerSource(); }
 
 Frame TransmittedLight::light_frame(const Frame& frame, const Buffer& constants) const {
     return {workspace_,
@@ -158,8 +158,7 @@ void TransmittedLight::record(Recorder& recorder, const Frame& frame, const Opaq
     recorder.fill(counters, 0);
     for (std::size_t view = 0; view < setup_.views.size(); ++view)
         record_view(recorder, frame, opaque, surfaces, thickness, view, measures);
-    counted_ = &workspace_.buffer("light counts", 4, true);
-    recorder.copy(counters, *counted_, 4);
+    recorder.read<std::uint32_t>(counters, 0, [this](std::uint32_t rays) { cut_rays_ = rays; });
 }
 
 void TransmittedLight::add(Recorder& recorder, const Frame& frame, const Opaque& opaque) {
@@ -176,12 +175,6 @@ const GpuImage& TransmittedLight::measure(Recorder& recorder, const Frame& frame
 bool TransmittedLight::must_repeat(const Frame& frame) {
     if (!any_ || !needs_layers()) return false;
     return source_.must_repeat(light_frame(frame, frame.constants));
-}
-
-std::uint64_t TransmittedLight::cut_rays() const {
-    std::uint32_t count = 0;
-    if (any_ && counted_ != nullptr) std::memcpy(&count, counted_->mapped(), sizeof(count));
-    return count;
 }
 
 }  // namespace pellucid

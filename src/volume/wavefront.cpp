@@ -185,7 +185,6 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
                         scene.lights.size(), volumes.count, PELLUCID_MOST_FRONTS));
     fronts_ = filled(device_, "fronts of light", front_list_.fronts);
     state_ = Buffer(device_, "state of light", sizeof(gpu::LightState), kStorage);
-    state_copy_ = Buffer(device_, "copy of the state of light", sizeof(gpu::LightState), kStorage, true);
 
     double voxels_across = 0.0;
     for (const VolumeRecord& record : records_) voxels_across += double(glm::length(record.size));
@@ -238,12 +237,12 @@ void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tra
                          ReceiverPush{i, tracing.push.power_scale},
                          {std::uint32_t(own.side.w), std::uint32_t(own.up.w)});
     }
-    recorder.copy(state_, state_copy_, sizeof(gpu::LightState));
-    recorder.when_done(
-        [this, key = tracing.key, scale = double(tracing.push.power_scale), tally = tracing.settings.tally] {
-            read_statistics(scale, tally);
-            key_ = key;
-        });
+    recorder.read<gpu::LightState>(state_, 0,
+                                   [this, key = tracing.key, scale = double(tracing.push.power_scale),
+                                    tally = tracing.settings.tally](const gpu::LightState& state) {
+                                       read_statistics(state, scale, tally);
+                                       key_ = key;
+                                   });
 }
 
 void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
@@ -345,9 +344,7 @@ void WavefrontTracer::end(Recorder& recorder, Workspace& workspace, const Tracin
                               tracing.push, step_groups_);
 }
 
-void WavefrontTracer::read_statistics(double power_scale, bool tally) {
-    gpu::LightState state;
-    std::memcpy(&state, state_copy_.mapped(), sizeof(state));
+void WavefrontTracer::read_statistics(const gpu::LightState& state, double power_scale, bool tally) {
     const auto power = [&](std::uint32_t fate) {
         const auto color = [&](std::uint32_t c) {
             const std::uint32_t* words = &state.power[6 * fate + 2 * c];

@@ -66,15 +66,11 @@ public:
                 : push_.most_branches > 0 || volumes != nullptr ? Ways::kTree
                                                                 : Ways::kTransmitted;
         if (ways_ == Ways::kStochastic) push_.most_branches = 0;
-        push_.branch_capacity =
-            ways_ == Ways::kTree ? layers.source.room("branches", std::uint32_t(pixels() / 4 + 1024)) : 1;
         words_ = words_of(topology_);
-        const std::uint32_t vectors = 4 + (words_ + 1) / 4;  // kBranchVectors of path_state.glsl
-        branches_ = &frame.workspace.buffer("branches", 16 + std::uint64_t(push_.branch_capacity) * vectors * 16);
     }
 
     Refraction follow() {
-        if (ways_ == Ways::kTree) recorder_.fill(*branches_, 0);
+        begin_branches();
         for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = &start_pixel_list(recorder_, frame_, kListNames[i]);
         next_ = lists_[0];
         if (push_.whole_picture != 0 || !topology_.all_alone)
@@ -104,8 +100,7 @@ public:
         if (finder_ != nullptr) recorder_.end_of_steps();
         if (at_once) end(*ended_, false);
         end(*next_, true);
-        if (ways_ == Ways::kTree) layers_.source.measure_room(recorder_, frame_, "branches", *branches_);
-        if (finder_ != nullptr) layers_.source.measure_room(recorder_, frame_, "candidates", *map_.records);
+        if (ways_ == Ways::kTree) branches().end(recorder_);
         Refraction refraction = refraction_;
         if (ways_ != Ways::kTransmitted || push_.whole_picture != 0) refraction.reflected = &reflected_;
         if (push_.whole_picture != 0) refraction.picture = refraction.radiance;
@@ -155,6 +150,17 @@ private:
              reads("candidates", *map_.records)},
             {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
             push_};
+    }
+
+    CountedBuffer& branches() {
+        const std::uint32_t vectors = 4 + (words_ + 1) / 4;  // kBranchVectors of path_state.glsl
+        return layers_.source.counted("branches", vectors * 16);
+    }
+    void begin_branches() {
+        branches_ = &frame_.workspace.buffer("no branches", 16);  // something has to be bound
+        if (ways_ != Ways::kTree) return;
+        branches_ = &branches().begin(recorder_, frame_.workspace, pixels() / 4 + 1024);
+        push_.branch_capacity = branches().capacity();
     }
 
     const Buffer& start_entering() const {
@@ -227,7 +233,6 @@ private:
             {reinterpret_cast<Candidate*>(map_.records->mapped()), map_.records->size() / sizeof(Candidate)}};
         const bool each_begins = first && topology_.eye_differs;
         recorder_.on_host([=, finder = finder_, ended = PixelListOnHost(*ended_), all = lists_] {
-            if (first) candidates.all.front() = {};
             if (paths.list.pixels().empty()) {
                 for (const Buffer* left : all)
                     PixelListOnHost(*left).set_size(0);  // what an earlier pass has left there
@@ -341,16 +346,17 @@ Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& la
                         const ParameterValues& parameters) {
     const Recorder::Scope scope(recorder, "trace");
     const std::uint64_t pixels = std::uint64_t(frame.extent.width) * frame.extent.height;
-    const std::uint32_t room = layers.source.room("candidates", std::uint32_t(pixels + pixels / 4 + 1024));
+    CountedBuffer& counted = layers.source.counted("candidates", sizeof(Candidate), kMapPairFormat, true);
+    const Buffer& candidates = counted.begin(recorder, frame.workspace, pixels + pixels / 4 + 1024);
     const Buffer& lists =
         frame.workspace.buffer("candidate lists", pixels * sizeof(CandidateList), true, kMapPairFormat);
-    const Buffer& candidates =
-        frame.workspace.buffer("candidates", std::uint64_t(room) * sizeof(Candidate), true, kMapPairFormat);
     // What takes the place of a map has its triangles alone; what else shaders declare is bound, and not looked at.
     const Buffer& triangles = finder.triangles();
     const SurfaceMap map{&triangles, &triangles,  &finder.normals(), &lists,
                          &triangles, &candidates, &triangles,        nullptr};
-    return Paths(recorder, frame, layers, map, parameters, nullptr, &finder).follow();
+    const Refraction refraction = Paths(recorder, frame, layers, map, parameters, nullptr, &finder).follow();
+    counted.end(recorder);
+    return refraction;
 }
 
 constexpr Technique kVisibilityLayers{
