@@ -1,4 +1,5 @@
 #include "gpu/counted_buffer.h"
+#include "gpu/shaders.h"
 
 #include <fmt/format.h>
 #include <glm/glm.hpp>
@@ -9,10 +10,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kDispatchCounted[] = {
-#include "dispatch_counted.comp.inc"
-};
 
 constexpr vk::DeviceSize kHeaderSize = 16;
 
@@ -49,7 +46,7 @@ void CountedBuffer::end(Recorder& recorder, std::function<void(std::uint32_t)> t
 
 const Buffer& CountedBuffer::groups(Recorder& recorder, Workspace& workspace) const {
     const Buffer& groups = workspace.buffer(name_ + " groups", 3 * sizeof(std::uint32_t));
-    recorder.compute(workspace.compute({"dispatch_counted.comp", kDispatchCounted}),
+    recorder.compute(workspace.compute(shaders::dispatch_counted_comp),
                      {reads("Counted", *buffer_), writes("Groups", groups)},
                      std::array{capacity_, workspace.device().limits().maxComputeWorkGroupCount[0]}, {1, 1});
     return groups;

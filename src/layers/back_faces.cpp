@@ -1,23 +1,13 @@
 #include "layers/back_faces.h"
 
 #include "layers/layer_images.h"
+#include "layers/shaders.h"
 
 namespace pellucid {
-namespace {
-
-constexpr std::uint32_t kLayerVertex[] = {
-#include "layer.vert.inc"
-};
-constexpr std::uint32_t kBackFaces[] = {
-#include "back_faces.frag.inc"
-};
-
-}  // namespace
-
 BackFaces draw_back_faces(Recorder& recorder, const Frame& frame, std::span<const DrawCall> solids, BackFace which) {
     Workspace& workspace = frame.workspace;
-    const Program& program = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
-                                                 .fragment = {"back_faces.frag", kBackFaces},
+    const Program& program = workspace.graphics({.vertex = shaders::layer_vert,
+                                                 .fragment = shaders::back_faces_frag,
                                                  .colors = {vk::Format::eR32Sfloat, vk::Format::eR32Uint},
                                                  .depth = true});
     const LayerRequest request{solids, 1, false, "back face"};

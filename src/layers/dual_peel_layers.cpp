@@ -6,6 +6,7 @@
 // take n/2 passes and one more, wherever a view ray crosses no more than n surfaces. Where it crosses more, the two
 // sides have not met, and more passes are needed, n + 1 at most.
 #include "layers/layer_images.h"
+#include "layers/shaders.h"
 
 #include <fmt/format.h>
 
@@ -15,16 +16,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kLayerVertex[] = {
-#include "layer.vert.inc"
-};
-constexpr std::uint32_t kDualPeelLayersFragment[] = {
-#include "dual_peel_layers.frag.inc"
-};
-constexpr std::uint32_t kOrderLayersCompute[] = {
-#include "order_layers.comp.inc"
-};
 
 constexpr vk::Format kSideFormat = vk::Format::eR32G32B32A32Sfloat;
 constexpr std::uint64_t kMostTriangles = 0x7f000000u / 2;  // as many as dual_peel.glsl can tell apart
@@ -44,8 +35,8 @@ struct Sides {
 Sides peel_both_sides(Recorder& recorder, const Frame& frame, const Opaque& opaque, std::span<const DrawCall> solids,
                       std::uint32_t passes) {
     Workspace& workspace = frame.workspace;
-    const Program& program = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
-                                                 .fragment = {"dual_peel_layers.frag", kDualPeelLayersFragment},
+    const Program& program = workspace.graphics({.vertex = shaders::layer_vert,
+                                                 .fragment = shaders::dual_peel_layers_frag,
                                                  .colors = {kSideFormat, kSideFormat},
                                                  .blend = Blend::kMaxAddAlpha});
     // Requests of one frame may take different numbers of passes.
@@ -85,7 +76,7 @@ Layers LayerSource::peel_dual(Recorder& recorder, const Frame& frame, const Opaq
     recorder.fill(counters, 0);
     recorder.clear(images.depth, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
     recorder.clear(images.triangle, vk::ClearColorValue(std::array{PELLUCID_NO_TRIANGLE, 0u, 0u, 0u}));
-    recorder.compute(frame.workspace.compute({"order_layers.comp", kOrderLayersCompute}),
+    recorder.compute(frame.workspace.compute(shaders::order_layers_comp),
                      {reads("near_side", sides.near_side), reads("far_side", sides.far_side),
                       reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
                       writes("layer_triangle", images.triangle), updates("PeelCounters", counters)},

@@ -1,18 +1,11 @@
 #include "layers/layer_images.h"
 
 #include "layers/pixel_list.h"
+#include "layers/shaders.h"
 
 #include <array>
 
 namespace pellucid {
-namespace {
-
-constexpr std::uint32_t kResolveNormals[] = {
-#include "resolve_normals.comp.inc"
-};
-
-}  // namespace
-
 LayerImages allocate_layers(const Frame& frame, const LayerRequest& request) {
     Workspace& workspace = frame.workspace;
     return {workspace.image(request.name + " depth", vk::Format::eR32Sfloat, frame.extent, request.count),
@@ -26,7 +19,7 @@ const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const Laye
                                         request.name + " pixels", 0, frame.extent.height);
     const bool one_object = request.solids.size() == 1;
     recorder.compute_indirect(
-        frame.workspace.compute({"resolve_normals.comp", kResolveNormals}, {one_object ? 1u : 0u}),
+        frame.workspace.compute(shaders::resolve_normals_comp, {one_object ? 1u : 0u}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
          reads("Vertices", frame.scene.vertices), reads("layer_triangle", images.triangle),
          writes("layer_normal", images.normal), reads("PixelList", covered)},

@@ -1,24 +1,14 @@
 // Depth peeling, one geometry pass per layer: Everitt, "Interactive Order-Independent Transparency", NVIDIA 2001.
 #include "layers/layer_images.h"
+#include "layers/shaders.h"
 
 #include <array>
 
 namespace pellucid {
-namespace {
-
-constexpr std::uint32_t kLayerVertex[] = {
-#include "layer.vert.inc"
-};
-constexpr std::uint32_t kPeelLayersFragment[] = {
-#include "peel_layers.frag.inc"
-};
-
-}  // namespace
-
 Layers LayerSource::peel(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request) {
     Workspace& workspace = frame.workspace;
-    const Program& program = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
-                                                 .fragment = {"peel_layers.frag", kPeelLayersFragment},
+    const Program& program = workspace.graphics({.vertex = shaders::layer_vert,
+                                                 .fragment = shaders::peel_layers_frag,
                                                  .colors = {vk::Format::eR32Sfloat, vk::Format::eR32Uint},
                                                  .depth = true});
     const LayerImages images = allocate_layers(frame, request);

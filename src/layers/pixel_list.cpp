@@ -1,16 +1,10 @@
 #include "layers/pixel_list.h"
+#include "layers/shaders.h"
 
 #include <array>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kListPixels[] = {
-#include "list_pixels.comp.inc"
-};
-constexpr std::uint32_t kStartList[] = {
-#include "start_list.comp.inc"
-};
 
 constexpr vk::DeviceSize kHeaderWords = 4;  // arguments of the dispatch, and the length
 constexpr std::uint32_t kListGroup = 64;    // PELLUCID_LIST_GROUP of pixel_list.glsl
@@ -22,7 +16,7 @@ const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::stri
     const Buffer& list = frame.workspace.buffer(name, (kHeaderWords + pixels) * sizeof(std::uint32_t),
                                                 frame.workspace.device().is_cpu());
     const vk::DeviceSize row = vk::DeviceSize(kListGroup) * recorder.device().limits().maxComputeWorkGroupCount[0];
-    recorder.compute(frame.workspace.compute({"start_list.comp", kStartList}), {writes("PixelList", list)},
+    recorder.compute(frame.workspace.compute(shaders::start_list_comp), {writes("PixelList", list)},
                      std::uint32_t((pixels + row - 1) / row), {1, 1});
     return list;
 }
@@ -30,7 +24,7 @@ const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::stri
 const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage& marks, std::uint32_t empty,
                           std::string_view name, std::uint32_t first_row, std::uint32_t row_end) {
     const Buffer& list = start_pixel_list(recorder, frame, name);
-    recorder.compute(frame.workspace.compute({"list_pixels.comp", kListPixels}),
+    recorder.compute(frame.workspace.compute(shaders::list_pixels_comp),
                      {reads("marks", marks), updates("PixelList", list)}, std::array{empty, first_row, row_end},
                      {frame.extent.width, row_end - first_row});
     return list;

@@ -4,28 +4,13 @@
 #include "layers/layer_images.h"
 #include "layers/map_building.h"
 #include "layers/pixel_list.h"
+#include "layers/shaders.h"
 
 #include <algorithm>
 #include <array>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kLayerVertex[] = {
-#include "layer.vert.inc"
-};
-constexpr std::uint32_t kGatherFragmentsFragment[] = {
-#include "gather_fragments.frag.inc"
-};
-constexpr std::uint32_t kRasteriseFragments[] = {
-#include "rasterise_fragments.comp.inc"
-};
-constexpr std::uint32_t kRasteriseFragmentTiles[] = {
-#include "rasterise_fragment_tiles.comp.inc"
-};
-constexpr std::uint32_t kSelectLayersCompute[] = {
-#include "select_layers.comp.inc"
-};
 
 constexpr float kRasterisedDepthRounding = 2e-6f;  ///< of depths, relative
 
@@ -56,7 +41,7 @@ void LayerSource::rasterise_fragments(Recorder& recorder, const Frame& frame, co
         const std::uint32_t triangles = solid.corner_count / 3;
         const vk::Extent2D threads = threads_for(workspace.device(), triangles);
         recorder.compute(
-            workspace.compute({"rasterise_fragments.comp", kRasteriseFragments}),
+            workspace.compute(shaders::rasterise_fragments_comp),
             {reads("Frame", frame.constants), reads("Indices", scene.indices), reads("Vertices", scene.vertices),
              updates("Nodes", band.nodes), updates("heads", band.heads), updates("Tiles", tiles)},
             Push{scene.world_from_object[solid.object], scene.first_triangles[solid.object], solid.first_corner,
@@ -64,7 +49,7 @@ void LayerSource::rasterise_fragments(Recorder& recorder, const Frame& frame, co
                  band.row_end},
             threads);
     }
-    recorder.compute_indirect(workspace.compute({"rasterise_fragment_tiles.comp", kRasteriseFragmentTiles}),
+    recorder.compute_indirect(workspace.compute(shaders::rasterise_fragment_tiles_comp),
                               {reads("Frame", frame.constants), reads("Objects", scene.objects),
                                reads("Indices", scene.indices), reads("Vertices", scene.vertices),
                                updates("Nodes", band.nodes), updates("heads", band.heads), reads("Tiles", tiles)},
@@ -78,7 +63,7 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
     Workspace& workspace = frame.workspace;
     const bool in_compute = builder_ == LayerBuilder::kCompute;
     const bool one_object = request.solids.size() == 1;
-    const Program& select = workspace.compute({"select_layers.comp", kSelectLayersCompute}, {one_object ? 1u : 0u});
+    const Program& select = workspace.compute(shaders::select_layers_comp, {one_object ? 1u : 0u});
     const LayerImages images = allocate_layers(frame, request);
     const GpuImage& heads = workspace.image("fragment list heads", vk::Format::eR32Uint, frame.extent);
     const std::string list_name = request.name + " pixels";
@@ -102,9 +87,8 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
         if (in_compute) {
             rasterise_fragments(recorder, frame, request, {heads, nodes, first_row, first_row + rows});
         } else {
-            const Program& gather = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
-                                                        .fragment = {"gather_fragments.frag", kGatherFragmentsFragment},
-                                                        .colors = {}});
+            const Program& gather = workspace.graphics(
+                {.vertex = shaders::layer_vert, .fragment = shaders::gather_fragments_frag, .colors = {}});
             const RenderTarget target{.extent = frame.extent,
                                       .colors = {},
                                       .depth = {},

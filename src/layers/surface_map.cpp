@@ -3,6 +3,7 @@
 
 #include "layers/layers.h"
 #include "layers/map_building.h"
+#include "layers/shaders.h"
 
 #include <algorithm>
 #include <array>
@@ -11,25 +12,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kRasteriseSurfaces[] = {
-#include "rasterise_surfaces.comp.inc"
-};
-constexpr std::uint32_t kRasteriseTiles[] = {
-#include "rasterise_tiles.comp.inc"
-};
-constexpr std::uint32_t kPlaceTexels[] = {
-#include "place_texels.comp.inc"
-};
-constexpr std::uint32_t kPlaceRecords[] = {
-#include "place_records.comp.inc"
-};
-constexpr std::uint32_t kSummariseTexels[] = {
-#include "summarise_texels.comp.inc"
-};
-constexpr std::uint32_t kReduceTexels[] = {
-#include "reduce_texels.comp.inc"
-};
 
 /// Twin of kNoRange in surface_map.glsl.
 constexpr std::uint32_t kNoRange = 0x0000ffff;
@@ -73,22 +55,21 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     const vk::Extent2D threads = threads_for(workspace.device(), build.triangle_count);
     // Records of a mesh are of no object: whoever walks it for one knows that object's traits.
     const std::uint32_t one_object = build.of_mesh || scene.object_count == 1 ? 1 : 0;
-    recorder.compute(
-        workspace.compute({"rasterise_surfaces.comp", kRasteriseSurfaces}, {build.of_mesh ? 1u : 0u, one_object}),
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-         reads("Vertices", scene.vertices), reads("Maps", *map.maps), writes("MapTriangles", *map.triangles),
-         writes("MapNormals", *map.normals), updates("Texels", *map.texels), updates("Found", found),
-         updates("Tiles", tiles)},
-        std::array{build.triangle_count, build.index, threads.width}, threads);
-    recorder.compute_indirect(workspace.compute({"rasterise_tiles.comp", kRasteriseTiles}),
+    recorder.compute(workspace.compute(shaders::rasterise_surfaces_comp, {build.of_mesh ? 1u : 0u, one_object}),
+                     {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+                      reads("Vertices", scene.vertices), reads("Maps", *map.maps),
+                      writes("MapTriangles", *map.triangles), writes("MapNormals", *map.normals),
+                      updates("Texels", *map.texels), updates("Found", found), updates("Tiles", tiles)},
+                     std::array{build.triangle_count, build.index, threads.width}, threads);
+    recorder.compute_indirect(workspace.compute(shaders::rasterise_tiles_comp),
                               {reads("Maps", *map.maps), reads("MapTriangles", *map.triangles),
                                updates("Texels", *map.texels), updates("Found", found), reads("Tiles", tiles)},
                               build.index, build.tiles.groups(recorder, workspace));
-    recorder.compute(workspace.compute({"place_texels.comp", kPlaceTexels}),
+    recorder.compute(workspace.compute(shaders::place_texels_comp),
                      {reads("Maps", *map.maps), updates("Found", found), updates("Texels", *map.texels)},
                      std::array{build.index, build.first_record}, {(texels + 15) / 16, 1});
     recorder.compute_indirect(
-        workspace.compute({"place_records.comp", kPlaceRecords},
+        workspace.compute(shaders::place_records_comp,
                           {one_object, build.of_mesh ? 1u : 0u, topology.many_slots ? 1u : 0u}),
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Traits", topology.traits),
          reads("ShellTraits", topology.shell_traits), reads("texels", *map.texels), reads("found", found),
@@ -98,12 +79,12 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     build.tiles.end(recorder);
 
     const vk::Extent2D padded{1u << record.log2_width, 1u << record.log2_height};
-    recorder.compute(workspace.compute({"summarise_texels.comp", kSummariseTexels}),
+    recorder.compute(workspace.compute(shaders::summarise_texels_comp),
                      {reads("Maps", *map.maps), reads("texels", *map.texels), reads("ranges", *map.ranges),
                       writes("Pyramid", *map.pyramid)},
                      build.index, padded);
     for (std::uint32_t level = 1; level <= std::min(record.log2_width, record.log2_height); ++level) {
-        recorder.compute(workspace.compute({"reduce_texels.comp", kReduceTexels}),
+        recorder.compute(workspace.compute(shaders::reduce_texels_comp),
                          {reads("Maps", *map.maps), updates("Pyramid", *map.pyramid)}, std::array{build.index, level},
                          {texels >> 2 * level, 1});
     }

@@ -1,43 +1,16 @@
 #include "shade/shade.h"
+#include "shade/shaders.h"
 
 #include <array>
 
 namespace pellucid {
 namespace {
 
-constexpr std::uint32_t kSurfaceVertex[] = {
-#include "surface.vert.inc"
-};
-constexpr std::uint32_t kOpaque[] = {
-#include "opaque.frag.inc"
-};
-constexpr std::uint32_t kThinTint[] = {
-#include "thin_tint.frag.inc"
-};
-constexpr std::uint32_t kThinReflection[] = {
-#include "thin_reflection.frag.inc"
-};
-constexpr std::uint32_t kBackground[] = {
-#include "background.comp.inc"
-};
-constexpr std::uint32_t kShade[] = {
-#include "shade.comp.inc"
-};
-constexpr std::uint32_t kComposePicture[] = {
-#include "compose_picture.comp.inc"
-};
-constexpr std::uint32_t kAccumulate[] = {
-#include "accumulate.comp.inc"
-};
-constexpr std::uint32_t kTonemap[] = {
-#include "tonemap.comp.inc"
-};
-
 constexpr auto kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
 constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;  // 32-bit float targets need not blend
 
 Program::Graphics surface_program(ShaderCode fragment, std::vector<vk::Format> colors, Blend blend, bool depth) {
-    return {.vertex = {"surface.vert", kSurfaceVertex},
+    return {.vertex = shaders::surface_vert,
             .fragment = fragment,
             .colors = std::move(colors),
             .depth = depth,
@@ -48,9 +21,8 @@ Program::Graphics surface_program(ShaderCode fragment, std::vector<vk::Format> c
 
 Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     Workspace& workspace = frame.workspace;
-    const Program& program = workspace.graphics(
-        surface_program({"opaque.frag", kOpaque}, {kRadianceFormat, vk::Format::eR32Sfloat, vk::Format::eR32Uint},
-                        Blend::kReplace, true));
+    const Program& program = workspace.graphics(surface_program(
+        shaders::opaque_frag, {kRadianceFormat, vk::Format::eR32Sfloat, vk::Format::eR32Uint}, Blend::kReplace, true));
     const GpuImage& radiance = workspace.image("opaque radiance", kRadianceFormat, frame.extent);
     const GpuImage& depth = workspace.image("opaque depth", vk::Format::eR32Sfloat, frame.extent);
     const GpuImage& object = workspace.image("opaque object", vk::Format::eR32Uint, frame.extent);
@@ -81,9 +53,9 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
 ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers) {
     Workspace& workspace = frame.workspace;
     const Program& tint =
-        workspace.graphics(surface_program({"thin_tint.frag", kThinTint}, {kLookFormat}, Blend::kMultiply, false));
-    const Program& reflection = workspace.graphics(
-        surface_program({"thin_reflection.frag", kThinReflection}, {kLookFormat}, Blend::kAdd, false));
+        workspace.graphics(surface_program(shaders::thin_tint_frag, {kLookFormat}, Blend::kMultiply, false));
+    const Program& reflection =
+        workspace.graphics(surface_program(shaders::thin_reflection_frag, {kLookFormat}, Blend::kAdd, false));
     // What nothing in the scene draws into is not looked at either.
     const auto look_image = [&](std::string_view name) -> const GpuImage& {
         return workspace.image(name, kLookFormat, frame.scene.thin_walled.empty() ? vk::Extent2D{1, 1} : frame.extent);
@@ -130,14 +102,14 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
 
     const Recorder::Scope scope(recorder, "shade");
     recorder.compute(
-        workspace.compute({"background.comp", kBackground},
+        workspace.compute(shaders::background_comp,
                           {frame.environment_kind, analysis, thin_walls, any(frame.scene.opaque)}),
         {reads("Frame", frame.constants), reads_layer("environment_map", frame.environment, 0),
          reads("thin_tint", walls.thin_tint), reads("thin_reflection", walls.thin_reflection),
          reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth), writes("radiance", radiance)},
         frame.extent);
     recorder.compute_indirect(
-        workspace.compute({"shade.comp", kShade},
+        workspace.compute(shaders::shade_comp,
                           {frame.environment_kind, analysis, thin_walls, frame.scene.textured_glass ? 1u : 0u,
                            refraction.radiance ? 1u : 0u, refraction.reflected ? 1u : 0u}),
         {reads("Frame", frame.constants),
@@ -162,7 +134,7 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
          writes("radiance", radiance)},
         layers.covered);
     if (refraction.picture) {
-        recorder.compute(workspace.compute({"compose_picture.comp", kComposePicture}, {analysis}),
+        recorder.compute(workspace.compute(shaders::compose_picture_comp, {analysis}),
                          {reads("picture", *refraction.picture), reads("reflected_radiance", reflected),
                           reads("path_events", refraction.events), writes("radiance", radiance)},
                          frame.extent);
@@ -173,7 +145,7 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
 const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample) {
     const GpuImage& sum = frame.workspace.image("radiance sum", kRadianceFormat, frame.extent);
     const Recorder::Scope scope(recorder, "accumulate");
-    recorder.compute(frame.workspace.compute({"accumulate.comp", kAccumulate}),
+    recorder.compute(frame.workspace.compute(shaders::accumulate_comp),
                      {reads("radiance", radiance), updates("radiance_sum", sum)}, sample, frame.extent);
     return sum;
 }
@@ -185,7 +157,7 @@ const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& 
     };
     const GpuImage& display = frame.workspace.image("display", vk::Format::eR8G8B8A8Unorm, frame.extent);
     const Recorder::Scope scope(recorder, "tonemap");
-    recorder.compute(frame.workspace.compute({"tonemap.comp", kTonemap}),
+    recorder.compute(frame.workspace.compute(shaders::tonemap_comp),
                      {reads("radiance", radiance), writes("display", display)}, Push{scale, std::uint32_t(curve)},
                      frame.extent);
     return display;

@@ -5,6 +5,7 @@
 #include "gpu/punctual_light.h"
 
 #include "layers/pixel_list.h"
+#include "shade/shaders.h"
 
 #include <fmt/format.h>
 
@@ -15,16 +16,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kSurfaceVertex[] = {
-#include "surface.vert.inc"
-};
-constexpr std::uint32_t kTranslucentSurface[] = {
-#include "translucent_surface.frag.inc"
-};
-constexpr std::uint32_t kTransmitLight[] = {
-#include "transmit_light.comp.inc"
-};
 
 constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;
 
@@ -69,8 +60,8 @@ TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, c
     Workspace& workspace = frame.workspace;
     const GpuScene& scene = frame.scene;
     const Program& program =
-        workspace.graphics({.vertex = {"surface.vert", kSurfaceVertex},
-                            .fragment = {"translucent_surface.frag", kTranslucentSurface},
+        workspace.graphics({.vertex = shaders::surface_vert,
+                            .fragment = shaders::translucent_surface_frag,
                             .colors = {kLookFormat, kLookFormat, vk::Format::eR32Uint, vk::Format::eR32Uint},
                             .depth = true});
     const GpuImage& reflected = workspace.image("translucent reflected", kLookFormat, frame.extent);
@@ -134,7 +125,7 @@ void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const
     };
     const Recorder::Scope scope(recorder, "transmitted light");
     recorder.compute_indirect(
-        frame.workspace.compute({"transmit_light.comp", kTransmitLight},
+        frame.workspace.compute(shaders::transmit_light_comp,
                                 {method_constant(setup_.method), measures ? 1u : 0u,
                                  scene.opaque.size() == 1 && scene.object_count == 1 ? 1u : 0u}),
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),

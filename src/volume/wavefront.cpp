@@ -4,6 +4,7 @@
 
 #include "volume/light_buffers.h"
 #include "volume/light_state.h"
+#include "volume/shaders.h"
 #include "volume/upload_volumes.h"
 
 #include <pellucid/error.h>
@@ -17,34 +18,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kEmitLight[] = {
-#include "emit_light.comp.inc"
-};
-constexpr std::uint32_t kBeginRound[] = {
-#include "begin_round.comp.inc"
-};
-constexpr std::uint32_t kStepSummedLight[] = {
-#include "step_summed_light.comp.inc"
-};
-constexpr std::uint32_t kStepBrightestLight[] = {
-#include "step_brightest_light.comp.inc"
-};
-constexpr std::uint32_t kLandLight[] = {
-#include "land_light.comp.inc"
-};
-constexpr std::uint32_t kEndLight[] = {
-#include "end_light.comp.inc"
-};
-constexpr std::uint32_t kResolveSummedLight[] = {
-#include "resolve_summed_light.comp.inc"
-};
-constexpr std::uint32_t kResolveBrightestLight[] = {
-#include "resolve_brightest_light.comp.inc"
-};
-constexpr std::uint32_t kResolveReceivers[] = {
-#include "resolve_receivers.comp.inc"
-};
 
 /// Twin of Push in light_patch.glsl.
 struct LightPush {
@@ -228,7 +201,7 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
 void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
     lights_ = tracing.lights;
     resolve_voxels(recorder, workspace, tracing);
-    const Program& resolve_receivers = workspace.compute({"resolve_receivers.comp", kResolveReceivers});
+    const Program& resolve_receivers = workspace.compute(shaders::resolve_receivers_comp);
     for (std::uint32_t i = 0; i < light_.receiver_list.size(); ++i) {
         const gpu::LightReceiver& own = light_.receiver_list[i];
         recorder.compute(resolve_receivers,
@@ -247,8 +220,8 @@ void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tra
 
 void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
     const bool sums = tracing.settings.kept == KeptLight::kSum;
-    const Program& resolve = sums ? workspace.compute({"resolve_summed_light.comp", kResolveSummedLight})
-                                  : workspace.compute({"resolve_brightest_light.comp", kResolveBrightestLight});
+    const Program& resolve = sums ? workspace.compute(shaders::resolve_summed_light_comp)
+                                  : workspace.compute(shaders::resolve_brightest_light_comp);
     const std::vector<Binding> own_bindings = {
         writes("light_irradiance", light_.irradiance), writes("light_direction", light_.direction),
         reads("Placements", light_.placements), reads(sums ? "Sums" : "Keys", voxel_light_)};
@@ -268,7 +241,7 @@ void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, c
 }
 
 void WavefrontTracer::begin_round(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
-    recorder.compute(workspace.compute({"begin_round.comp", kBeginRound}),
+    recorder.compute(workspace.compute(shaders::begin_round_comp),
                      {updates("State", state_), writes("StepGroups", step_groups_), writes("LandGroups", land_groups_)},
                      tracing.push, {1, 1});
 }
@@ -278,7 +251,7 @@ void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const Volu
                             const Tracing& tracing) {
     recorder.fill(state_, 0);
     recorder.fill(texels_, 0);
-    const Program& emit = workspace.compute({"emit_light.comp", kEmitLight});
+    const Program& emit = workspace.compute(shaders::emit_light_comp);
     for (std::uint32_t i = 0; i < front_list_.fronts.size(); ++i) {
         const gpu::LightFront& front = front_list_.fronts[i];
         LightPush own = tracing.push;
@@ -289,7 +262,7 @@ void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const Volu
                          own, {std::uint32_t(front.corner.w), std::uint32_t(front.side.w)});
     }
     begin_round(recorder, workspace, tracing);
-    recorder.compute_indirect(workspace.compute({"land_light.comp", kLandLight}, {1}),
+    recorder.compute_indirect(workspace.compute(shaders::land_light_comp, {1}),
                               {reads("Receivers", light_.receivers), updates("State", state_),
                                reads("Landed", patches_[0]), updates("Texels", texels_)},
                               tracing.push, step_groups_);
@@ -299,7 +272,7 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
                                    Tracing& tracing, std::uint32_t rounds, std::uint32_t tally) {
     const auto flag = [](bool value) { return value ? 1u : 0u; };
     const LightPush& push = tracing.push;
-    const Program& land = workspace.compute({"land_light.comp", kLandLight}, {0});
+    const Program& land = workspace.compute(shaders::land_light_comp, {0});
     std::vector<std::uint32_t> constants = {flag(volumes.absorbs || volumes.scatters),
                                             flag(volumes.scatters),
                                             flag(tracing.overlapping),
@@ -321,8 +294,8 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
     step_bindings.push_back(updates(sums ? "Sums" : "Keys", voxel_light_));
     if (!sums) step_bindings.push_back(updates("Tally", tally_));
     constants.insert(constants.end(), {tally, flag(push.shown_spacing > 0.0f)});
-    const Program& step = sums ? workspace.compute({"step_summed_light.comp", kStepSummedLight}, constants)
-                               : workspace.compute({"step_brightest_light.comp", kStepBrightestLight}, constants);
+    const Program& step = sums ? workspace.compute(shaders::step_summed_light_comp, constants)
+                               : workspace.compute(shaders::step_brightest_light_comp, constants);
     const std::uint32_t last = std::min(tracing.rounds, tracing.rounds_done + rounds);
     for (; tracing.rounds_done < last; ++tracing.rounds_done) {
         std::vector<Binding> bindings = step_bindings;
@@ -339,7 +312,7 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
 
 /// Counts what is still on its way.
 void WavefrontTracer::end(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
-    recorder.compute_indirect(workspace.compute({"end_light.comp", kEndLight}),
+    recorder.compute_indirect(workspace.compute(shaders::end_light_comp),
                               {updates("State", state_), reads("PatchesIn", patches_[tracing.rounds_done % 2])},
                               tracing.push, step_groups_);
 }

@@ -1,5 +1,6 @@
 // The recorder's promises: barriers, and mismatches that name both sides.
 #include "gpu/device_test.h"
+#include "gpu_tests/shaders.h"
 
 #include <gmock/gmock.h>
 
@@ -12,14 +13,10 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr std::uint32_t kShader[] = {
-#include "optics_twin.comp.inc"
-};
-
 using RecorderTest = DeviceTest;
 
 TEST_F(RecorderTest, MismatchesNameShaderAndPass) {
-    const Program& program = workspace().compute({"optics_twin.comp", kShader});
+    const Program& program = workspace().compute(shaders::optics_twin_comp);
     const Buffer& buffer = workspace().buffer("b", 64);
     const GpuImage& image = workspace().image("i", vk::Format::eR32Uint, {1, 1});
     const auto record = [&](Binding second) { recorder().compute(program, {reads("Cases", buffer), second}, {1, 1}); };

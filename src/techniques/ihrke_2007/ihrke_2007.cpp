@@ -1,5 +1,6 @@
 #include "techniques/ihrke_2007/ihrke_2007.h"
 
+#include "techniques/shaders.h"
 #include "techniques/visibility_layers/visibility_layers.h"
 #include "volume/draw_wavefronts.h"
 #include "volume/scene_volumes.h"
@@ -14,18 +15,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kMarchRays[] = {
-#include "march_rays.comp.inc"
-};
-
-constexpr std::uint32_t kFollowHeldPaths[] = {
-#include "follow_held_paths.comp.inc"
-};
-
-constexpr std::uint32_t kEndLitPaths[] = {
-#include "end_lit_paths.comp.inc"
-};
 
 constexpr std::array kOwnParameters = {
     ParameterInfo{"integrator", "", 3, 0, 3, true,
@@ -114,19 +103,19 @@ public:
               flag(images_.overlapping), std::bit_cast<std::uint32_t>(float(parameters_["step"])),
               parameters_.whole("max-steps"), flag(volumes_.lit()), parameters_.whole("interpolation")})
             constants.push_back(constant);
-        pass.recorder.compute_indirect(pass.frame.workspace.compute({"march_rays.comp", kMarchRays}, constants),
+        pass.recorder.compute_indirect(pass.frame.workspace.compute(shaders::march_rays_comp, constants),
                                        std::span<const Binding>(bindings), pass.push, entering);
     }
 
     std::optional<Variant> held_follow() const override {
         if (!sharp()) return std::nullopt;
-        return Variant{{"follow_held_paths.comp", kFollowHeldPaths},
+        return Variant{shaders::follow_held_paths_comp,
                        {reads("volume_index", images_.index), reads("volume_bricks", images_.bricks)}};
     }
 
     std::optional<Variant> lit_end() const override {
         if (!volumes_.lit()) return std::nullopt;
-        Variant end{{"end_lit_paths.comp", kEndLitPaths}, light_bindings()};
+        Variant end{shaders::end_lit_paths_comp, light_bindings()};
         end.bindings.push_back(reads("Lights", volumes_.lights()));
         return end;
     }

@@ -1,4 +1,5 @@
 #include "techniques/kay_greenberg_1979/kay_greenberg_1979.h"
+#include "techniques/shaders.h"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +7,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kShader[] = {
-#include "kay_greenberg_1979.comp.inc"
-};
 
 constexpr std::array kParameters = {
     ParameterInfo{"mode", "", 2, 0, 2, true, "0 linear, 1 non-linear, 2 refraction"},
@@ -60,7 +57,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const Recorder::Scope scope(recorder, "trace");
     const Refraction refraction = clear_refraction(recorder, frame, true);
     recorder.compute_indirect(
-        frame.workspace.compute({"kay_greenberg_1979.comp", kShader}),
+        frame.workspace.compute(shaders::kay_greenberg_1979_comp),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
          reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),

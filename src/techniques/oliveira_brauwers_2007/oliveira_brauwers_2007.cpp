@@ -1,15 +1,12 @@
 #include "techniques/oliveira_brauwers_2007/oliveira_brauwers_2007.h"
 
 #include "layers/back_faces.h"
+#include "techniques/shaders.h"
 
 #include <array>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kShader[] = {
-#include "oliveira_brauwers_2007.comp.inc"
-};
 
 constexpr std::array kParameters = {
     ParameterInfo{"back-face", "", 1, 0, 1, true, "far side of the glass: 0 the first back face, 1 the farthest"},
@@ -26,7 +23,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const std::array push = {parameters.whole("steps"), parameters.whole("binary-steps"),
                              parameters.whole("interpolate")};
     recorder.compute_indirect(
-        frame.workspace.compute({"oliveira_brauwers_2007.comp", kShader}),
+        frame.workspace.compute(shaders::oliveira_brauwers_2007_comp),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
          reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),

@@ -1,17 +1,14 @@
 #include "techniques/one_interface/one_interface.h"
+#include "techniques/shaders.h"
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kShader[] = {
-#include "one_interface.comp.inc"
-};
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues&) {
     const Recorder::Scope scope(recorder, "trace");
     const Refraction refraction = clear_refraction(recorder, frame);
     recorder.compute_indirect(
-        frame.workspace.compute({"one_interface.comp", kShader}),
+        frame.workspace.compute(shaders::one_interface_comp),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
          reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),

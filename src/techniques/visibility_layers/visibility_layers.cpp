@@ -2,6 +2,7 @@
 
 #include "layers/map_building.h"
 #include "layers/pixel_list.h"
+#include "techniques/shaders.h"
 
 #include <algorithm>
 #include <array>
@@ -9,19 +10,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kBeginPaths[] = {
-#include "begin_paths.comp.inc"
-};
-constexpr std::uint32_t kBeginAtEye[] = {
-#include "begin_at_eye.comp.inc"
-};
-constexpr std::uint32_t kFollowPaths[] = {
-#include "follow_paths.comp.inc"
-};
-constexpr std::uint32_t kEndPaths[] = {
-#include "end_paths.comp.inc"
-};
 
 /// That there is time for beyond those of the longest path, for each branch: most branches leave soon.
 constexpr std::uint32_t kSurfacesPerBranch = 4;
@@ -170,7 +158,7 @@ private:
 
     void begin() {
         const GpuScene& scene = frame_.scene;
-        recorder_.compute_indirect(program({"begin_paths.comp", kBeginPaths}),
+        recorder_.compute_indirect(program(shaders::begin_paths_comp),
                                    {reads("Frame", frame_.constants),
                                     reads("Objects", scene.objects),
                                     reads("Materials", scene.materials),
@@ -213,7 +201,7 @@ private:
             pass(), {reads("layer_triangle", layers_.triangle), reads("opaque_depth", layers_.opaque.depth),
                      reads("Volumes", volume_records()), reads("EyeMedia", topology_.eye), updates("NextList", *next_),
                      writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)});
-        recorder_.compute(program({"begin_at_eye.comp", kBeginAtEye}), std::span<const Binding>(bindings), push_,
+        recorder_.compute(program(shaders::begin_at_eye_comp), std::span<const Binding>(bindings), push_,
                           frame_.extent);
     }
 
@@ -251,7 +239,7 @@ private:
             walking(this->pass(), {reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
                                    reads("Boxes", topology_.boxes), reads("Volumes", volume_records()),
                                    updates("EnteringList", entering)});
-        ShaderCode shader{"follow_paths.comp", kFollowPaths};
+        ShaderCode shader = shaders::follow_paths_comp;
         if (const auto held = volumes_ != nullptr ? volumes_->held_follow() : std::nullopt) {
             shader = held->shader;
             bindings.insert(bindings.end(), held->bindings.begin(), held->bindings.end());
@@ -288,7 +276,7 @@ private:
                                          writes("path_events", refraction_.events),
                                          updates("path_radiance", *refraction_.radiance),
                                          updates("reflected_radiance", reflected_)};
-        ShaderCode shader{"end_paths.comp", kEndPaths};
+        ShaderCode shader = shaders::end_paths_comp;
         if (const auto lit = volumes_ != nullptr ? volumes_->lit_end() : std::nullopt) {
             shader = lit->shader;
             bindings.insert(bindings.end(), lit->bindings.begin(), lit->bindings.end());

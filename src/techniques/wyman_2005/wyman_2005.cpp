@@ -1,6 +1,7 @@
 #include "techniques/wyman_2005/wyman_2005.h"
 
 #include "layers/back_faces.h"
+#include "techniques/shaders.h"
 #include "techniques/wyman_2005/baked_distances.h"
 
 #include <array>
@@ -9,13 +10,6 @@ namespace pellucid {
 namespace {
 
 using wyman_2005::Distances;
-
-constexpr std::uint32_t kShader[] = {
-#include "wyman_2005.comp.inc"
-};
-constexpr std::uint32_t kNearbyGeometry[] = {
-#include "nearby_geometry.comp.inc"
-};
 
 constexpr std::array kParameters = {
     ParameterInfo{"back-face", "", 0, 0, 1, true, "far side of the glass: 0 the first back face, 1 the farthest"},
@@ -38,7 +32,7 @@ void find_nearby_geometry(Recorder& recorder, const Frame& frame, const Layers& 
                           const ParameterValues& parameters) {
     const std::array push = {parameters.whole("nearby-steps"), parameters.whole("nearby-binary-steps")};
     recorder.compute_indirect(
-        frame.workspace.compute({"nearby_geometry.comp", kNearbyGeometry}),
+        frame.workspace.compute(shaders::nearby_geometry_comp),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
          reads("layer_triangle", layers.triangle), reads("PixelList", layers.covered),
@@ -60,7 +54,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const bool nearby = !frame.scene.opaque.empty();
     const Refraction refraction = clear_refraction(recorder, frame, nearby);
     recorder.compute_indirect(
-        frame.workspace.compute({"wyman_2005.comp", kShader}, {distances == Distances::kSampled ? 1u : 0u}),
+        frame.workspace.compute(shaders::wyman_2005_comp, {distances == Distances::kSampled ? 1u : 0u}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("Indices", frame.scene.indices),
          reads("Vertices", frame.scene.vertices), reads("layer_depth", layers.depth),
