@@ -52,7 +52,7 @@ void check_access(const Program& program, const BindingSlot& slot, const Binding
                                        access_name(reads_it, writes_it)));
 }
 
-const Binding& binding_of(const Program& program, const BindingSlot& slot, std::span<const Binding> bindings) {
+const Binding& binding_of(const Program& program, const BindingSlot& slot, Bindings bindings) {
     const auto match =
         std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == slot.name; });
     if (match == bindings.end()) {
@@ -114,13 +114,13 @@ void Recorder::synchronise(std::span<const Use> uses) {
     vk::MemoryBarrier2 barrier;
     for (const Use& use : uses) {
         State& state = states_[use.id];
-        const bool unseen_write = state.write_access && ((state.visible_stages & use.stage) != use.stage ||
-                                                         (state.visible_access & use.access) != use.access);
-        if (unseen_write || (use.write && state.write_access)) {
-            barrier.srcStageMask |= state.write_stage;
-            barrier.srcAccessMask |= state.write_access;
+        const auto seen = [&] { return std::ranges::any_of(state.reads, [&](const Use& r) { return r.covers(use); }); };
+        if (state.write && (use.write || !seen())) {
+            barrier.srcStageMask |= state.write->stage;
+            barrier.srcAccessMask |= state.write->access;
         }
-        if (use.write) barrier.srcStageMask |= state.read_stages;
+        if (!use.write) continue;
+        for (const Use& read : state.reads) barrier.srcStageMask |= read.stage;
     }
     if (barrier.srcStageMask) {
         for (const Use& use : uses) {
@@ -131,13 +131,10 @@ void Recorder::synchronise(std::span<const Use> uses) {
     }
     for (const Use& use : uses) {
         State& state = states_[use.id];
-        if (use.write) {
-            state = State{use.stage, use.access, {}, {}, {}};
-        } else {
-            state.visible_stages |= use.stage;
-            state.visible_access |= use.access;
-            state.read_stages |= use.stage;
-        }
+        if (use.write)
+            state = {use, {}};
+        else if (std::ranges::none_of(state.reads, [&](const Use& read) { return read.covers(use); }))
+            state.reads.push_back(use);
     }
 }
 
@@ -169,7 +166,7 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
     }
 }
 
-void Recorder::bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+void Recorder::bind(const Program& program, Bindings bindings, std::span<const std::byte> push,
                     std::vector<Use>& uses) {
     const bool graphics = program.bind_point() == vk::PipelineBindPoint::eGraphics;
     const std::size_t push_offset = graphics ? sizeof(DrawCall::object) : 0;  // which each draw sets by itself
@@ -223,7 +220,7 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
     }
 }
 
-void Recorder::compute_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+void Recorder::compute_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                              vk::Extent2D threads) {
     std::vector<Use> uses;
     bind(program, bindings, push, uses);
@@ -233,8 +230,8 @@ void Recorder::compute_bytes(const Program& program, std::span<const Binding> bi
                        (threads.height + group.height - 1) / group.height, 1);
 }
 
-void Recorder::compute_indirect_bytes(const Program& program, std::span<const Binding> bindings,
-                                      std::span<const std::byte> push, const Buffer& arguments) {
+void Recorder::compute_indirect_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
+                                      const Buffer& arguments) {
     std::vector<Use> uses;
     bind(program, bindings, push, uses);
     uses.push_back({arguments.id(), Stage::eDrawIndirect, AccessBit::eIndirectCommandRead, false});
@@ -242,7 +239,7 @@ void Recorder::compute_indirect_bytes(const Program& program, std::span<const Bi
     commands_.dispatchIndirect(arguments.handle(), 0);
 }
 
-void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                           const RenderTarget& target, std::span<const DrawCall> calls) {
     std::vector<Use> uses;
     bind(program, bindings, push, uses);
@@ -284,7 +281,7 @@ void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindi
     commands_.endRendering();
 }
 
-void Recorder::trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+void Recorder::trace_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                            vk::Extent2D rays) {
     const std::uint64_t limit = device_.ray_tracing()->max_rays;
     if (std::uint64_t(rays.width) * rays.height > limit) {

@@ -42,6 +42,13 @@ inline Binding writes(std::string_view name, const GpuImage& i) { return {name, 
 inline Binding updates(std::string_view name, const Buffer& b) { return {name, Access::kReadWrite, &b, nullptr, {}}; }
 inline Binding updates(std::string_view name, const GpuImage& i) { return {name, Access::kReadWrite, nullptr, &i, {}}; }
 
+/// Those of a pass, from a list in braces or any row of them.
+struct Bindings : std::span<const Binding> {
+    Bindings(std::initializer_list<Binding> list) : std::span<const Binding>(list.begin(), list.size()) {}
+    Bindings(std::span<const Binding> row) : std::span<const Binding>(row) {}
+    Bindings(const std::vector<Binding>& row) : std::span<const Binding>(row) {}
+};
+
 inline vk::ClearValue clear_to(float value) { return vk::ClearColorValue(std::array{value, value, value, value}); }
 inline vk::ClearValue clear_to(std::array<std::uint32_t, 4> value) { return vk::ClearColorValue(value); }
 inline vk::ClearValue clear_to_farthest() { return vk::ClearDepthStencilValue{1.0f, 0}; }
@@ -90,48 +97,35 @@ public:
 
     /// Runs at least `threads.width` x `threads.height` invocations; the shader drops the surplus.
     template <class Push>
-    void compute(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
-                 vk::Extent2D threads) {
+    void compute(const Program& program, Bindings bindings, const Push& push, vk::Extent2D threads) {
         compute_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads);
     }
-    void compute(const Program& program, std::initializer_list<Binding> bindings, vk::Extent2D threads) {
+    void compute(const Program& program, Bindings bindings, vk::Extent2D threads) {
         compute_bytes(program, bindings, {}, threads);
-    }
-
-    template <class Push>
-    void compute(const Program& program, std::span<const Binding> bindings, const Push& push, vk::Extent2D threads) {
-        compute_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads);
     }
 
     /// Runs as many workgroups as the first three words of `arguments` say when the device gets there.
     template <class Push>
-    void compute_indirect(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
-                          const Buffer& arguments) {
+    void compute_indirect(const Program& program, Bindings bindings, const Push& push, const Buffer& arguments) {
         compute_indirect_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), arguments);
     }
-    template <class Push>
-    void compute_indirect(const Program& program, std::span<const Binding> bindings, const Push& push,
-                          const Buffer& arguments) {
-        compute_indirect_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), arguments);
-    }
-    void compute_indirect(const Program& program, std::initializer_list<Binding> bindings, const Buffer& arguments) {
+    void compute_indirect(const Program& program, Bindings bindings, const Buffer& arguments) {
         compute_indirect_bytes(program, bindings, {}, arguments);
     }
 
     template <class Push>
-    void draw(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
-              const RenderTarget& target, std::span<const DrawCall> calls) {
+    void draw(const Program& program, Bindings bindings, const Push& push, const RenderTarget& target,
+              std::span<const DrawCall> calls) {
         draw_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), target, calls);
     }
 
-    void draw(const Program& program, std::initializer_list<Binding> bindings, const RenderTarget& target,
-              std::span<const DrawCall> calls) {
+    void draw(const Program& program, Bindings bindings, const RenderTarget& target, std::span<const DrawCall> calls) {
         draw_bytes(program, bindings, {}, target, calls);
     }
 
     /// Launches one ray generation per pixel of `rays`. Throws Error if that is more than the device launches.
     template <class Push>
-    void trace(const Program& program, std::initializer_list<Binding> bindings, const Push& push, vk::Extent2D rays) {
+    void trace(const Program& program, Bindings bindings, const Push& push, vk::Extent2D rays) {
         trace_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), rays);
     }
 
@@ -179,23 +173,22 @@ private:
         vk::PipelineStageFlags2 stage;
         vk::AccessFlags2 access;
         bool write;
+        bool covers(const Use& other) const {
+            return (stage & other.stage) == other.stage && (access & other.access) == other.access;
+        }
     };
     struct State {
-        vk::PipelineStageFlags2 write_stage;
-        vk::AccessFlags2 write_access;
-        vk::PipelineStageFlags2 visible_stages;  // and accesses, to which the last write has been made visible
-        vk::AccessFlags2 visible_access;
-        vk::PipelineStageFlags2 read_stages;  // since the last write
+        std::optional<Use> write;  // the last,
+        std::vector<Use> reads;    // and those since, which see it
     };
 
-    void compute_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+    void compute_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                        vk::Extent2D threads);
-    void compute_indirect_bytes(const Program& program, std::span<const Binding> bindings,
-                                std::span<const std::byte> push, const Buffer& arguments);
-    void draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+    void compute_indirect_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
+                                const Buffer& arguments);
+    void draw_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                     const RenderTarget& target, std::span<const DrawCall> calls);
-    void trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
-                     vk::Extent2D rays);
+    void trace_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push, vk::Extent2D rays);
     const std::byte* read_bytes(const Buffer& source, vk::DeviceSize offset, vk::DeviceSize bytes);
     void begin_commands();
     void begin_label();
@@ -204,8 +197,7 @@ private:
     void submit_commands(vk::CommandBuffer commands);
     void make_visible_to_host();
     void synchronise(std::span<const Use> uses);
-    void bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
-              std::vector<Use>& uses);
+    void bind(const Program& program, Bindings bindings, std::span<const std::byte> push, std::vector<Use>& uses);
     vk::DescriptorSet allocate_set(const Program& program);
     void write_timestamp(vk::PipelineStageFlagBits2 stage);
     std::vector<PassTime> read_times() const;

@@ -52,6 +52,13 @@ private:
         bool used = true;
     };
 
+    /// The program of a key that says all that it depends on.
+    template <class Make>
+    const Program& program(std::string key, const Make& make) {
+        const auto found = programs_.find(key);
+        return found != programs_.end() ? found->second : programs_.emplace(std::move(key), make()).first->second;
+    }
+
     const Device& device_;
     std::map<std::string, Program, std::less<>> programs_;
     std::map<std::string, Entry<GpuImage>, std::less<>> images_;

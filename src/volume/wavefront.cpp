@@ -222,10 +222,9 @@ void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, c
     const bool sums = tracing.settings.kept == KeptLight::kSum;
     const Program& resolve = sums ? workspace.compute(shaders::resolve_summed_light_comp)
                                   : workspace.compute(shaders::resolve_brightest_light_comp);
-    const std::vector<Binding> own_bindings = {
+    const std::vector<Binding> bindings = {
         writes("light_irradiance", light_.irradiance), writes("light_direction", light_.direction),
         reads("Placements", light_.placements), reads(sums ? "Sums" : "Keys", voxel_light_)};
-    const std::span<const Binding> bindings = own_bindings;
     for (std::uint32_t i = 0; i < light_.placement_list.size(); ++i) {
         const gpu::LightPlacement& own = light_.placement_list[i];
         const vk::Extent2D threads{own.size_x, own.size_y * own.size_z};
@@ -301,7 +300,7 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
         std::vector<Binding> bindings = step_bindings;
         bindings.push_back(reads("PatchesIn", patches_[tracing.rounds_done % 2]));
         bindings.push_back(writes("PatchesOut", patches_[1 - tracing.rounds_done % 2]));
-        recorder.compute_indirect(step, std::span<const Binding>(bindings), push, step_groups_);
+        recorder.compute_indirect(step, bindings, push, step_groups_);
         begin_round(recorder, workspace, tracing);
         recorder.compute_indirect(land,
                                   {reads("Receivers", light_.receivers), updates("State", state_),

@@ -103,8 +103,8 @@ public:
               flag(images_.overlapping), std::bit_cast<std::uint32_t>(float(parameters_["step"])),
               parameters_.whole("max-steps"), flag(volumes_.lit()), parameters_.whole("interpolation")})
             constants.push_back(constant);
-        pass.recorder.compute_indirect(pass.frame.workspace.compute(shaders::march_rays_comp, constants),
-                                       std::span<const Binding>(bindings), pass.push, entering);
+        pass.recorder.compute_indirect(pass.frame.workspace.compute(shaders::march_rays_comp, constants), bindings,
+                                       pass.push, entering);
     }
 
     std::optional<Variant> held_follow() const override {

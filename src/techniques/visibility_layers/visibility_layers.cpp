@@ -201,8 +201,7 @@ private:
             pass(), {reads("layer_triangle", layers_.triangle), reads("opaque_depth", layers_.opaque.depth),
                      reads("Volumes", volume_records()), reads("EyeMedia", topology_.eye), updates("NextList", *next_),
                      writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)});
-        recorder_.compute(program(shaders::begin_at_eye_comp), std::span<const Binding>(bindings), push_,
-                          frame_.extent);
+        recorder_.compute(program(shaders::begin_at_eye_comp), bindings, push_, frame_.extent);
     }
 
     /// Before paths go on: the host finds what those of the list may meet. Where there are none any more, nothing is left to
@@ -244,7 +243,7 @@ private:
             shader = held->shader;
             bindings.insert(bindings.end(), held->bindings.begin(), held->bindings.end());
         }
-        recorder_.compute_indirect(program(shader), std::span<const Binding>(bindings), push_, list);
+        recorder_.compute_indirect(program(shader), bindings, push_, list);
     }
 
     void end(const Buffer& list, bool closing) {
@@ -281,7 +280,7 @@ private:
             shader = lit->shader;
             bindings.insert(bindings.end(), lit->bindings.begin(), lit->bindings.end());
         }
-        recorder_.compute_indirect(program(shader), std::span<const Binding>(bindings), push, list);
+        recorder_.compute_indirect(program(shader), bindings, push, list);
     }
 
     Recorder& recorder_;
