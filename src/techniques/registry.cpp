@@ -25,9 +25,8 @@ namespace {
 
 // Every technique, one line each.
 constexpr std::array kTechniques = {
-    &kOneInterface, &kKayGreenberg1979, &kWyman2005,      &kOliveiraBrauwers2007, &kIhrke2007,
-    &kWang2014,     &kVisibilityLayers, &kVisibilityCube, &kRayTracing,           &kRayTracingCpu,
-    &kPath,         &kReference,
+    &kOneInterface,     &kKayGreenberg1979, &kWyman2005,  &kOliveiraBrauwers2007, &kIhrke2007, &kWang2014,
+    &kVisibilityLayers, &kVisibilityCube,   &kRayTracing, &kRayTracingCpu,        &kPath,      &kReference,
 };
 
 constexpr auto kInfos = [] {
@@ -65,7 +64,10 @@ const Technique& technique_of(const TechniqueInfo& info) {
 
 std::string lacking_for(const Device& device, const TechniqueInfo& info) {
     const Technique& technique = technique_of(info);
-    return technique.lacking ? technique.lacking(device) : std::string();
+    std::string lacking = technique.lacking ? technique.lacking(device) : std::string();
+    for (const ShaderCode* shader : technique.programs)
+        if (lacking.empty()) lacking = lacking_limit(*shader, device.limits());
+    return lacking;
 }
 
 std::string_view status_name(Status status) {

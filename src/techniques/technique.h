@@ -5,6 +5,7 @@
 
 #include <pellucid/technique.h>
 
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -76,7 +77,8 @@ struct Preparation {
 /// A row of the registry: what the technique is, what it needs, and how it is recorded.
 struct Technique {
     TechniqueInfo info;
-    /// What the device lacks for it, in words that follow "needs"; empty: nothing. Null: any device will do.
+    std::initializer_list<const ShaderCode*> programs = {};  ///< compute shaders, whose limits a device must have
+    /// What else the device lacks for it, in words that follow "needs"; empty: nothing. Null: any device will do.
     std::string (*lacking)(const Device& device) = nullptr;
     std::uint32_t (*layer_count)(const ParameterValues& parameters);
     /// Called before every picture; does its work in the first that needs it. Null: there is nothing to do.

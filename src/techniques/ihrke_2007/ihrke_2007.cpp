@@ -194,6 +194,8 @@ constexpr Technique kIhrke2007{
              .many_media = true,
              .whole_scene = true,
              .volumes = true},
+    .programs = {&shaders::begin_paths_comp, &shaders::begin_at_eye_comp, &shaders::march_rays_comp,
+                 &shaders::follow_held_paths_comp, &shaders::follow_paths_comp, &shaders::end_lit_paths_comp},
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
     .prepare = prepare,
     .record = record,

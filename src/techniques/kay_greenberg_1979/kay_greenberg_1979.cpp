@@ -79,6 +79,7 @@ constexpr Technique kKayGreenberg1979{
                         "SIGGRAPH '79, Computer Graphics 13(2)", 1979, "2 and 4"},
              .parameters = kParameters,
              .opaque_behind = true},
+    .programs = {&shaders::kay_greenberg_1979_comp},
     // One more tells whether there are surfaces that are not looked at.
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers") + 1u; },
     .record = record,

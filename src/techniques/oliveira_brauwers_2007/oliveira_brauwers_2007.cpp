@@ -42,6 +42,7 @@ constexpr Technique kOliveiraBrauwers2007{
              .source = {"Manuel M. Oliveira, Maicon Brauwers", "Real-Time Refraction Through Deformable Objects",
                         "ACM Symposium on Interactive 3D Graphics and Games (I3D)", 2007, "3"},
              .parameters = kParameters},
+    .programs = {&shaders::oliveira_brauwers_2007_comp},
     .layer_count = [](const ParameterValues&) { return 1u; },
     .record = record,
     .searches_layers = true,

@@ -26,6 +26,7 @@ constexpr Technique kOneInterface{
              .summary = "refraction at the first interface only: what engines draw",
              .source = {},
              .parameters = {}},
+    .programs = {&shaders::one_interface_comp},
     .layer_count = [](const ParameterValues&) { return 1u; },
     .record = record,
 };

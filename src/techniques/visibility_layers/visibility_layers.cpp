@@ -353,6 +353,7 @@ constexpr Technique kVisibilityLayers{
              .parameters = kPathParameters,
              .many_media = true,
              .whole_scene = true},
+    .programs = kPathPrograms,
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
     .prepare = prepare_paths,
     .record = record,

@@ -2,6 +2,7 @@
 
 #include "gpu/recorder.h"
 #include "layers/host_finder.h"
+#include "techniques/shaders.h"
 #include "techniques/technique.h"
 
 #include <array>
@@ -12,7 +13,7 @@ namespace pellucid {
 
 extern const Technique kVisibilityLayers;
 
-/// Of follow_paths().
+/// Technique::parameters of techniques that call follow_paths().
 inline constexpr std::array kPathParameters = {
     ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed along a path"},
     ParameterInfo{"branches", "", -1, -1, 255, true,
@@ -78,7 +79,9 @@ public:
 /// Texels of a mesh's maps along the longest side of its box, unless a parameter says otherwise.
 inline constexpr std::uint32_t kMeshMapResolution = 512;
 
-/// Technique::prepare of techniques that call it.
+/// Technique::programs and Technique::prepare of techniques that call follow_paths().
+inline constexpr std::initializer_list<const ShaderCode*> kPathPrograms = {
+    &shaders::begin_paths_comp, &shaders::begin_at_eye_comp, &shaders::follow_paths_comp, &shaders::end_paths_comp};
 void prepare_paths(const Preparation& preparation, const ParameterValues& parameters);
 /// Follows the view rays through `map`: from the first surface of `layers` on or, with `volumes`, where surfaces may lie at
 /// one place or where the eye is in a solid, from the eye on.

@@ -78,6 +78,7 @@ constexpr Technique kWyman2005{
              .parameters = kParameters,
              .bakes = true,
              .opaque_behind = true},
+    .programs = {&shaders::nearby_geometry_comp, &shaders::wyman_2005_comp},
     .layer_count = [](const ParameterValues&) { return 1u; },
     .prepare = prepare,
     .record = record,
