@@ -48,9 +48,9 @@ GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Envi
         std::uint32_t samples;
     };
     const Push push{glm::vec4(environment.uniform_radiance, 0.0f), samples_per_side(environment)};
-    recorder.compute(workspace.compute(shaders::sample_environment_comp, {std::uint32_t(environment.kind)}),
-                     {reads_layer("environment_map", map, 0), writes("pyramid", pyramid)}, push,
-                     {kPyramidSize, kPyramidSize});
+    recorder.compute(
+        workspace.compute(shaders::sample_environment_comp, {{"kEnvironmentKind", std::uint32_t(environment.kind)}}),
+        {reads_layer("environment_map", map, 0), writes("pyramid", pyramid)}, push, {kPyramidSize, kPyramidSize});
     for (std::int32_t level = 1; level < PELLUCID_PYRAMID_LEVELS; ++level) {
         recorder.compute(workspace.compute(shaders::halve_environment_comp), {updates("pyramid", pyramid)}, level,
                          {kPyramidSize >> level, kPyramidSize >> level});

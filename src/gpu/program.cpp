@@ -129,7 +129,7 @@ void Program::make_layouts(const Device& device) {
                                                     .pPushConstantRanges = &range});
 }
 
-Program Program::compute(const Device& device, ShaderCode shader, std::span<const std::uint32_t> constants) {
+Program Program::compute(const Device& device, ShaderCode shader, std::span<const Constant> constants) {
     Program program;
     program.name_ = shader.name;
     program.bind_point_ = vk::PipelineBindPoint::eCompute;
@@ -137,15 +137,22 @@ Program Program::compute(const Device& device, ShaderCode shader, std::span<cons
     program.make_layouts(device);
     const vk::raii::ShaderModule module = make_module(device, shader);
     std::vector<vk::SpecializationMapEntry> entries;
-    for (std::uint32_t i = 0; i < constants.size(); ++i) {
-        entries.push_back({.constantID = i, .offset = i * 4, .size = 4});
+    std::vector<std::uint32_t> values;
+    const spirv_cross::Compiler compiler(shader.words.data(), shader.words.size());
+    for (const spirv_cross::SpecializationConstant& declared : compiler.get_specialization_constants()) {
+        const auto given = std::ranges::find(constants, compiler.get_name(declared.id), &Constant::name);
+        if (given == constants.end())
+            throw std::logic_error(
+                fmt::format("{}: no value for the constant '{}'", shader.name, compiler.get_name(declared.id)));
+        entries.push_back({.constantID = declared.constant_id, .offset = std::uint32_t(values.size() * 4), .size = 4});
+        values.push_back(given->value);
     }
     const vk::SpecializationInfo specialization{.mapEntryCount = std::uint32_t(entries.size()),
                                                 .pMapEntries = entries.data(),
-                                                .dataSize = constants.size_bytes(),
-                                                .pData = constants.data()};
+                                                .dataSize = values.size() * 4,
+                                                .pData = values.data()};
     vk::PipelineShaderStageCreateInfo stage = stage_info(vk::ShaderStageFlagBits::eCompute, module);
-    if (!constants.empty()) stage.pSpecializationInfo = &specialization;
+    stage.pSpecializationInfo = &specialization;
     program.pipeline_ = device.handle().createComputePipeline(nullptr, {.stage = stage, .layout = *program.layout_});
     return program;
 }

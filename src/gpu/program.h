@@ -26,6 +26,12 @@ struct BindingSlot {
     vk::ShaderStageFlags stages;
 };
 
+/// A specialization constant by the name that the shader gives it; booleans are 0 or 1.
+struct Constant {
+    std::string_view name;
+    std::uint32_t value;
+};
+
 /// The bindings and push constants of shaders, as SPIR-V reflection finds them.
 struct ProgramInterface {
     std::vector<BindingSlot> slots;
@@ -53,8 +59,9 @@ inline constexpr vk::ShaderStageFlags kRayTracingStages =
 /// the limit, if the device has fewer.
 class Program {
 public:
-    /// Workgroup size is the shader's own. `constants` are its specialization constants 0, 1, ...
-    static Program compute(const Device& device, ShaderCode shader, std::span<const std::uint32_t> constants = {});
+    /// Workgroup size is the shader's own. Every specialization constant of the shader has to be in `constants`, where
+    /// there may be others; throws std::logic_error if one is not.
+    static Program compute(const Device& device, ShaderCode shader, std::span<const Constant> constants = {});
 
     /// Vertex shaders fetch their vertices themselves (gpu/vertices.glsl).
     struct Graphics {

@@ -7,9 +7,10 @@
 
 namespace pellucid {
 
-const Program& Workspace::compute(ShaderCode shader, std::span<const std::uint32_t> constants) {
-    return program(fmt::format("{} {}", shader.name, fmt::join(constants, " ")),
-                   [&] { return Program::compute(device_, shader, constants); });
+const Program& Workspace::compute(ShaderCode shader, std::span<const Constant> constants) {
+    std::string key(shader.name);
+    for (const auto& [name, value] : constants) key += fmt::format(" {} {}", name, value);
+    return program(std::move(key), [&] { return Program::compute(device_, shader, constants); });
 }
 
 const Program& Workspace::graphics(const Program::Graphics& state) {

@@ -19,7 +19,7 @@ const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const Laye
                                         request.name + " pixels", 0, frame.extent.height);
     const bool one_object = request.solids.size() == 1;
     recorder.compute_indirect(
-        frame.workspace.compute(shaders::resolve_normals_comp, {one_object ? 1u : 0u}),
+        frame.workspace.compute(shaders::resolve_normals_comp, {{"kOneObject", one_object}}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
          reads("Vertices", frame.scene.vertices), reads("layer_triangle", images.triangle),
          writes("layer_normal", images.normal), reads("PixelList", covered)},

@@ -63,7 +63,7 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
     Workspace& workspace = frame.workspace;
     const bool in_compute = builder_ == LayerBuilder::kCompute;
     const bool one_object = request.solids.size() == 1;
-    const Program& select = workspace.compute(shaders::select_layers_comp, {one_object ? 1u : 0u});
+    const Program& select = workspace.compute(shaders::select_layers_comp, {{"kOneObject", one_object}});
     const LayerImages images = allocate_layers(frame, request);
     const GpuImage& heads = workspace.image("fragment list heads", vk::Format::eR32Uint, frame.extent);
     const std::string list_name = request.name + " pixels";

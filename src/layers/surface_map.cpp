@@ -54,13 +54,14 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     recorder.fill(*map.ranges, build.first_record * kMapRangeSize, build.records * kMapRangeSize, kNoRange);
     const vk::Extent2D threads = threads_for(workspace.device(), build.triangle_count);
     // Records of a mesh are of no object: whoever walks it for one knows that object's traits.
-    const std::uint32_t one_object = build.of_mesh || scene.object_count == 1 ? 1 : 0;
-    recorder.compute(workspace.compute(shaders::rasterise_surfaces_comp, {build.of_mesh ? 1u : 0u, one_object}),
-                     {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-                      reads("Vertices", scene.vertices), reads("Maps", *map.maps),
-                      writes("MapTriangles", *map.triangles), writes("MapNormals", *map.normals),
-                      updates("Texels", *map.texels), updates("Found", found), updates("Tiles", tiles)},
-                     std::array{build.triangle_count, build.index, threads.width}, threads);
+    const bool one_object = build.of_mesh || scene.object_count == 1;
+    recorder.compute(
+        workspace.compute(shaders::rasterise_surfaces_comp, {{"kOfMesh", build.of_mesh}, {"kOneObject", one_object}}),
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+         reads("Vertices", scene.vertices), reads("Maps", *map.maps), writes("MapTriangles", *map.triangles),
+         writes("MapNormals", *map.normals), updates("Texels", *map.texels), updates("Found", found),
+         updates("Tiles", tiles)},
+        std::array{build.triangle_count, build.index, threads.width}, threads);
     recorder.compute_indirect(workspace.compute(shaders::rasterise_tiles_comp),
                               {reads("Maps", *map.maps), reads("MapTriangles", *map.triangles),
                                updates("Texels", *map.texels), updates("Found", found), reads("Tiles", tiles)},
@@ -69,8 +70,9 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
                      {reads("Maps", *map.maps), updates("Found", found), updates("Texels", *map.texels)},
                      std::array{build.index, build.first_record}, {(texels + 15) / 16, 1});
     recorder.compute_indirect(
-        workspace.compute(shaders::place_records_comp,
-                          {one_object, build.of_mesh ? 1u : 0u, topology.many_slots ? 1u : 0u}),
+        workspace.compute(
+            shaders::place_records_comp,
+            {{"kOneObject", one_object}, {"kOfMesh", build.of_mesh}, {"kManySlots", topology.many_slots}}),
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Traits", topology.traits),
          reads("ShellTraits", topology.shell_traits), reads("texels", *map.texels), reads("found", found),
          writes("Ranges", *map.ranges), writes("Records", *map.records)},

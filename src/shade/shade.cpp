@@ -91,9 +91,13 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
                       const ThinWalls& walls, const Refraction& refraction, View view) {
     Workspace& workspace = frame.workspace;
     const GpuImage& radiance = workspace.image("radiance", kRadianceFormat, frame.extent);
-    const std::uint32_t analysis = view == View::kAnalysis ? 1 : 0;
-    const auto any = [](const std::vector<DrawCall>& objects) { return objects.empty() ? 0u : 1u; };
-    const std::uint32_t thin_walls = any(frame.scene.thin_walled);
+    const std::array constants = {Constant{"kEnvironmentKind", frame.environment_kind},
+                                  Constant{"kAnalysis", view == View::kAnalysis},
+                                  Constant{"kThinWalls", !frame.scene.thin_walled.empty()},
+                                  Constant{"kOpaque", !frame.scene.opaque.empty()},
+                                  Constant{"kTextured", frame.scene.textured_glass},
+                                  Constant{"kPathRadiance", refraction.radiance != nullptr},
+                                  Constant{"kReflected", refraction.reflected != nullptr}};
     // Something of the right kind has to be bound where paths pick up nothing.
     const GpuImage& path_radiance =
         refraction.radiance ? *refraction.radiance : workspace.image("no radiance", kRadianceFormat, {1, 1});
@@ -102,39 +106,35 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
 
     const Recorder::Scope scope(recorder, "shade");
     recorder.compute(
-        workspace.compute(shaders::background_comp,
-                          {frame.environment_kind, analysis, thin_walls, any(frame.scene.opaque)}),
+        workspace.compute(shaders::background_comp, constants),
         {reads("Frame", frame.constants), reads_layer("environment_map", frame.environment, 0),
          reads("thin_tint", walls.thin_tint), reads("thin_reflection", walls.thin_reflection),
          reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth), writes("radiance", radiance)},
         frame.extent);
-    recorder.compute_indirect(
-        workspace.compute(shaders::shade_comp,
-                          {frame.environment_kind, analysis, thin_walls, frame.scene.textured_glass ? 1u : 0u,
-                           refraction.radiance ? 1u : 0u, refraction.reflected ? 1u : 0u}),
-        {reads("Frame", frame.constants),
-         reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials),
-         reads_layer("environment_map", frame.environment, 0),
-         reads("layer_triangle", layers.triangle),
-         reads("layer_normal", layers.normal),
-         reads("PixelList", layers.covered),
-         reads("thin_tint", walls.thin_tint),
-         reads("thin_reflection", walls.thin_reflection),
-         reads("exit_direction", refraction.exit_direction),
-         reads("transmittance", refraction.transmittance),
-         reads("path_events", refraction.events),
-         reads("path_radiance", path_radiance),
-         reads("reflected_radiance", reflected),
-         reads("texture_pages", frame.scene.texture_pages),
-         reads("Appearance", frame.scene.appearance),
-         reads("Textures", frame.scene.textures),
-         reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices),
-         writes("radiance", radiance)},
-        layers.covered);
+    recorder.compute_indirect(workspace.compute(shaders::shade_comp, constants),
+                              {reads("Frame", frame.constants),
+                               reads("Objects", frame.scene.objects),
+                               reads("Materials", frame.scene.materials),
+                               reads_layer("environment_map", frame.environment, 0),
+                               reads("layer_triangle", layers.triangle),
+                               reads("layer_normal", layers.normal),
+                               reads("PixelList", layers.covered),
+                               reads("thin_tint", walls.thin_tint),
+                               reads("thin_reflection", walls.thin_reflection),
+                               reads("exit_direction", refraction.exit_direction),
+                               reads("transmittance", refraction.transmittance),
+                               reads("path_events", refraction.events),
+                               reads("path_radiance", path_radiance),
+                               reads("reflected_radiance", reflected),
+                               reads("texture_pages", frame.scene.texture_pages),
+                               reads("Appearance", frame.scene.appearance),
+                               reads("Textures", frame.scene.textures),
+                               reads("Indices", frame.scene.indices),
+                               reads("Vertices", frame.scene.vertices),
+                               writes("radiance", radiance)},
+                              layers.covered);
     if (refraction.picture) {
-        recorder.compute(workspace.compute(shaders::compose_picture_comp, {analysis}),
+        recorder.compute(workspace.compute(shaders::compose_picture_comp, constants),
                          {reads("picture", *refraction.picture), reads("reflected_radiance", reflected),
                           reads("path_events", refraction.events), writes("radiance", radiance)},
                          frame.extent);

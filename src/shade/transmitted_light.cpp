@@ -126,8 +126,9 @@ void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const
     const Recorder::Scope scope(recorder, "transmitted light");
     recorder.compute_indirect(
         frame.workspace.compute(shaders::transmit_light_comp,
-                                {method_constant(setup_.method), measures ? 1u : 0u,
-                                 scene.opaque.size() == 1 && scene.object_count == 1 ? 1u : 0u}),
+                                {{"kMethod", method_constant(setup_.method)},
+                                 {"kMeasures", measures},
+                                 {"kOneObject", scene.opaque.size() == 1 && scene.object_count == 1}}),
         {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
          reads("LightFrame", constants), reads("surface_triangle", surfaces.triangle),
          reads("surface_normals", surfaces.normal), reads("surface_reflected", surfaces.reflected),

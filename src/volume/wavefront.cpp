@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -261,7 +262,7 @@ void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const Volu
                          own, {std::uint32_t(front.corner.w), std::uint32_t(front.side.w)});
     }
     begin_round(recorder, workspace, tracing);
-    recorder.compute_indirect(workspace.compute(shaders::land_light_comp, {1}),
+    recorder.compute_indirect(workspace.compute(shaders::land_light_comp, {{"kStraight", true}}),
                               {reads("Receivers", light_.receivers), updates("State", state_),
                                reads("Landed", patches_[0]), updates("Texels", texels_)},
                               tracing.push, step_groups_);
@@ -269,15 +270,16 @@ void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const Volu
 
 void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
                                    Tracing& tracing, std::uint32_t rounds, std::uint32_t tally) {
-    const auto flag = [](bool value) { return value ? 1u : 0u; };
     const LightPush& push = tracing.push;
-    const Program& land = workspace.compute(shaders::land_light_comp, {0});
-    std::vector<std::uint32_t> constants = {flag(volumes.absorbs || volumes.scatters),
-                                            flag(volumes.scatters),
-                                            flag(tracing.overlapping),
-                                            flag(push.receiver_count > 0),
-                                            flag(tracing.settings.keep_folds),
-                                            flag(volumes.reflects && tracing.settings.fresnel)};
+    const Program& land = workspace.compute(shaders::land_light_comp, {{"kStraight", false}});
+    const std::array constants = {Constant{"kMedium", volumes.absorbs || volumes.scatters},
+                                  Constant{"kScatters", volumes.scatters},
+                                  Constant{"kOverlapping", tracing.overlapping},
+                                  Constant{"kReceivers", push.receiver_count > 0},
+                                  Constant{"kKeepFolds", tracing.settings.keep_folds},
+                                  Constant{"kBoundary", volumes.reflects && tracing.settings.fresnel},
+                                  Constant{"kTally", tally},
+                                  Constant{"kShown", push.shown_spacing > 0.0f}};
     std::vector<Binding> step_bindings = {reads("volume_index", volumes.index),
                                           reads("volume_bricks", volumes.bricks),
                                           reads("volume_absorption", volumes.absorption),
@@ -292,7 +294,6 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
     const bool sums = tracing.settings.kept == KeptLight::kSum;
     step_bindings.push_back(updates(sums ? "Sums" : "Keys", voxel_light_));
     if (!sums) step_bindings.push_back(updates("Tally", tally_));
-    constants.insert(constants.end(), {tally, flag(push.shown_spacing > 0.0f)});
     const Program& step = sums ? workspace.compute(shaders::step_summed_light_comp, constants)
                                : workspace.compute(shaders::step_brightest_light_comp, constants);
     const std::uint32_t last = std::min(tracing.rounds, tracing.rounds_done + rounds);

@@ -95,13 +95,16 @@ public:
         bindings.insert(bindings.end(), std::begin(own), std::end(own));
         const std::vector<Binding> light = light_bindings();
         bindings.insert(bindings.end(), light.begin(), light.end());
-        const auto flag = [](bool value) { return value ? 1u : 0u; };
-        std::vector<std::uint32_t> constants = pass.constants;
-        for (const std::uint32_t constant :
-             {parameters_.whole("integrator"), flag(images_.absorbs), flag(images_.reflects), flag(images_.scatters),
-              flag(images_.emits), flag(images_.disperses), flag(pass.frame.scene.object_count > 0),
-              flag(images_.overlapping), std::bit_cast<std::uint32_t>(float(parameters_["step"])),
-              parameters_.whole("max-steps"), flag(volumes_.lit()), parameters_.whole("interpolation")})
+        std::vector<Constant> constants = pass.constants;
+        for (const Constant& constant :
+             {Constant{"kIntegrator", parameters_.whole("integrator")}, Constant{"kAbsorbs", images_.absorbs},
+              Constant{"kBoundaries", images_.reflects}, Constant{"kScatters", images_.scatters},
+              Constant{"kEmits", images_.emits}, Constant{"kDisperses", images_.disperses},
+              Constant{"kSurfacesInside", pass.frame.scene.object_count > 0},
+              Constant{"kOverlapping", images_.overlapping},
+              Constant{"kStep", std::bit_cast<std::uint32_t>(float(parameters_["step"]))},
+              Constant{"kMostSteps", parameters_.whole("max-steps")}, Constant{"kLit", volumes_.lit()},
+              Constant{"kCubic", parameters_.whole("interpolation")}})
             constants.push_back(constant);
         pass.recorder.compute_indirect(pass.frame.workspace.compute(shaders::march_rays_comp, constants), bindings,
                                        pass.push, entering);

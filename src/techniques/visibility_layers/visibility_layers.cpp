@@ -98,24 +98,24 @@ public:
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::vector<std::uint32_t> constants() const {
+    std::vector<Constant> constants() const {
         const GpuScene& scene = frame_.scene;
-        return {words_,
-                scene.object_count == 1 ? 1u : 0u,
-                ways_ == Ways::kTree ? 1u : 0u,
-                ways_ == Ways::kStochastic ? 1u : 0u,
-                scene.dispersive ? 1u : 0u,
-                scene.rough_glass ? 1u : 0u,
-                frame_.environment_kind,
-                scene.opaque.empty() ? 0u : 1u,
-                map_.objects != nullptr ? 1u : 0u,
-                topology_.all_alone ? 0u : 1u,
-                surfaces_per_pass_,
-                volumes_ != nullptr ? 1u : 0u,
-                topology_.many_slots ? 1u : 0u,
-                scene.textured_glass ? 1u : 0u,
-                topology_.crossing ? 1u : 0u,
-                finder_ != nullptr ? 1u : 0u};
+        return {{"kMediumWords", words_},
+                {"kOneObject", scene.object_count == 1},
+                {"kTree", ways_ == Ways::kTree},
+                {"kStochastic", ways_ == Ways::kStochastic},
+                {"kDispersive", scene.dispersive},
+                {"kRough", scene.rough_glass},
+                {"kEnvironmentKind", frame_.environment_kind},
+                {"kOpaqueObjects", !scene.opaque.empty()},
+                {"kMapPerMesh", map_.objects != nullptr},
+                {"kTouching", !topology_.all_alone},
+                {"kSurfacesPerPass", surfaces_per_pass_},
+                {"kVolumes", volumes_ != nullptr},
+                {"kManySlots", topology_.many_slots},
+                {"kTexturedGlass", scene.textured_glass},
+                {"kCrossing", topology_.crossing},
+                {"kFoundOnHost", finder_ != nullptr}};
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 

@@ -49,11 +49,11 @@ struct PathPass {
     Recorder& recorder;
     const Frame& frame;
     const Layers& layers;
-    std::vector<std::uint32_t> constants;  ///< of visibility_bindings.glsl
-    std::vector<Binding> scene;            ///< of visibility_bindings.glsl
-    std::vector<Binding> state;            ///< of path_state.glsl
-    std::vector<Binding> walk;             ///< of path_walk.glsl
-    std::vector<Binding> light;            ///< of path_light.glsl
+    std::vector<Constant> constants;  ///< of visibility_bindings.glsl
+    std::vector<Binding> scene;       ///< of visibility_bindings.glsl
+    std::vector<Binding> state;       ///< of path_state.glsl
+    std::vector<Binding> walk;        ///< of path_walk.glsl
+    std::vector<Binding> light;       ///< of path_light.glsl
     PathPush push;
 };
 

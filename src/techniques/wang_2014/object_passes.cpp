@@ -36,7 +36,7 @@ const Buffer& ObjectPasses::enter(const Buffer& pixels, std::uint32_t layer) {
     const Buffer& inside = start_pixel_list(recorder_, frame_, "rays inside");
     search_.layer = layer;
     recorder_.compute_indirect(
-        frame_.workspace.compute(shaders::enter_solid_comp, {layer == 0 ? 1u : 0u}),
+        frame_.workspace.compute(shaders::enter_solid_comp, {{"kNextObject", layer == 0}}),
         {reads("Frame", frame_.constants), reads("Objects", frame_.scene.objects),
          reads("Materials", frame_.scene.materials), reads("layer_depth", layers_.depth),
          reads("layer_triangle", layers_.triangle), reads("layer_normal", layers_.normal),
@@ -58,7 +58,7 @@ const Buffer& ObjectPasses::leave(const Buffer& pixels, std::uint32_t layer, std
         const Buffer& reflected =
             start_pixel_list(recorder_, frame_, reflection % 2 == 0 ? "rays reflected" : "rays reflected again");
         recorder_.compute_indirect(
-            frame_.workspace.compute(shaders::leave_solid_comp, {from_eye && reflection == 0 ? 1u : 0u}),
+            frame_.workspace.compute(shaders::leave_solid_comp, {{"kFromEye", from_eye && reflection == 0}}),
             {reads("Frame", frame_.constants), reads("Objects", frame_.scene.objects),
              reads("Materials", frame_.scene.materials), reads("layer_depth", layers_.depth),
              reads("layer_triangle", layers_.triangle), reads("layer_normal", layers_.normal),

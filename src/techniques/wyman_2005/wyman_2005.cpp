@@ -54,7 +54,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const bool nearby = !frame.scene.opaque.empty();
     const Refraction refraction = clear_refraction(recorder, frame, nearby);
     recorder.compute_indirect(
-        frame.workspace.compute(shaders::wyman_2005_comp, {distances == Distances::kSampled ? 1u : 0u}),
+        frame.workspace.compute(shaders::wyman_2005_comp, {{"kSampled", distances == Distances::kSampled}}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("Indices", frame.scene.indices),
          reads("Vertices", frame.scene.vertices), reads("layer_depth", layers.depth),
