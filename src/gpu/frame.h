@@ -1,11 +1,13 @@
 #pragma once
 
+#include "gpu/binding.h"
 #include "gpu/gpu_scene.h"
 #include "gpu/workspace.h"
 
 #include <pellucid/reference.h>
 
 #include <optional>
+#include <vector>
 
 namespace pellucid {
 
@@ -17,6 +19,9 @@ struct TracedView {
     glm::vec2 jitter_px;  ///< of the sample within the pixel, from its centre
     Progress progress;
 };
+
+struct Frame;
+std::vector<Binding> frame_bindings(const Frame& frame);
 
 /// What every pass of a frame may look at.
 struct Frame {
@@ -31,6 +36,10 @@ struct Frame {
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
     const TracedView* traced = nullptr;                  ///< for techniques that trace on the CPU; null for others
+    const std::vector<Binding> group = frame_bindings(*this);
+
+    /// What any pass may look at, by the names that shaders have for it: the scene, its environment and the constants.
+    Binding bindings() const { return {.name = {}, .access = Access::kRead, .group = &group}; }
 };
 
 }  // namespace pellucid

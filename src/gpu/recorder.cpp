@@ -19,61 +19,6 @@ constexpr std::uint32_t kQueriesPerPool = 64;
 constexpr std::uint32_t kSetsPerPool = 64;
 constexpr std::uint32_t kDescriptorsPerPool = 16 * kSetsPerPool;
 
-vk::PipelineStageFlags2 stages_of(const BindingSlot& slot) {
-    vk::PipelineStageFlags2 stages;
-    if (slot.stages & vk::ShaderStageFlagBits::eCompute) stages |= Stage::eComputeShader;
-    if (slot.stages & vk::ShaderStageFlagBits::eVertex) stages |= Stage::eVertexShader;
-    if (slot.stages & vk::ShaderStageFlagBits::eFragment) stages |= Stage::eFragmentShader;
-    if (slot.stages & kRayTracingStages) stages |= Stage::eRayTracingShaderKHR;
-    return stages;
-}
-
-vk::AccessFlags2 access_of(const BindingSlot& slot, Access access) {
-    if (slot.type == vk::DescriptorType::eAccelerationStructureKHR) return AccessBit::eAccelerationStructureReadKHR;
-    const bool sampled =
-        slot.type == vk::DescriptorType::eSampledImage || slot.type == vk::DescriptorType::eUniformTexelBuffer;
-    const vk::AccessFlags2 read = sampled ? AccessBit::eShaderSampledRead : AccessBit::eShaderStorageRead;
-    vk::AccessFlags2 flags;
-    if (access != Access::kWrite) flags |= read;
-    if (access != Access::kRead) flags |= AccessBit::eShaderStorageWrite;
-    return flags;
-}
-
-std::string_view access_name(bool readable, bool writable) {
-    return readable && writable ? "reads and writes" : writable ? "writes" : "reads";
-}
-
-void check_access(const Program& program, const BindingSlot& slot, const Binding& binding) {
-    const bool reads_it = binding.access != Access::kWrite;
-    const bool writes_it = binding.access != Access::kRead;
-    if (reads_it == slot.readable && writes_it == slot.writable) return;
-    throw std::logic_error(fmt::format("{}: the shader {} '{}', the pass {} it", program.name(),
-                                       access_name(slot.readable, slot.writable), slot.name,
-                                       access_name(reads_it, writes_it)));
-}
-
-const Binding& binding_of(const Program& program, const BindingSlot& slot, Bindings bindings) {
-    const auto match =
-        std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == slot.name; });
-    if (match == bindings.end()) {
-        throw std::logic_error(
-            fmt::format("{}: the shader declares '{}', the pass binds no such name", program.name(), slot.name));
-    }
-    const bool wants_texels = slot.type == vk::DescriptorType::eUniformTexelBuffer;
-    const bool wants_buffer = slot.type == vk::DescriptorType::eStorageBuffer || wants_texels;
-    const bool wants_structure = slot.type == vk::DescriptorType::eAccelerationStructureKHR;
-    if (wants_buffer != (match->buffer != nullptr) || wants_structure != (match->structure != nullptr)) {
-        throw std::logic_error(fmt::format("{}: the shader declares '{}' as {}, the pass binds the other kind",
-                                           program.name(), slot.name, vk::to_string(slot.type)));
-    }
-    if (wants_texels && match->buffer->texels() == vk::Format::eUndefined) {
-        throw std::logic_error(fmt::format("{}: the shader reads '{}' as a texel buffer, '{}' is none", program.name(),
-                                           slot.name, match->buffer->name()));
-    }
-    check_access(program, slot, *match);
-    return *match;
-}
-
 }  // namespace
 
 Recorder::Recorder(const Device& device) : device_(device) {
@@ -170,17 +115,18 @@ void Recorder::bind(const Program& program, Bindings bindings, std::span<const s
                     std::vector<Use>& uses) {
     const bool graphics = program.bind_point() == vk::PipelineBindPoint::eGraphics;
     const std::size_t push_offset = graphics ? sizeof(DrawCall::object) : 0;  // which each draw sets by itself
-    if (bindings.size() != program.slots().size() || push_offset + push.size() != program.push_size()) {
-        throw std::logic_error(fmt::format(
-            "{}: the shader has {} bindings and {} bytes of push constants, the pass {} and {}", program.name(),
-            program.slots().size(), program.push_size(), bindings.size(), push_offset + push.size()));
+    if (push_offset + push.size() != program.push_size()) {
+        throw std::logic_error(fmt::format("{}: the shader has {} bytes of push constants, the pass {}", program.name(),
+                                           program.push_size(), push_offset + push.size()));
     }
+    check_names(program, bindings);
+    const std::size_t count = program.slots().size();
     std::vector<vk::WriteDescriptorSet> set_writes;
-    std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
-    std::vector<vk::DescriptorImageInfo> images(bindings.size());
-    std::vector<vk::BufferView> texels(bindings.size());
-    std::vector<vk::AccelerationStructureKHR> structures(bindings.size());
-    std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structure_writes(bindings.size());
+    std::vector<vk::DescriptorBufferInfo> buffers(count);
+    std::vector<vk::DescriptorImageInfo> images(count);
+    std::vector<vk::BufferView> texels(count);
+    std::vector<vk::AccelerationStructureKHR> structures(count);
+    std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structure_writes(count);
     const vk::DescriptorSet set = allocate_set(program);
     for (const BindingSlot& slot : program.slots()) {
         const Binding& binding = binding_of(program, slot, bindings);

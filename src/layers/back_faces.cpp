@@ -19,10 +19,7 @@ BackFaces draw_back_faces(Recorder& recorder, const Frame& frame, std::span<cons
                               .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
                               .scissor = {}};
     const Recorder::Scope scope(recorder, "back faces");
-    recorder.draw(program,
-                  {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                   reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices)},
-                  which == BackFace::kFarthest ? 1u : 0u, target, solids);
+    recorder.draw(program, {frame.bindings()}, which == BackFace::kFarthest ? 1u : 0u, target, solids);
     resolve_normals(recorder, frame, images, request);
     return {images.depth, images.triangle, images.normal};
 }

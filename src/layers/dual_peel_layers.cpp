@@ -52,9 +52,7 @@ Sides peel_both_sides(Recorder& recorder, const Frame& frame, const Opaque& opaq
         const bool first = pass == 0;
         const std::uint32_t last = first ? 0 : pass - 1;
         recorder.draw(program,
-                      {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                       reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
-                       reads_layer("last_near", first ? opaque.radiance : sides.near_side, last),
+                      {frame.bindings(), reads_layer("last_near", first ? opaque.radiance : sides.near_side, last),
                        reads_layer("last_far", first ? opaque.radiance : sides.far_side, last)},
                       first ? 1u : 0u, target, solids);
     }

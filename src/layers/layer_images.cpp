@@ -18,12 +18,10 @@ const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const Laye
     const Buffer& covered = list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE,
                                         request.name + " pixels", 0, frame.extent.height);
     const bool one_object = request.solids.size() == 1;
-    recorder.compute_indirect(
-        frame.workspace.compute(shaders::resolve_normals_comp, {{"kOneObject", one_object}}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices), reads("layer_triangle", images.triangle),
-         writes("layer_normal", images.normal), reads("PixelList", covered)},
-        std::array{request.count, one_object ? request.solids[0].object : 0u}, covered);
+    recorder.compute_indirect(frame.workspace.compute(shaders::resolve_normals_comp, {{"kOneObject", one_object}}),
+                              {frame.bindings(), reads("layer_triangle", images.triangle),
+                               writes("layer_normal", images.normal), reads("PixelList", covered)},
+                              std::array{request.count, one_object ? request.solids[0].object : 0u}, covered);
     return covered;
 }
 

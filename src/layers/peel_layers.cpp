@@ -24,9 +24,7 @@ Layers LayerSource::peel(Recorder& recorder, const Frame& frame, const Opaque& o
                                   .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
                                   .scissor = {}};
         recorder.draw(program,
-                      {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                       reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
-                       reads("opaque_depth", opaque.depth),
+                      {frame.bindings(), reads("opaque_depth", opaque.depth),
                        reads_layer("last_depth", layer > 0 ? images.depth : opaque.depth, last),
                        reads_layer("last_triangle", layer > 0 ? images.triangle : no_triangle, last)},
                       std::array{layer, request.hidden_by_opaque ? 1u : 0u}, target, request.solids);

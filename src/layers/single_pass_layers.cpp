@@ -42,18 +42,16 @@ void LayerSource::rasterise_fragments(Recorder& recorder, const Frame& frame, co
         const vk::Extent2D threads = threads_for(workspace.device(), triangles);
         recorder.compute(
             workspace.compute(shaders::rasterise_fragments_comp),
-            {reads("Frame", frame.constants), reads("Indices", scene.indices), reads("Vertices", scene.vertices),
-             updates("Nodes", band.nodes), updates("heads", band.heads), updates("Tiles", tiles)},
+            {frame.bindings(), updates("Nodes", band.nodes), updates("heads", band.heads), updates("Tiles", tiles)},
             Push{scene.world_from_object[solid.object], scene.first_triangles[solid.object], solid.first_corner,
                  mirrors(scene.world_from_object[solid.object]) ? 1u : 0u, 0, triangles, threads.width, band.first_row,
                  band.row_end},
             threads);
     }
-    recorder.compute_indirect(workspace.compute(shaders::rasterise_fragment_tiles_comp),
-                              {reads("Frame", frame.constants), reads("Objects", scene.objects),
-                               reads("Indices", scene.indices), reads("Vertices", scene.vertices),
-                               updates("Nodes", band.nodes), updates("heads", band.heads), reads("Tiles", tiles)},
-                              std::array{band.first_row, band.row_end}, counted_tiles.groups(recorder, workspace));
+    recorder.compute_indirect(
+        workspace.compute(shaders::rasterise_fragment_tiles_comp),
+        {frame.bindings(), updates("Nodes", band.nodes), updates("heads", band.heads), reads("Tiles", tiles)},
+        std::array{band.first_row, band.row_end}, counted_tiles.groups(recorder, workspace));
     counted_tiles.end(recorder);
 }
 
@@ -93,19 +91,14 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
                                       .colors = {},
                                       .depth = {},
                                       .scissor = {{0, std::int32_t(first_row)}, {frame.extent.width, rows}}};
-            recorder.draw(gather,
-                          {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                           reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
-                           updates("Nodes", nodes), updates("heads", heads)},
-                          target, request.solids);
+            recorder.draw(gather, {frame.bindings(), updates("Nodes", nodes), updates("heads", heads)}, target,
+                          request.solids);
         }
         fragments.end(recorder);
         listed = &list_pixels(recorder, frame, heads, 0, list_name, first_row, first_row + rows);
         recorder.compute_indirect(
             select,
-            {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-             reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
-             reads("PixelList", *listed), reads("Nodes", nodes), reads("heads", heads),
+            {frame.bindings(), reads("PixelList", *listed), reads("Nodes", nodes), reads("heads", heads),
              reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
              writes("layer_triangle", images.triangle), writes("layer_normal", images.normal)},
             SelectPush{request.count, request.hidden_by_opaque ? 1u : 0u, one_object ? request.solids[0].object : 0u,

@@ -57,8 +57,7 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     const bool one_object = build.of_mesh || scene.object_count == 1;
     recorder.compute(
         workspace.compute(shaders::rasterise_surfaces_comp, {{"kOfMesh", build.of_mesh}, {"kOneObject", one_object}}),
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-         reads("Vertices", scene.vertices), reads("Maps", *map.maps), writes("MapTriangles", *map.triangles),
+        {frame.bindings(), reads("Maps", *map.maps), writes("MapTriangles", *map.triangles),
          writes("MapNormals", *map.normals), updates("Texels", *map.texels), updates("Found", found),
          updates("Tiles", tiles)},
         std::array{build.triangle_count, build.index, threads.width}, threads);
@@ -69,14 +68,13 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     recorder.compute(workspace.compute(shaders::place_texels_comp),
                      {reads("Maps", *map.maps), updates("Found", found), updates("Texels", *map.texels)},
                      std::array{build.index, build.first_record}, {(texels + 15) / 16, 1});
-    recorder.compute_indirect(
-        workspace.compute(
-            shaders::place_records_comp,
-            {{"kOneObject", one_object}, {"kOfMesh", build.of_mesh}, {"kManySlots", topology.many_slots}}),
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Traits", topology.traits),
-         reads("ShellTraits", topology.shell_traits), reads("texels", *map.texels), reads("found", found),
-         writes("Ranges", *map.ranges), writes("Records", *map.records)},
-        build.first_record + build.records, build.found.groups(recorder, workspace));
+    recorder.compute_indirect(workspace.compute(shaders::place_records_comp, {{"kOneObject", one_object},
+                                                                              {"kOfMesh", build.of_mesh},
+                                                                              {"kManySlots", topology.many_slots}}),
+                              {frame.bindings(), reads("Traits", topology.traits),
+                               reads("ShellTraits", topology.shell_traits), reads("texels", *map.texels),
+                               reads("found", found), writes("Ranges", *map.ranges), writes("Records", *map.records)},
+                              build.first_record + build.records, build.found.groups(recorder, workspace));
     build.found.end(recorder, build.counted);
     build.tiles.end(recorder);
 

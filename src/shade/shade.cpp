@@ -39,14 +39,7 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
                                          {&object, 0, clear_to({0u, 0u, 0u, 0u})}},
                               .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
                               .scissor = {}};
-    recorder.draw(
-        program,
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices), reads("Appearance", frame.scene.appearance),
-         reads("Materials", frame.scene.materials), reads("Textures", frame.scene.textures),
-         reads("texture_pages", frame.scene.texture_pages), reads_layer("environment_map", frame.environment, 0),
-         reads_layer("filtered_environment", frame.filtered_environment, 0)},
-        target, frame.scene.opaque);
+    recorder.draw(program, {frame.bindings()}, target, frame.scene.opaque);
     return {radiance, depth, object};
 }
 
@@ -70,19 +63,10 @@ ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& 
 
     const Recorder::Scope scope(recorder, "surface look");
     if (scene.thin_walled.empty()) return {thin_tint, thin_reflection};
-    recorder.draw(
-        tint,
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-         reads("Vertices", scene.vertices), reads("Appearance", scene.appearance), reads("Materials", scene.materials),
-         reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages),
-         reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
-        target(thin_tint, 1.0f), scene.thin_walled);
+    recorder.draw(tint, {frame.bindings(), reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
+                  target(thin_tint, 1.0f), scene.thin_walled);
     recorder.draw(reflection,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-                   reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
-                   reads("Materials", scene.materials), reads("Textures", scene.textures),
-                   reads("texture_pages", scene.texture_pages), reads("opaque_depth", opaque.depth),
-                   reads("layer_depth", layers.depth), reads_layer("environment_map", frame.environment, 0)},
+                  {frame.bindings(), reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
                   target(thin_reflection, 0.0f), scene.thin_walled);
     return {thin_tint, thin_reflection};
 }
@@ -107,32 +91,17 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
     const Recorder::Scope scope(recorder, "shade");
     recorder.compute(
         workspace.compute(shaders::background_comp, constants),
-        {reads("Frame", frame.constants), reads_layer("environment_map", frame.environment, 0),
-         reads("thin_tint", walls.thin_tint), reads("thin_reflection", walls.thin_reflection),
+        {frame.bindings(), reads("thin_tint", walls.thin_tint), reads("thin_reflection", walls.thin_reflection),
          reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth), writes("radiance", radiance)},
         frame.extent);
-    recorder.compute_indirect(workspace.compute(shaders::shade_comp, constants),
-                              {reads("Frame", frame.constants),
-                               reads("Objects", frame.scene.objects),
-                               reads("Materials", frame.scene.materials),
-                               reads_layer("environment_map", frame.environment, 0),
-                               reads("layer_triangle", layers.triangle),
-                               reads("layer_normal", layers.normal),
-                               reads("PixelList", layers.covered),
-                               reads("thin_tint", walls.thin_tint),
-                               reads("thin_reflection", walls.thin_reflection),
-                               reads("exit_direction", refraction.exit_direction),
-                               reads("transmittance", refraction.transmittance),
-                               reads("path_events", refraction.events),
-                               reads("path_radiance", path_radiance),
-                               reads("reflected_radiance", reflected),
-                               reads("texture_pages", frame.scene.texture_pages),
-                               reads("Appearance", frame.scene.appearance),
-                               reads("Textures", frame.scene.textures),
-                               reads("Indices", frame.scene.indices),
-                               reads("Vertices", frame.scene.vertices),
-                               writes("radiance", radiance)},
-                              layers.covered);
+    recorder.compute_indirect(
+        workspace.compute(shaders::shade_comp, constants),
+        {frame.bindings(), reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
+         reads("PixelList", layers.covered), reads("thin_tint", walls.thin_tint),
+         reads("thin_reflection", walls.thin_reflection), reads("exit_direction", refraction.exit_direction),
+         reads("transmittance", refraction.transmittance), reads("path_events", refraction.events),
+         reads("path_radiance", path_radiance), reads("reflected_radiance", reflected), writes("radiance", radiance)},
+        layers.covered);
     if (refraction.picture) {
         recorder.compute(workspace.compute(shaders::compose_picture_comp, constants),
                          {reads("picture", *refraction.picture), reads("reflected_radiance", reflected),

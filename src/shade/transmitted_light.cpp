@@ -77,12 +77,7 @@ TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, c
                                          {&normal, 0, clear_to({0u, 0u, 0u, 0u})}},
                               .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
                               .scissor = {}};
-    recorder.draw(program,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-                   reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
-                   reads("Materials", scene.materials), reads("Textures", scene.textures),
-                   reads("texture_pages", scene.texture_pages), reads("opaque_depth", opaque.depth)},
-                  target, scene.translucent);
+    recorder.draw(program, {frame.bindings(), reads("opaque_depth", opaque.depth)}, target, scene.translucent);
     const Buffer& pixels =
         list_pixels(recorder, frame, triangle, PELLUCID_NO_TRIANGLE, "translucent pixels", 0, frame.extent.height);
     return {triangle, normal, reflected, transmitted, pixels};
@@ -129,14 +124,13 @@ void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const
                                 {{"kMethod", method_constant(setup_.method)},
                                  {"kMeasures", measures},
                                  {"kOneObject", scene.opaque.size() == 1 && scene.object_count == 1}}),
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
-         reads("LightFrame", constants), reads("surface_triangle", surfaces.triangle),
+        {frame.bindings(), reads("LightFrame", constants), reads("surface_triangle", surfaces.triangle),
          reads("surface_normals", surfaces.normal), reads("surface_reflected", surfaces.reflected),
          reads("surface_transmitted", surfaces.transmitted), reads("layer_triangle", triangles),
          reads("LocalThickness", setup_.local ? setup_.local->values : nothing),
          reads("LocalObjects", setup_.local ? setup_.local->objects : nothing), updates("radiance", opaque.radiance),
          writes("thickness", thickness), updates("LightCounters", workspace_.buffer("light counters", 4)),
-         reads("PixelList", surfaces.pixels), reads("Indices", scene.indices), reads("Vertices", scene.vertices)},
+         reads("PixelList", surfaces.pixels)},
         Push{punctual_light(setup_.lights.at(view.light)), view.face, layer_count()}, surfaces.pixels);
 }
 

@@ -23,8 +23,7 @@ void draw_wavefronts(Recorder& recorder, const Frame& frame, const Buffer& shown
     const GpuImage& nearest = workspace.image("wavefront depth test", vk::Format::eD32Sfloat, frame.extent);
     // Patches that are not there have no area.
     const DrawCall all{0, std::uint32_t(6 * (shown.size() / sizeof(gpu::ShownPatch))), 0};
-    recorder.draw(draw, {reads("Frame", frame.constants), reads("Shown", shown), reads("opaque_depth", opaque_depth)},
-                  exposure,
+    recorder.draw(draw, {frame.bindings(), reads("Shown", shown), reads("opaque_depth", opaque_depth)}, exposure,
                   RenderTarget{.extent = frame.extent,
                                .colors = {{&radiance, 0, {}}},
                                .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},

@@ -34,7 +34,7 @@ TEST_F(RecorderTest, MismatchesNameShaderAndPass) {
         [&] {
             recorder().compute(program, {reads("Cases", buffer)}, {1, 1});
         },
-        ThrowsMessage<std::logic_error>(HasSubstr("2 bindings")));
+        ThrowsMessage<std::logic_error>(HasSubstr("declares 'Answers'")));
     EXPECT_THAT(
         [&] {
             recorder().compute(program, {reads("Cases", buffer), writes("Answers", buffer)}, 1.0f, {1, 1});

@@ -9,12 +9,10 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const Refraction refraction = clear_refraction(recorder, frame);
     recorder.compute_indirect(
         frame.workspace.compute(shaders::one_interface_comp),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
-         reads("PixelList", layers.covered), writes("exit_direction", refraction.exit_direction),
-         writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
-         writes("path_events", refraction.events)},
+        {frame.bindings(), reads("layer_depth", layers.depth), reads("layer_triangle", layers.triangle),
+         reads("layer_normal", layers.normal), reads("PixelList", layers.covered),
+         writes("exit_direction", refraction.exit_direction), writes("exit_position", refraction.exit_position),
+         writes("transmittance", refraction.transmittance), writes("path_events", refraction.events)},
         layers.covered);
     return refraction;
 }

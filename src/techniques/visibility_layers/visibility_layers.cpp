@@ -120,24 +120,20 @@ private:
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 
     PathPass pass() const {
-        const GpuScene& scene = frame_.scene;
-        return {
-            recorder_,
-            frame_,
-            layers_,
-            constants(),
-            {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials)},
-            {updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
-             updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_)},
-            {reads("Slots", topology_.slots), reads("Maps", *map_.maps), reads("map_triangles", *map_.triangles),
-             reads("map_normals", *map_.normals), reads("texels", *map_.texels), reads("ranges", *map_.ranges),
-             reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
-             reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
-             reads("Indices", scene.indices), reads("Appearance", scene.appearance), reads("Textures", scene.textures),
-             reads("texture_pages", scene.texture_pages), reads("candidate_lists", *map_.texels),
-             reads("candidates", *map_.records)},
-            {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
-            push_};
+        return {recorder_,
+                frame_,
+                layers_,
+                constants(),
+                {frame_.bindings()},
+                {updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
+                 updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_)},
+                {reads("Slots", topology_.slots), reads("Maps", *map_.maps), reads("map_triangles", *map_.triangles),
+                 reads("map_normals", *map_.normals), reads("texels", *map_.texels), reads("ranges", *map_.ranges),
+                 reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
+                 reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
+                 reads("candidate_lists", *map_.texels), reads("candidates", *map_.records)},
+                {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
+                push_};
     }
 
     CountedBuffer& branches() {
@@ -157,32 +153,16 @@ private:
     }
 
     void begin() {
-        const GpuScene& scene = frame_.scene;
-        recorder_.compute_indirect(program(shaders::begin_paths_comp),
-                                   {reads("Frame", frame_.constants),
-                                    reads("Objects", scene.objects),
-                                    reads("Materials", scene.materials),
-                                    reads("map_triangles", *map_.triangles),
-                                    reads("map_normals", *map_.normals),
-                                    reads("Traits", topology_.traits),
-                                    reads("ShellTraits", topology_.shell_traits),
-                                    reads("Indices", scene.indices),
-                                    reads("Appearance", scene.appearance),
-                                    reads("Textures", scene.textures),
-                                    reads("texture_pages", scene.texture_pages),
-                                    reads("Slots", topology_.slots),
-                                    reads("layer_triangle", layers_.triangle),
-                                    reads("PixelList", layers_.covered),
-                                    updates("NextList", *next_),
-                                    updates("PathPlaces", places_),
-                                    updates("PathWays", ways_buffer_),
-                                    updates("PathWeights", weights_),
-                                    updates("PathMedia", media_),
-                                    updates("Waiting", waiting_),
-                                    updates("Branches", *branches_),
-                                    writes("path_radiance", *refraction_.radiance),
-                                    writes("reflected_radiance", reflected_)},
-                                   push_, layers_.covered);
+        recorder_.compute_indirect(
+            program(shaders::begin_paths_comp),
+            {frame_.bindings(), reads("map_triangles", *map_.triangles), reads("map_normals", *map_.normals),
+             reads("Traits", topology_.traits), reads("ShellTraits", topology_.shell_traits),
+             reads("Slots", topology_.slots), reads("layer_triangle", layers_.triangle),
+             reads("PixelList", layers_.covered), updates("NextList", *next_), updates("PathPlaces", places_),
+             updates("PathWays", ways_buffer_), updates("PathWeights", weights_), updates("PathMedia", media_),
+             updates("Waiting", waiting_), updates("Branches", *branches_),
+             writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)},
+            push_, layers_.covered);
     }
 
     /// What passes that walk the maps have in common, and `own`.
@@ -247,15 +227,10 @@ private:
     }
 
     void end(const Buffer& list, bool closing) {
-        const GpuScene& scene = frame_.scene;
         PathPush push = push_;
         push.closing = closing ? 1 : 0;
-        std::vector<Binding> bindings = {reads("Frame", frame_.constants),
-                                         reads("Objects", scene.objects),
-                                         reads("Materials", scene.materials),
+        std::vector<Binding> bindings = {frame_.bindings(),
                                          reads("Slots", topology_.slots),
-                                         reads("Indices", scene.indices),
-                                         reads("Vertices", scene.vertices),
                                          reads("PixelList", list),
                                          updates("NextList", closing ? *ended_ : *next_),
                                          updates("PathPlaces", places_),
@@ -264,11 +239,6 @@ private:
                                          updates("PathMedia", media_),
                                          updates("Waiting", waiting_),
                                          updates("Branches", *branches_),
-                                         reads("Textures", scene.textures),
-                                         reads("texture_pages", scene.texture_pages),
-                                         reads("Appearance", scene.appearance),
-                                         reads_layer("environment_map", frame_.environment, 0),
-                                         reads_layer("filtered_environment", frame_.filtered_environment, 0),
                                          writes("exit_direction", refraction_.exit_direction),
                                          writes("exit_position", refraction_.exit_position),
                                          writes("transmittance", refraction_.transmittance),

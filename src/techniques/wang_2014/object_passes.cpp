@@ -37,14 +37,12 @@ const Buffer& ObjectPasses::enter(const Buffer& pixels, std::uint32_t layer) {
     search_.layer = layer;
     recorder_.compute_indirect(
         frame_.workspace.compute(shaders::enter_solid_comp, {{"kNextObject", layer == 0}}),
-        {reads("Frame", frame_.constants), reads("Objects", frame_.scene.objects),
-         reads("Materials", frame_.scene.materials), reads("layer_depth", layers_.depth),
-         reads("layer_triangle", layers_.triangle), reads("layer_normal", layers_.normal),
-         reads("seen_triangle", seen_.triangle), reads_layer("merged_depth", merged_.depth, layer),
-         reads_layer("merged_normal", merged_.normal, layer), reads("EntryLimit", merged_.entry_limit),
-         reads("PixelList", pixels), updates("Inside", inside), updates("exit_direction", refraction_.exit_direction),
-         updates("exit_position", refraction_.exit_position), updates("transmittance", refraction_.transmittance),
-         updates("path_events", refraction_.events)},
+        {frame_.bindings(), reads("layer_depth", layers_.depth), reads("layer_triangle", layers_.triangle),
+         reads("layer_normal", layers_.normal), reads("seen_triangle", seen_.triangle),
+         reads_layer("merged_depth", merged_.depth, layer), reads_layer("merged_normal", merged_.normal, layer),
+         reads("EntryLimit", merged_.entry_limit), reads("PixelList", pixels), updates("Inside", inside),
+         updates("exit_direction", refraction_.exit_direction), updates("exit_position", refraction_.exit_position),
+         updates("transmittance", refraction_.transmittance), updates("path_events", refraction_.events)},
         search_, pixels);
     return inside;
 }
@@ -59,14 +57,13 @@ const Buffer& ObjectPasses::leave(const Buffer& pixels, std::uint32_t layer, std
             start_pixel_list(recorder_, frame_, reflection % 2 == 0 ? "rays reflected" : "rays reflected again");
         recorder_.compute_indirect(
             frame_.workspace.compute(shaders::leave_solid_comp, {{"kFromEye", from_eye && reflection == 0}}),
-            {reads("Frame", frame_.constants), reads("Objects", frame_.scene.objects),
-             reads("Materials", frame_.scene.materials), reads("layer_depth", layers_.depth),
-             reads("layer_triangle", layers_.triangle), reads("layer_normal", layers_.normal),
-             reads("seen_triangle", seen_.triangle), reads_layer("merged_depth", merged_.depth, layer),
-             reads_layer("merged_normal", merged_.normal, layer), reads("EntryLimit", merged_.entry_limit),
-             reads("PixelList", *searching), updates("Outside", outside), updates("Reflected", reflected),
-             updates("exit_direction", refraction_.exit_direction), updates("exit_position", refraction_.exit_position),
-             updates("transmittance", refraction_.transmittance), updates("path_events", refraction_.events)},
+            {frame_.bindings(), reads("layer_depth", layers_.depth), reads("layer_triangle", layers_.triangle),
+             reads("layer_normal", layers_.normal), reads("seen_triangle", seen_.triangle),
+             reads_layer("merged_depth", merged_.depth, layer), reads_layer("merged_normal", merged_.normal, layer),
+             reads("EntryLimit", merged_.entry_limit), reads("PixelList", *searching), updates("Outside", outside),
+             updates("Reflected", reflected), updates("exit_direction", refraction_.exit_direction),
+             updates("exit_position", refraction_.exit_position), updates("transmittance", refraction_.transmittance),
+             updates("path_events", refraction_.events)},
             search_, *searching);
         searching = &reflected;
     }
