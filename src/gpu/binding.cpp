@@ -40,7 +40,7 @@ vk::PipelineStageFlags2 stages_of(const BindingSlot& slot) {
     return stages;
 }
 
-vk::AccessFlags2 access_of(const BindingSlot& slot, Access access) {
+vk::AccessFlags2 access_of(const BindingSlot& slot) {
     if (slot.type == vk::DescriptorType::eAccelerationStructureKHR)
         return vk::AccessFlagBits2::eAccelerationStructureReadKHR;
     const bool sampled =
@@ -48,8 +48,8 @@ vk::AccessFlags2 access_of(const BindingSlot& slot, Access access) {
     const vk::AccessFlags2 read =
         sampled ? vk::AccessFlagBits2::eShaderSampledRead : vk::AccessFlagBits2::eShaderStorageRead;
     vk::AccessFlags2 flags;
-    if (access != Access::kWrite) flags |= read;
-    if (access != Access::kRead) flags |= vk::AccessFlagBits2::eShaderStorageWrite;
+    if (slot.readable) flags |= read;
+    if (slot.writable) flags |= vk::AccessFlagBits2::eShaderStorageWrite;
     return flags;
 }
 
@@ -70,19 +70,19 @@ const Binding& binding_of(const Program& program, const BindingSlot& slot, Bindi
         throw std::logic_error(fmt::format("{}: the shader reads '{}' as a texel buffer, '{}' is none", program.name(),
                                            slot.name, match->buffer->name()));
     }
-    check_access(program, slot, *match);
     return *match;
 }
 
-void check_names(const Program& program, Bindings bindings) {
+void check_own(const Program& program, Bindings bindings) {
     for (const Binding& binding : bindings) {
         if (binding.group != nullptr) continue;
-        if (std::ranges::count(program.slots(), binding.name, &BindingSlot::name) == 1 &&
-            find_binding(bindings, binding.name) == &binding)
-            continue;
-        throw std::logic_error(
-            fmt::format("{}: the pass binds '{}', which the shader does not declare, or a second time", program.name(),
-                        binding.name));
+        const auto slot = std::ranges::find(program.slots(), binding.name, &BindingSlot::name);
+        if (slot == program.slots().end() || find_binding(bindings, binding.name) != &binding) {
+            throw std::logic_error(
+                fmt::format("{}: the pass binds '{}', which the shader does not declare, or a second time",
+                            program.name(), binding.name));
+        }
+        check_access(program, *slot, binding);
     }
 }
 

@@ -22,7 +22,7 @@ struct Binding {
     const GpuImage* image = nullptr;
     std::optional<std::uint32_t> layer;  ///< bind one layer as a 2D image; default: all, as an array
     const AccelerationStructure* structure = nullptr;
-    const std::vector<Binding>* group = nullptr;  ///< stands for those of it that the shader declares
+    const std::vector<Binding>* group = nullptr;  ///< see all_of()
 };
 inline Binding reads(std::string_view name, const Buffer& b) { return {name, Access::kRead, &b, nullptr, {}}; }
 inline Binding reads(std::string_view name, const GpuImage& i) { return {name, Access::kRead, nullptr, &i, {}}; }
@@ -37,6 +37,9 @@ inline Binding writes(std::string_view name, const GpuImage& i) { return {name, 
 inline Binding updates(std::string_view name, const Buffer& b) { return {name, Access::kReadWrite, &b, nullptr, {}}; }
 inline Binding updates(std::string_view name, const GpuImage& i) { return {name, Access::kReadWrite, nullptr, &i, {}}; }
 
+/// Stands for those of a group that the shader declares, in the way in which it declares them.
+inline Binding all_of(const std::vector<Binding>& group) { return {.name = {}, .access = {}, .group = &group}; }
+
 /// Those of a pass, from a list in braces or any row of them.
 struct Bindings : std::span<const Binding> {
     Bindings(std::initializer_list<Binding> list) : std::span<const Binding>(list.begin(), list.size()) {}
@@ -44,14 +47,14 @@ struct Bindings : std::span<const Binding> {
     Bindings(const std::vector<Binding>& row) : std::span<const Binding>(row) {}
 };
 
-/// The binding of a pass for a slot of its program; its kind and access are checked. Throws std::logic_error, naming both
+/// The binding of a pass for a slot of its program; its kind is checked. Throws std::logic_error, naming both
 /// sides.
 const Binding& binding_of(const Program& program, const BindingSlot& slot, Bindings bindings);
-/// Throws std::logic_error if the pass binds what the shaders do not declare, or anything twice.
-void check_names(const Program& program, Bindings bindings);
+/// Throws std::logic_error if the pass itself binds what the shaders do not declare, or in another way, or anything twice.
+void check_own(const Program& program, Bindings bindings);
 
-/// Where and how a pass uses what is bound to a slot.
+/// Where and how shaders use what is bound to a slot.
 vk::PipelineStageFlags2 stages_of(const BindingSlot& slot);
-vk::AccessFlags2 access_of(const BindingSlot& slot, Access access);
+vk::AccessFlags2 access_of(const BindingSlot& slot);
 
 }  // namespace pellucid

@@ -39,7 +39,7 @@ struct Frame {
     const std::vector<Binding> group = frame_bindings(*this);
 
     /// What any pass may look at, by the names that shaders have for it: the scene, its environment and the constants.
-    Binding bindings() const { return {.name = {}, .access = Access::kRead, .group = &group}; }
+    Binding bindings() const { return all_of(group); }
 };
 
 }  // namespace pellucid

@@ -59,6 +59,9 @@ public:
 
     Refraction follow() {
         begin_branches();
+        group_ = path_bindings();
+        // Something has to be bound where there are no volumes.
+        volume_group_ = volumes_ != nullptr ? volumes_->bindings() : std::vector{reads("Volumes", *map_.maps)};
         for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = &start_pixel_list(recorder_, frame_, kListNames[i]);
         next_ = lists_[0];
         if (push_.whole_picture != 0 || !topology_.all_alone)
@@ -119,21 +122,39 @@ private:
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 
-    PathPass pass() const {
-        return {recorder_,
-                frame_,
-                layers_,
-                constants(),
-                {frame_.bindings()},
-                {updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
-                 updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_)},
-                {reads("Slots", topology_.slots), reads("Maps", *map_.maps), reads("map_triangles", *map_.triangles),
-                 reads("map_normals", *map_.normals), reads("texels", *map_.texels), reads("ranges", *map_.ranges),
-                 reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
-                 reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
-                 reads("candidate_lists", *map_.texels), reads("candidates", *map_.records)},
-                {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
-                push_};
+    PathPass pass() const { return {recorder_, frame_, constants(), all_of(group_), push_}; }
+
+    /// By the names of visibility_bindings.glsl, path_state.glsl, path_walk.glsl and path_light.glsl.
+    std::vector<Binding> path_bindings() const {
+        return {updates("PathPlaces", places_),
+                updates("PathWays", ways_buffer_),
+                updates("PathWeights", weights_),
+                updates("PathMedia", media_),
+                updates("Waiting", waiting_),
+                updates("Branches", *branches_),
+                reads("Slots", topology_.slots),
+                reads("Traits", topology_.traits),
+                reads("ShellTraits", topology_.shell_traits),
+                reads("Boxes", topology_.boxes),
+                reads("EyeMedia", topology_.eye),
+                reads("Maps", *map_.maps),
+                reads("map_triangles", *map_.triangles),
+                reads("map_normals", *map_.normals),
+                reads("texels", *map_.texels),
+                reads("ranges", *map_.ranges),
+                reads("records", *map_.records),
+                reads("pyramid", *map_.pyramid),
+                reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
+                reads("candidate_lists", *map_.texels),
+                reads("candidates", *map_.records),
+                reads("layer_triangle", layers_.triangle),
+                reads("opaque_depth", layers_.opaque.depth),
+                writes("exit_direction", refraction_.exit_direction),
+                writes("exit_position", refraction_.exit_position),
+                writes("transmittance", refraction_.transmittance),
+                writes("path_events", refraction_.events),
+                updates("path_radiance", *refraction_.radiance),
+                updates("reflected_radiance", reflected_)};
     }
 
     CountedBuffer& branches() {
@@ -155,33 +176,14 @@ private:
     void begin() {
         recorder_.compute_indirect(
             program(shaders::begin_paths_comp),
-            {frame_.bindings(), reads("map_triangles", *map_.triangles), reads("map_normals", *map_.normals),
-             reads("Traits", topology_.traits), reads("ShellTraits", topology_.shell_traits),
-             reads("Slots", topology_.slots), reads("layer_triangle", layers_.triangle),
-             reads("PixelList", layers_.covered), updates("NextList", *next_), updates("PathPlaces", places_),
-             updates("PathWays", ways_buffer_), updates("PathWeights", weights_), updates("PathMedia", media_),
-             updates("Waiting", waiting_), updates("Branches", *branches_),
-             writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)},
+            {frame_.bindings(), all_of(group_), reads("PixelList", layers_.covered), updates("NextList", *next_)},
             push_, layers_.covered);
     }
 
-    /// What passes that walk the maps have in common, and `own`.
-    static std::vector<Binding> walking(const PathPass& pass, std::initializer_list<Binding> own) {
-        std::vector<Binding> bindings = pass.scene;
-        for (const auto* more : {&pass.state, &pass.walk}) bindings.insert(bindings.end(), more->begin(), more->end());
-        bindings.insert(bindings.end(), own);
-        return bindings;
-    }
-    const Buffer& volume_records() const {
-        return volumes_ != nullptr ? volumes_->records() : *map_.maps;  // something has to be bound
-    }
-
     void begin_at_eye() {
-        const std::vector<Binding> bindings = walking(
-            pass(), {reads("layer_triangle", layers_.triangle), reads("opaque_depth", layers_.opaque.depth),
-                     reads("Volumes", volume_records()), reads("EyeMedia", topology_.eye), updates("NextList", *next_),
-                     writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)});
-        recorder_.compute(program(shaders::begin_at_eye_comp), bindings, push_, frame_.extent);
+        recorder_.compute(program(shaders::begin_at_eye_comp),
+                          {frame_.bindings(), all_of(group_), all_of(volume_group_), updates("NextList", *next_)},
+                          push_, frame_.extent);
     }
 
     /// Before paths go on: the host finds what those of the list may meet. Where there are none any more, nothing is left to
@@ -214,43 +216,20 @@ private:
     void follow(std::uint32_t pass, const Buffer& entering) {
         const Buffer& list = *next_;
         next_ = &start_pixel_list(recorder_, frame_, kListNames[1 - pass % 2]);
-        std::vector<Binding> bindings =
-            walking(this->pass(), {reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
-                                   reads("Boxes", topology_.boxes), reads("Volumes", volume_records()),
-                                   updates("EnteringList", entering)});
-        ShaderCode shader = shaders::follow_paths_comp;
-        if (const auto held = volumes_ != nullptr ? volumes_->held_follow() : std::nullopt) {
-            shader = held->shader;
-            bindings.insert(bindings.end(), held->bindings.begin(), held->bindings.end());
-        }
-        recorder_.compute_indirect(program(shader), bindings, push_, list);
+        recorder_.compute_indirect(
+            program(volumes_ != nullptr ? volumes_->follow_shader() : shaders::follow_paths_comp),
+            {frame_.bindings(), all_of(group_), all_of(volume_group_), reads("PixelList", list),
+             updates("NextList", *next_), updates("EndedList", *ended_), updates("EnteringList", entering)},
+            push_, list);
     }
 
     void end(const Buffer& list, bool closing) {
         PathPush push = push_;
         push.closing = closing ? 1 : 0;
-        std::vector<Binding> bindings = {frame_.bindings(),
-                                         reads("Slots", topology_.slots),
-                                         reads("PixelList", list),
-                                         updates("NextList", closing ? *ended_ : *next_),
-                                         updates("PathPlaces", places_),
-                                         updates("PathWays", ways_buffer_),
-                                         updates("PathWeights", weights_),
-                                         updates("PathMedia", media_),
-                                         updates("Waiting", waiting_),
-                                         updates("Branches", *branches_),
-                                         writes("exit_direction", refraction_.exit_direction),
-                                         writes("exit_position", refraction_.exit_position),
-                                         writes("transmittance", refraction_.transmittance),
-                                         writes("path_events", refraction_.events),
-                                         updates("path_radiance", *refraction_.radiance),
-                                         updates("reflected_radiance", reflected_)};
-        ShaderCode shader = shaders::end_paths_comp;
-        if (const auto lit = volumes_ != nullptr ? volumes_->lit_end() : std::nullopt) {
-            shader = lit->shader;
-            bindings.insert(bindings.end(), lit->bindings.begin(), lit->bindings.end());
-        }
-        recorder_.compute_indirect(program(shader), bindings, push, list);
+        recorder_.compute_indirect(program(volumes_ != nullptr ? volumes_->end_shader() : shaders::end_paths_comp),
+                                   {frame_.bindings(), all_of(group_), all_of(volume_group_), reads("PixelList", list),
+                                    updates("NextList", closing ? *ended_ : *next_)},
+                                   push, list);
     }
 
     Recorder& recorder_;
@@ -277,6 +256,7 @@ private:
     std::array<const Buffer*, 2> lists_{};  ///< of paths, which take turns
     const Buffer* next_ = nullptr;          ///< one of them
     const Buffer* ended_ = nullptr;
+    std::vector<Binding> group_, volume_group_;  ///< of all passes
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {

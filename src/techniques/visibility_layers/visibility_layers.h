@@ -6,7 +6,6 @@
 #include "techniques/technique.h"
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace pellucid {
@@ -48,12 +47,8 @@ struct PathPush {
 struct PathPass {
     Recorder& recorder;
     const Frame& frame;
-    const Layers& layers;
     std::vector<Constant> constants;  ///< of visibility_bindings.glsl
-    std::vector<Binding> scene;       ///< of visibility_bindings.glsl
-    std::vector<Binding> state;       ///< of path_state.glsl
-    std::vector<Binding> walk;        ///< of path_walk.glsl
-    std::vector<Binding> light;       ///< of path_light.glsl
+    Binding bindings;                 ///< of paths, the maps that they walk, and what they leave
     PathPush push;
 };
 
@@ -61,19 +56,14 @@ struct PathPass {
 class PathVolumes {
 public:
     virtual ~PathVolumes() = default;
-    virtual const Buffer& records() const = 0;  ///< VolumeRecord[]
+    virtual std::vector<Binding> bindings() const = 0;  ///< of volumes, and of their light
     virtual void set(PathPush& push) const = 0;
     /// Takes the paths of `entering` through volumes; into `next` or, where they end, `ended`.
     virtual void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const = 0;
-    /// A program that takes another's place.
-    struct Variant {
-        ShaderCode shader;
-        std::vector<Binding> bindings;  ///< besides those that it has otherwise
-    };
-    /// Of the program that ends paths where lights shine on what they end on; none where there are no lights.
-    virtual std::optional<Variant> lit_end() const = 0;
-    /// Of the program that takes paths from surface to surface, where solids hold volumes.
-    virtual std::optional<Variant> held_follow() const = 0;
+    /// Ends paths, on what lights shine on where there are some.
+    virtual ShaderCode end_shader() const = 0;
+    /// Takes paths from surface to surface, where solids may hold volumes.
+    virtual ShaderCode follow_shader() const = 0;
 };
 
 /// Texels of a mesh's maps along the longest side of its box, unless a parameter says otherwise.
