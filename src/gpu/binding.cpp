@@ -21,12 +21,14 @@ void check_access(const Program& program, const BindingSlot& slot, const Binding
                                        access_name(reads_it, writes_it)));
 }
 
+/// What the pass binds itself comes before what groups have.
 const Binding* find_binding(Bindings bindings, std::string_view name) {
+    const Binding* found = nullptr;
     for (const Binding& binding : bindings) {
-        const Binding* const found = binding.group == nullptr ? &binding : find_binding(*binding.group, name);
-        if (found != nullptr && found->name == name) return found;
+        if (binding.group == nullptr && binding.name == name) return &binding;
+        if (binding.group != nullptr && found == nullptr) found = find_binding(*binding.group, name);
     }
-    return nullptr;
+    return found;
 }
 
 }  // namespace

@@ -20,9 +20,6 @@ struct TracedView {
     Progress progress;
 };
 
-struct Frame;
-std::vector<Binding> frame_bindings(const Frame& frame);
-
 /// What every pass of a frame may look at.
 struct Frame {
     Workspace& workspace;
@@ -36,8 +33,17 @@ struct Frame {
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
     const TracedView* traced = nullptr;                  ///< for techniques that trace on the CPU; null for others
-    const std::vector<Binding> group = frame_bindings(*this);
 
+    std::vector<Binding> group = {reads("Frame", constants),
+                                  reads("Objects", scene.objects),
+                                  reads("Materials", scene.materials),
+                                  reads("Indices", scene.indices),
+                                  reads("Vertices", scene.vertices),
+                                  reads("Appearance", scene.appearance),
+                                  reads("Textures", scene.textures),
+                                  reads("texture_pages", scene.texture_pages),
+                                  reads_layer("environment_map", environment, 0),
+                                  reads_layer("filtered_environment", filtered_environment, 0)};
     /// What any pass may look at, by the names that shaders have for it: the scene, its environment and the constants.
     Binding bindings() const { return all_of(group); }
 };

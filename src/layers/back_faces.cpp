@@ -4,6 +4,7 @@
 #include "layers/shaders.h"
 
 namespace pellucid {
+
 BackFaces draw_back_faces(Recorder& recorder, const Frame& frame, std::span<const DrawCall> solids, BackFace which) {
     Workspace& workspace = frame.workspace;
     const Program& program = workspace.graphics({.vertex = shaders::layer_vert,

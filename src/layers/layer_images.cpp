@@ -6,6 +6,7 @@
 #include <array>
 
 namespace pellucid {
+
 LayerImages allocate_layers(const Frame& frame, const LayerRequest& request) {
     Workspace& workspace = frame.workspace;
     return {workspace.image(request.name + " depth", vk::Format::eR32Sfloat, frame.extent, request.count),

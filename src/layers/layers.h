@@ -42,6 +42,12 @@ struct Layers {
     std::uint32_t count;
     const Opaque& opaque;
     LayerSource& source;  ///< builds more, for techniques that look at objects one by one
+    std::vector<Binding> group = {reads("layer_depth", depth),          reads("layer_triangle", triangle),
+                                  reads("layer_normal", normal),        reads("PixelList", covered),
+                                  reads("opaque_depth", opaque.depth),  reads("opaque_radiance", opaque.radiance),
+                                  reads("opaque_object", opaque.object)};
+    /// All of this by the names that shaders have for it; "PixelList" is `covered`, unless the pass has another.
+    Binding bindings() const { return all_of(group); }
 };
 
 /// Bytes of a fragment in its list; twin of Node in fragment_list.glsl.

@@ -5,6 +5,7 @@
 #include <array>
 
 namespace pellucid {
+
 Layers LayerSource::peel(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request) {
     Workspace& workspace = frame.workspace;
     const Program& program = workspace.graphics({.vertex = shaders::layer_vert,

@@ -96,11 +96,9 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
         frame.extent);
     recorder.compute_indirect(
         workspace.compute(shaders::shade_comp, constants),
-        {frame.bindings(), reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
-         reads("PixelList", layers.covered), reads("thin_tint", walls.thin_tint),
-         reads("thin_reflection", walls.thin_reflection), reads("exit_direction", refraction.exit_direction),
-         reads("transmittance", refraction.transmittance), reads("path_events", refraction.events),
-         reads("path_radiance", path_radiance), reads("reflected_radiance", reflected), writes("radiance", radiance)},
+        {frame.bindings(), layers.bindings(), refraction.bindings(), reads("thin_tint", walls.thin_tint),
+         reads("thin_reflection", walls.thin_reflection), reads("path_radiance", path_radiance),
+         reads("reflected_radiance", reflected), writes("radiance", radiance)},
         layers.covered);
     if (refraction.picture) {
         recorder.compute(workspace.compute(shaders::compose_picture_comp, constants),

@@ -31,6 +31,11 @@ struct Refraction {
     /// Null: none.
     const GpuImage* picture = nullptr;
     bool everywhere = false;  ///< pixels without glass hold the view ray, and what it meets
+
+    std::vector<Binding> group = {updates("exit_direction", exit_direction), updates("exit_position", exit_position),
+                                  updates("transmittance", transmittance), updates("path_events", events)};
+    /// The first four by the names that shaders have for them.
+    Binding bindings() const { return all_of(group); }
 };
 /// `with_radiance`: for techniques that pick up radiance.
 Refraction allocate_refraction(const Frame& frame, bool with_radiance = false);

@@ -58,12 +58,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const Refraction refraction = clear_refraction(recorder, frame, true);
     recorder.compute_indirect(
         frame.workspace.compute(shaders::kay_greenberg_1979_comp),
-        {frame.bindings(), reads("layer_depth", layers.depth), reads("layer_triangle", layers.triangle),
-         reads("layer_normal", layers.normal), reads("PixelList", layers.covered),
-         writes("exit_direction", refraction.exit_direction), writes("exit_position", refraction.exit_position),
-         writes("transmittance", refraction.transmittance), writes("path_events", refraction.events),
-         reads("opaque_depth", layers.opaque.depth), reads("opaque_radiance", layers.opaque.radiance),
-         reads("opaque_object", layers.opaque.object), writes("path_radiance", *refraction.radiance)},
+        {frame.bindings(), layers.bindings(), refraction.bindings(), writes("path_radiance", *refraction.radiance)},
         push_of(parameters, frame.scene), layers.covered);
     return refraction;
 }

@@ -22,14 +22,10 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const Refraction refraction = clear_refraction(recorder, frame);
     const std::array push = {parameters.whole("steps"), parameters.whole("binary-steps"),
                              parameters.whole("interpolate")};
-    recorder.compute_indirect(
-        frame.workspace.compute(shaders::oliveira_brauwers_2007_comp),
-        {frame.bindings(), reads("layer_depth", layers.depth), reads("layer_triangle", layers.triangle),
-         reads("layer_normal", layers.normal), reads("PixelList", layers.covered),
-         writes("exit_direction", refraction.exit_direction), writes("exit_position", refraction.exit_position),
-         writes("transmittance", refraction.transmittance), writes("path_events", refraction.events),
-         reads("back_depth", back.depth), reads("back_normal", back.normal)},
-        push, layers.covered);
+    recorder.compute_indirect(frame.workspace.compute(shaders::oliveira_brauwers_2007_comp),
+                              {frame.bindings(), layers.bindings(), refraction.bindings(),
+                               reads("back_depth", back.depth), reads("back_normal", back.normal)},
+                              push, layers.covered);
     return refraction;
 }
 

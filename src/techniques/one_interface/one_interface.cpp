@@ -7,13 +7,8 @@ namespace {
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues&) {
     const Recorder::Scope scope(recorder, "trace");
     const Refraction refraction = clear_refraction(recorder, frame);
-    recorder.compute_indirect(
-        frame.workspace.compute(shaders::one_interface_comp),
-        {frame.bindings(), reads("layer_depth", layers.depth), reads("layer_triangle", layers.triangle),
-         reads("layer_normal", layers.normal), reads("PixelList", layers.covered),
-         writes("exit_direction", refraction.exit_direction), writes("exit_position", refraction.exit_position),
-         writes("transmittance", refraction.transmittance), writes("path_events", refraction.events)},
-        layers.covered);
+    recorder.compute_indirect(frame.workspace.compute(shaders::one_interface_comp),
+                              {frame.bindings(), layers.bindings(), refraction.bindings()}, layers.covered);
     return refraction;
 }
 

@@ -147,12 +147,8 @@ private:
                 reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
                 reads("candidate_lists", *map_.texels),
                 reads("candidates", *map_.records),
-                reads("layer_triangle", layers_.triangle),
-                reads("opaque_depth", layers_.opaque.depth),
-                writes("exit_direction", refraction_.exit_direction),
-                writes("exit_position", refraction_.exit_position),
-                writes("transmittance", refraction_.transmittance),
-                writes("path_events", refraction_.events),
+                layers_.bindings(),
+                refraction_.bindings(),
                 updates("path_radiance", *refraction_.radiance),
                 updates("reflected_radiance", reflected_)};
     }
@@ -174,10 +170,9 @@ private:
     }
 
     void begin() {
-        recorder_.compute_indirect(
-            program(shaders::begin_paths_comp),
-            {frame_.bindings(), all_of(group_), reads("PixelList", layers_.covered), updates("NextList", *next_)},
-            push_, layers_.covered);
+        recorder_.compute_indirect(program(shaders::begin_paths_comp),
+                                   {frame_.bindings(), all_of(group_), updates("NextList", *next_)}, push_,
+                                   layers_.covered);
     }
 
     void begin_at_eye() {

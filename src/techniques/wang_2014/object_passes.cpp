@@ -6,6 +6,7 @@
 #include <array>
 
 namespace pellucid {
+
 ObjectPasses::ObjectPasses(Recorder& recorder, const Frame& frame, const Layers& seen, const Layers& layers,
                            const Refraction& refraction, const ObjectSearch& search)
     : recorder_(recorder), frame_(frame), seen_(seen), layers_(layers), refraction_(refraction), search_(search),
@@ -37,12 +38,9 @@ const Buffer& ObjectPasses::enter(const Buffer& pixels, std::uint32_t layer) {
     search_.layer = layer;
     recorder_.compute_indirect(
         frame_.workspace.compute(shaders::enter_solid_comp, {{"kNextObject", layer == 0}}),
-        {frame_.bindings(), reads("layer_depth", layers_.depth), reads("layer_triangle", layers_.triangle),
-         reads("layer_normal", layers_.normal), reads("seen_triangle", seen_.triangle),
+        {frame_.bindings(), layers_.bindings(), refraction_.bindings(), reads("seen_triangle", seen_.triangle),
          reads_layer("merged_depth", merged_.depth, layer), reads_layer("merged_normal", merged_.normal, layer),
-         reads("EntryLimit", merged_.entry_limit), reads("PixelList", pixels), updates("Inside", inside),
-         updates("exit_direction", refraction_.exit_direction), updates("exit_position", refraction_.exit_position),
-         updates("transmittance", refraction_.transmittance), updates("path_events", refraction_.events)},
+         reads("EntryLimit", merged_.entry_limit), reads("PixelList", pixels), updates("Inside", inside)},
         search_, pixels);
     return inside;
 }
@@ -57,13 +55,10 @@ const Buffer& ObjectPasses::leave(const Buffer& pixels, std::uint32_t layer, std
             start_pixel_list(recorder_, frame_, reflection % 2 == 0 ? "rays reflected" : "rays reflected again");
         recorder_.compute_indirect(
             frame_.workspace.compute(shaders::leave_solid_comp, {{"kFromEye", from_eye && reflection == 0}}),
-            {frame_.bindings(), reads("layer_depth", layers_.depth), reads("layer_triangle", layers_.triangle),
-             reads("layer_normal", layers_.normal), reads("seen_triangle", seen_.triangle),
+            {frame_.bindings(), layers_.bindings(), refraction_.bindings(), reads("seen_triangle", seen_.triangle),
              reads_layer("merged_depth", merged_.depth, layer), reads_layer("merged_normal", merged_.normal, layer),
              reads("EntryLimit", merged_.entry_limit), reads("PixelList", *searching), updates("Outside", outside),
-             updates("Reflected", reflected), updates("exit_direction", refraction_.exit_direction),
-             updates("exit_position", refraction_.exit_position), updates("transmittance", refraction_.transmittance),
-             updates("path_events", refraction_.events)},
+             updates("Reflected", reflected)},
             search_, *searching);
         searching = &reflected;
     }

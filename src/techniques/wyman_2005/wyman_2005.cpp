@@ -33,12 +33,7 @@ void find_nearby_geometry(Recorder& recorder, const Frame& frame, const Layers& 
     const std::array push = {parameters.whole("nearby-steps"), parameters.whole("nearby-binary-steps")};
     recorder.compute_indirect(
         frame.workspace.compute(shaders::nearby_geometry_comp),
-        {frame.bindings(), reads("layer_depth", layers.depth), reads("layer_triangle", layers.triangle),
-         reads("PixelList", layers.covered), updates("exit_direction", refraction.exit_direction),
-         updates("exit_position", refraction.exit_position), updates("transmittance", refraction.transmittance),
-         updates("path_events", refraction.events), reads("opaque_radiance", layers.opaque.radiance),
-         reads("opaque_depth", layers.opaque.depth), reads("opaque_object", layers.opaque.object),
-         writes("path_radiance", *refraction.radiance)},
+        {frame.bindings(), layers.bindings(), refraction.bindings(), writes("path_radiance", *refraction.radiance)},
         push, layers.covered);
 }
 
@@ -54,12 +49,8 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const Refraction refraction = clear_refraction(recorder, frame, nearby);
     recorder.compute_indirect(
         frame.workspace.compute(shaders::wyman_2005_comp, {{"kSampled", distances == Distances::kSampled}}),
-        {frame.bindings(), reads("layer_depth", layers.depth), reads("layer_triangle", layers.triangle),
-         reads("layer_normal", layers.normal), reads("PixelList", layers.covered),
-         writes("exit_direction", refraction.exit_direction), writes("exit_position", refraction.exit_position),
-         writes("transmittance", refraction.transmittance), writes("path_events", refraction.events),
-         reads("back_depth", back.depth), reads("back_normal", back.normal), reads("BakedObjects", baked.objects),
-         reads("Distances", baked.values)},
+        {frame.bindings(), layers.bindings(), refraction.bindings(), reads("back_depth", back.depth),
+         reads("back_normal", back.normal), reads("BakedObjects", baked.objects), reads("Distances", baked.values)},
         side, layers.covered);
     if (nearby) find_nearby_geometry(recorder, frame, layers, refraction, parameters);
     return refraction;
