@@ -67,8 +67,8 @@ public:
     struct Graphics {
         ShaderCode vertex;
         ShaderCode fragment;
-        std::vector<vk::Format> colors;  ///< attachments; empty draws without any
-        bool depth = false;              ///< D32 attachment, nearest fragment wins
+        std::vector<vk::Format> colors = {};  ///< attachments; empty draws without any
+        bool depth = false;                   ///< D32 attachment, nearest fragment wins
         Blend blend = Blend::kReplace;
     };
     static Program graphics(const Device& device, const Graphics& state);

@@ -31,9 +31,9 @@ struct RenderTarget {
         std::optional<vk::ClearValue> clear;
     };
     vk::Extent2D extent;
-    std::vector<Attachment> colors;
-    std::optional<Attachment> depth;
-    vk::Rect2D scissor;  ///< zero extent: everything
+    std::vector<Attachment> colors = {};
+    std::optional<Attachment> depth = {};
+    vk::Rect2D scissor = {};  ///< zero extent: everything
 };
 
 /// Triangle corners of one object: the shader sees them as gl_VertexIndex, which counts in GpuScene::indices,

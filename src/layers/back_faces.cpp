@@ -17,8 +17,7 @@ BackFaces draw_back_faces(Recorder& recorder, const Frame& frame, std::span<cons
     const RenderTarget target{.extent = frame.extent,
                               .colors = {{&images.depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
                                          {&images.triangle, 0, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})}},
-                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-                              .scissor = {}};
+                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}};
     const Recorder::Scope scope(recorder, "back faces");
     recorder.draw(program, {frame.bindings()}, which == BackFace::kFarthest ? 1u : 0u, target, solids);
     resolve_normals(recorder, frame, images, request);

@@ -45,9 +45,7 @@ Sides peel_both_sides(Recorder& recorder, const Frame& frame, const Opaque& opaq
     const vk::ClearValue nothing = vk::ClearColorValue(std::array{-float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f});
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
         const RenderTarget target{.extent = frame.extent,
-                                  .colors = {{&sides.near_side, pass, nothing}, {&sides.far_side, pass, nothing}},
-                                  .depth = {},
-                                  .scissor = {}};
+                                  .colors = {{&sides.near_side, pass, nothing}, {&sides.far_side, pass, nothing}}};
         // Before the first pass there is nothing to read; something of the right kind has to be bound.
         const bool first = pass == 0;
         const std::uint32_t last = first ? 0 : pass - 1;

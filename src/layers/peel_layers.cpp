@@ -22,8 +22,7 @@ Layers LayerSource::peel(Recorder& recorder, const Frame& frame, const Opaque& o
         const RenderTarget target{.extent = frame.extent,
                                   .colors = {{&images.depth, layer, clear_to(float(PELLUCID_EMPTY_DEPTH))},
                                              {&images.triangle, layer, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})}},
-                                  .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-                                  .scissor = {}};
+                                  .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}};
         recorder.draw(program,
                       {frame.bindings(), reads("opaque_depth", opaque.depth),
                        reads_layer("last_depth", layer > 0 ? images.depth : opaque.depth, last),

@@ -85,11 +85,9 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
         if (in_compute) {
             rasterise_fragments(recorder, frame, request, {heads, nodes, first_row, first_row + rows});
         } else {
-            const Program& gather = workspace.graphics(
-                {.vertex = shaders::layer_vert, .fragment = shaders::gather_fragments_frag, .colors = {}});
+            const Program& gather =
+                workspace.graphics({.vertex = shaders::layer_vert, .fragment = shaders::gather_fragments_frag});
             const RenderTarget target{.extent = frame.extent,
-                                      .colors = {},
-                                      .depth = {},
                                       .scissor = {{0, std::int32_t(first_row)}, {frame.extent.width, rows}}};
             recorder.draw(gather, {frame.bindings(), updates("Nodes", nodes), updates("heads", heads)}, target,
                           request.solids);

@@ -37,8 +37,7 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
                               .colors = {{&radiance, 0, clear_to(0.0f)},
                                          {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
                                          {&object, 0, clear_to({0u, 0u, 0u, 0u})}},
-                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-                              .scissor = {}};
+                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}};
     recorder.draw(program, {frame.bindings()}, target, frame.scene.opaque);
     return {radiance, depth, object};
 }
@@ -56,8 +55,7 @@ ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& 
     const GpuImage& thin_tint = look_image("thin tint");
     const GpuImage& thin_reflection = look_image("thin reflection");
     const auto target = [&](const GpuImage& image, float clear) {
-        return RenderTarget{
-            .extent = frame.extent, .colors = {{&image, 0, clear_to(clear)}}, .depth = {}, .scissor = {}};
+        return RenderTarget{.extent = frame.extent, .colors = {{&image, 0, clear_to(clear)}}};
     };
     const GpuScene& scene = frame.scene;
 

@@ -75,8 +75,7 @@ TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, c
                                          {&transmitted, 0, clear_to(0.0f)},
                                          {&triangle, 0, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})},
                                          {&normal, 0, clear_to({0u, 0u, 0u, 0u})}},
-                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-                              .scissor = {}};
+                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}};
     recorder.draw(program, {frame.bindings(), reads("opaque_depth", opaque.depth)}, target, scene.translucent);
     const Buffer& pixels =
         list_pixels(recorder, frame, triangle, PELLUCID_NO_TRIANGLE, "translucent pixels", 0, frame.extent.height);

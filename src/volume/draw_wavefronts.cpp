@@ -26,8 +26,7 @@ void draw_wavefronts(Recorder& recorder, const Frame& frame, const Buffer& shown
     recorder.draw(draw, {frame.bindings(), reads("Shown", shown), reads("opaque_depth", opaque_depth)}, exposure,
                   RenderTarget{.extent = frame.extent,
                                .colors = {{&radiance, 0, {}}},
-                               .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-                               .scissor = {}},
+                               .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}},
                   std::span(&all, 1));
 }
 
