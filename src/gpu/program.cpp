@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 
 namespace pellucid {
@@ -105,9 +107,13 @@ std::string ProgramInterface::lacking(const vk::PhysicalDeviceLimits& limits) co
 }
 
 std::string lacking_limit(ShaderCode compute, const vk::PhysicalDeviceLimits& limits) {
-    ProgramInterface interface;
-    interface.add(compute, vk::ShaderStageFlagBits::eCompute);
-    return interface.lacking(limits);
+    // Reflection takes milliseconds, and renderers ask before every frame.
+    static std::mutex mutex;
+    static std::map<const std::uint32_t*, ProgramInterface> known;
+    const std::lock_guard lock(mutex);
+    const auto [found, first] = known.try_emplace(compute.words.data());
+    if (first) found->second.add(compute, vk::ShaderStageFlagBits::eCompute);
+    return found->second.lacking(limits);
 }
 
 void Program::make_layouts(const Device& device) {
