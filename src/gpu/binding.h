@@ -20,7 +20,7 @@ struct Binding {
     Access access;
     const Buffer* buffer = nullptr;
     const GpuImage* image = nullptr;
-    std::optional<std::uint32_t> layer;  ///< bind one layer as a 2D image; default: all, as an array
+    std::optional<std::uint32_t> layer = {};  ///< bind one layer as a 2D image; default: all, as an array
     const AccelerationStructure* structure = nullptr;
     const std::vector<Binding>* group = nullptr;  ///< see all_of()
 };

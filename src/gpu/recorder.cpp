@@ -119,7 +119,6 @@ void Recorder::bind(const Program& program, Bindings bindings, std::span<const s
         throw std::logic_error(fmt::format("{}: the shader has {} bytes of push constants, the pass {}", program.name(),
                                            program.push_size(), push_offset + push.size()));
     }
-    check_own(program, bindings);
     const std::size_t count = program.slots().size();
     std::vector<vk::WriteDescriptorSet> set_writes;
     std::vector<vk::DescriptorBufferInfo> buffers(count);
@@ -157,6 +156,7 @@ void Recorder::bind(const Program& program, Bindings bindings, std::span<const s
         }
         uses.push_back({id, stages_of(slot), access_of(slot), slot.writable});
     }
+    check_own(program, bindings);
     device_.handle().updateDescriptorSets(set_writes, nullptr);
     commands_.bindPipeline(program.bind_point(), program.pipeline());
     commands_.bindDescriptorSets(program.bind_point(), program.layout(), 0, set, nullptr);
