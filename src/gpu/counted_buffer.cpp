@@ -28,8 +28,8 @@ const Buffer& CountedBuffer::begin(Recorder& recorder, Workspace& workspace, std
     limit_ = limit(workspace.device());
     if (capacity_ == 0) set_capacity(std::min<std::uint64_t>(guess, limit_));
     if (capacity_ > limit_) {
-        throw TooLarge(fmt::format("{} {} in the picture; {} has room for {}", capacity_, name_,
-                                   workspace.device().info().name, limit_));
+        throw TooLarge(
+            fmt::format("{} has room for {} {}, not for {}", workspace.device().info().name, limit_, name_, capacity_));
     }
     buffer_ = &workspace.buffer(name_, kHeaderSize + capacity_ * item_size_, host_visible_, texels_);
     recorder.fill(*buffer_, 0, kHeaderSize, 0);

@@ -81,7 +81,7 @@ constexpr std::uint32_t kCoarsest = 8;  // texels; what a scene whose maps do no
 }  // namespace
 
 MeshMaps::MeshMaps()
-    : found_("surfaces in a mesh's map", kMapFoundSize, kMapFormat), tiles_("tiles of a mesh's map", kMapTileSize) {}
+    : found_("surfaces in texels of a mesh", kMapFoundSize, kMapFormat), tiles_("tiles of a mesh", kMapTileSize) {}
 
 SurfaceMap MeshMaps::buffers() const {
     return {&maps_, &triangles_, &normals_, &texels_, &ranges_, &records_, &pyramid_, &objects_};

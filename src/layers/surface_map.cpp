@@ -95,7 +95,7 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     Workspace& workspace = frame.workspace;
     const MapRecord record = record_of(projection);
     const std::uint64_t texels = texel_count(record);
-    CountedBuffer& found = counted("surfaces in the map", kMapFoundSize, kMapFormat);
+    CountedBuffer& found = counted("surfaces in texels", kMapFoundSize, kMapFormat);
     found.begin(recorder, workspace, 4 * texels);
     const Buffer& maps = workspace.buffer("map projections", sizeof(MapRecord), true);
     std::memcpy(maps.mapped(), &record, sizeof(record));
@@ -120,7 +120,7 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
                0,
                found.capacity(),
                found,
-               counted("tiles of the map", kMapTileSize),
+               counted("tiles of large triangles", kMapTileSize),
                {}});
     return map;
 }
