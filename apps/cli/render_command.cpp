@@ -34,6 +34,8 @@ struct RenderArguments {
     std::optional<std::string> camera;
     std::optional<double> fov_deg;
     std::uint32_t samples = 1;
+    double error = 0.0;
+    std::uint32_t most_samples = RenderSettings().most_samples;
     std::string tonemap = "neutral";
     double exposure_ev = 0.0;
     double unit_luminance_cd_m2 = double(RenderSettings().unit_luminance_cd_m2);
@@ -74,6 +76,8 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     settings.layer_builder = parse_layer_builder(arguments.layer_builder);
     settings.view = parse_view(arguments.view);
     settings.samples = arguments.samples;
+    settings.error = float(arguments.error);
+    settings.most_samples = arguments.most_samples;
     settings.thickness = thickness_settings(arguments.thickness);
     settings.tonemap = parse_tonemap(arguments.tonemap);
     settings.exposure_ev = float(arguments.exposure_ev);
@@ -120,6 +124,12 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}},
                                 {"covered", result.covered},
                                 {"side_conflicts", result.side_conflicts}};
+    if (settings.error > 0.0f) {
+        const auto& counts = result.sample_counts.pixels;
+        json["samples"] = mean(result.sample_counts);
+        json["error"] = settings.error;
+        json["most_samples"] = *std::max_element(counts.begin(), counts.end());
+    }
     if (arguments.how.animation) json["animation"] = *arguments.how.animation;
     if (arguments.how.time_s) json["time_s"] = *arguments.how.time_s;
     add_technique(json, technique);
@@ -145,25 +155,28 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
     return json;
 }
 
-/// Radiance with what is known about its error: channels R, G, B, their standard errors, and the samples.
+/// Radiance with what is known about its error: channels R, G, B, their standard errors if the technique estimates them,
+/// and the samples of the pixel.
 void write_estimate(const std::string& file, const RenderResult& result, std::uint32_t samples) {
-    const Image &radiance = result.radiance, &error = result.standard_error;
-    Image image(radiance.width, radiance.height, 7);
+    const Image &radiance = result.radiance, &error = result.standard_error, &counts = result.sample_counts;
+    std::vector<std::string> names{"R", "G", "B"};
+    if (!error.pixels.empty()) names.insert(names.end(), {"error.R", "error.G", "error.B"});
+    names.push_back("samples");
+    Image image(radiance.width, radiance.height, int(names.size()));
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-            float* pixel = image.at(x, y);
-            std::copy_n(radiance.at(x, y), 3, pixel);
-            std::copy_n(error.at(x, y), 3, pixel + 3);
-            pixel[6] = float(samples);
+            float* to = std::copy_n(radiance.at(x, y), 3, image.at(x, y));
+            if (!error.pixels.empty()) to = std::copy_n(error.at(x, y), 3, to);
+            *to = counts.pixels.empty() ? float(samples) : *counts.at(x, y);
         }
     }
-    write_image(file, image, {"R", "G", "B", "error.R", "error.G", "error.B", "samples"});
+    write_image(file, image, names);
 }
 
 void write_outputs(const RenderArguments& arguments, const RenderResult& result, const nlohmann::ordered_json& json) {
     if (lower_extension(arguments.output) != ".exr") {
         write_image(arguments.output, result.display);
-    } else if (result.standard_error.pixels.empty()) {
+    } else if (result.standard_error.pixels.empty() && result.sample_counts.pixels.empty()) {
         write_image(arguments.output, result.radiance);
     } else {
         write_estimate(arguments.output, result, arguments.samples);
@@ -234,6 +247,16 @@ void add_render_command(CLI::App& app) {
     add_number(*command, "--samples", a.samples,
                "Jittered frames, averaged in linear light; of the technique path: paths per pixel")
         ->capture_default_str();
+    add_number(
+        *command, "--error", a.error,
+        "Each pixel takes the samples that its standard error needs to be at most X, as a share of its luminance "
+        "and middle grey; smooth pixels take few, noisy ones many")
+        ->check(CLI::PositiveNumber)
+        ->type_name("X")
+        ->excludes("--samples");
+    add_number(*command, "--most-samples", a.most_samples, "Of a pixel, with --error")
+        ->capture_default_str()
+        ->needs("--error");
     command
         ->add_option("--tonemap", a.tonemap, "none, reinhard, aces, neutral, or krawczyk, which adapts to the picture")
         ->capture_default_str()

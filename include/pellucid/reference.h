@@ -42,6 +42,9 @@ struct PathTraceSettings {
     std::uint32_t width = 512;  ///< pixels
     std::uint32_t height = 512;
     std::uint32_t samples = 64;  ///< paths per pixel, over the pixel's area
+    /// Paths of every pixel, rows from the top, in place of `samples`; empty: all alike.
+    std::vector<std::uint32_t> samples_of_pixels = {};
+    std::uint32_t first_sample = 0;  ///< pictures with the same seed and other samples are independent
     std::uint32_t seed = 1;
     std::uint32_t max_vertices = 256;  ///< a path that is longer is cut and counted
 };

@@ -63,6 +63,11 @@ struct RenderSettings {
     View view = View::kRadiance;
     /// Jittered frames, averaged in linear light. 1 samples pixel centres. AOVs always do.
     std::uint32_t samples = 1;
+    /// Above 0: each pixel takes as many samples as its standard error needs to be this small at most, as a share of its
+    /// luminance and middle grey (0.18 at an exposure of 0), but `most_samples`; `samples` goes unused. 8 samples of every
+    /// pixel are drawn first to tell, and are no part of the picture, which stays unbiased.
+    float error = 0.0f;
+    std::uint32_t most_samples = 256;
     /// False: the samples stand for frames that follow each other, each drawn with what a picture of one sample would
     /// spend; for timing. A technique may do more for each sample of a still.
     bool still = true;
@@ -103,8 +108,9 @@ struct RenderResult {
     std::map<std::string, Image, std::less<>> aovs;
     std::vector<RefractedPath> paths;  ///< if asked for: one per pixel, through its centre, rows from the top
     Image standard_error;              ///< RGB, of `radiance`, where the technique estimates it (path); else empty
-    std::uint64_t cut_paths = 0;       ///< technique path: paths that reached its limit of length
-    float adapted_cd_m2 = 0.0f;        ///< tone map kKrawczyk: the luminance that the eye has adapted to; else 0
+    Image sample_counts;  ///< 1 channel: samples of every pixel, where RenderSettings::error chose them; else empty
+    std::uint64_t cut_paths = 0;  ///< technique path: paths that reached its limit of length
+    float adapted_cd_m2 = 0.0f;   ///< tone map kKrawczyk: the luminance that the eye has adapted to; else 0
     /// One entry per sample; empty where the device has no timestamps. On the software driver the
     /// first frame of a size includes compiling the shaders.
     std::vector<std::vector<PassTime>> frames;

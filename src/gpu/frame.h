@@ -20,6 +20,12 @@ struct TracedView {
     Progress progress;
 };
 
+/// How many samples every pixel gets, where that differs from pixel to pixel.
+struct WantedSamples {
+    const GpuImage& counts;    ///< R32UI, of the tile
+    std::uint32_t sample = 0;  ///< that this frame draws, from 0: pixels that want no more need not be drawn
+};
+
 /// What every pass of a frame may look at.
 struct Frame {
     Workspace& workspace;
@@ -31,6 +37,7 @@ struct Frame {
     vk::Extent2D extent;                   ///< of the tile that is drawn
     glm::uvec2 first{0};                   ///< its first pixel in the picture
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
+    std::optional<WantedSamples> wanted_samples = std::nullopt;
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
     const TracedView* traced = nullptr;                  ///< for techniques that trace on the CPU; null for others
 

@@ -17,7 +17,7 @@ LayerImages allocate_layers(const Frame& frame, const LayerRequest& request) {
 const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const LayerImages& images,
                               const LayerRequest& request) {
     const Buffer& covered = list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE,
-                                        request.name + " pixels", 0, frame.extent.height);
+                                        request.name + " pixels", 0, frame.extent.height, frame.wanted_samples);
     const bool one_object = request.solids.size() == 1;
     recorder.compute_indirect(frame.workspace.compute(shaders::resolve_normals_comp, {{"kOneObject", one_object}}),
                               {frame.bindings(), reads("layer_triangle", images.triangle),

@@ -7,7 +7,8 @@ namespace pellucid {
 namespace {
 
 constexpr vk::DeviceSize kHeaderWords = 4;  // arguments of the dispatch, and the length
-constexpr std::uint32_t kListGroup = 64;    // PELLUCID_LIST_GROUP of pixel_list.glsl
+constexpr std::uint32_t kEverySample = ~0u;
+constexpr std::uint32_t kListGroup = 64;  // PELLUCID_LIST_GROUP of pixel_list.glsl
 
 }  // namespace
 
@@ -22,11 +23,14 @@ const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::stri
 }
 
 const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage& marks, std::uint32_t empty,
-                          std::string_view name, std::uint32_t first_row, std::uint32_t row_end) {
+                          std::string_view name, std::uint32_t first_row, std::uint32_t row_end,
+                          const std::optional<WantedSamples>& wanted) {
     const Buffer& list = start_pixel_list(recorder, frame, name);
-    recorder.compute(frame.workspace.compute(shaders::list_pixels_comp),
-                     {reads("marks", marks), updates("PixelList", list)}, std::array{empty, first_row, row_end},
-                     {frame.extent.width, row_end - first_row});
+    recorder.compute(
+        frame.workspace.compute(shaders::list_pixels_comp),
+        {reads("marks", marks), reads("wanted_samples", wanted ? wanted->counts : marks), updates("PixelList", list)},
+        std::array{empty, first_row, row_end, wanted ? wanted->sample : kEverySample},
+        {frame.extent.width, row_end - first_row});
     return list;
 }
 

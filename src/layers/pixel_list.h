@@ -4,15 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
 namespace pellucid {
 
 /// Lists the pixels of rows `first_row` to `row_end` at which layer 0 of `marks` (R32UI) is not `empty`, for
-/// Recorder::compute_indirect(); shaders read it through pixel_list.glsl, as "PixelList". In no particular order.
+/// Recorder::compute_indirect(); shaders read it through pixel_list.glsl, as "PixelList". In no particular order. `wanted`:
+/// those that want this frame's sample only.
 const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage& marks, std::uint32_t empty,
-                          std::string_view name, std::uint32_t first_row, std::uint32_t row_end);
+                          std::string_view name, std::uint32_t first_row, std::uint32_t row_end,
+                          const std::optional<WantedSamples>& wanted = std::nullopt);
 
 /// An empty list for a shader to append to (PELLUCID_APPENDED_LIST).
 const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::string_view name);

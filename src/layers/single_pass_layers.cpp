@@ -93,7 +93,7 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
                           request.solids);
         }
         fragments.end(recorder);
-        listed = &list_pixels(recorder, frame, heads, 0, list_name, first_row, first_row + rows);
+        listed = &list_pixels(recorder, frame, heads, 0, list_name, first_row, first_row + rows, frame.wanted_samples);
         recorder.compute_indirect(
             select,
             {frame.bindings(), reads("PixelList", *listed), reads("Nodes", nodes), reads("heads", heads),
@@ -105,8 +105,8 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
     }
     // The list of the last band is that of the picture only if there is one band and nothing opaque.
     if (bands_ > 1 || (request.hidden_by_opaque && !frame.scene.opaque.empty())) {
-        listed =
-            &list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height);
+        listed = &list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height,
+                              frame.wanted_samples);
     }
     return {images.depth, images.triangle, images.normal, *listed, request.count, opaque, *this};
 }

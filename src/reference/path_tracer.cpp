@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 
@@ -24,7 +25,11 @@ constexpr std::uint32_t kTile = 16;  ///< pixels along a side of what one thread
 
 void check(const PathTraceSettings& s) {
     if (s.width == 0 || s.height == 0) throw Error(fmt::format("a picture of {}x{} has no pixels", s.width, s.height));
-    if (s.samples == 0) throw Error("path tracing needs at least 1 sample");
+    const auto& of_pixels = s.samples_of_pixels;
+    if (s.samples == 0 || std::find(of_pixels.begin(), of_pixels.end(), 0u) != of_pixels.end())
+        throw Error("path tracing needs at least 1 sample");
+    if (!of_pixels.empty() && of_pixels.size() != std::size_t(s.width) * s.height)
+        throw Error(fmt::format("{} numbers of samples for {}x{} pixels", of_pixels.size(), s.width, s.height));
     if (s.max_vertices == 0) throw Error("a path needs at least 1 vertex");
 }
 
@@ -64,8 +69,10 @@ public:
         const std::uint64_t index = std::uint64_t(pixel.y) * settings_.width + pixel.x;
         RunningMean mean;
         std::uint64_t cut = 0;
-        for (std::uint32_t sample = 0; sample < settings_.samples; ++sample) {
-            Random random(settings_.seed, index, sample);
+        const bool alike = settings_.samples_of_pixels.empty();
+        const std::uint32_t samples = alike ? settings_.samples : settings_.samples_of_pixels[index];
+        for (std::uint32_t sample = 0; sample < samples; ++sample) {
+            Random random(settings_.seed, index, std::uint64_t(settings_.first_sample) + sample);
             const CameraRay ray = rays_.at(glm::dvec2(pixel) + random.next2());
             const PathWalk::Result result = walk.walk(ray, media_.around(ray), random);
             mean.add(result.radiance);

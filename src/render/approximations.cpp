@@ -126,6 +126,14 @@ void warn_of(RenderResult& result, const Technique& technique, bool cut, const R
             "light meets more than {} surfaces on its way to {} pixels: what is behind them counts as a gap",
             settings.thickness.layers, result.cut_rays));
     }
+    if (settings.error > 0.0f) {
+        const auto& counts = result.sample_counts.pixels;
+        const auto capped = std::count(counts.begin(), counts.end(), float(settings.most_samples));
+        if (capped > 0)
+            result.warnings.push_back(
+                fmt::format("{} pixels have {} samples, the most: their error may be more than {}", capped,
+                            settings.most_samples, settings.error));
+    }
     if (cut && technique.searches_layers) {
         result.warnings.push_back(fmt::format(
             "drawn in tiles: {} finds no surface that lies beyond the tile of the pixel", technique.info.name));

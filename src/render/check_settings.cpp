@@ -46,6 +46,10 @@ void check_settings(const RenderSettings& settings, const Device& device) {
     if (settings.samples == 0 || settings.samples > kMaxSamples) {
         throw Error(fmt::format("samples must be 1 to {}, not {}", kMaxSamples, settings.samples));
     }
+    if (!(settings.error >= 0.0f && settings.error <= 1e6f))
+        throw Error(fmt::format("error must be 0 to 1e6, not {}", settings.error));
+    if (settings.most_samples == 0 || settings.most_samples > kMaxSamples)
+        throw Error(fmt::format("most samples must be 1 to {}, not {}", kMaxSamples, settings.most_samples));
     if (!(std::abs(settings.exposure_ev) <= 64.0f)) {
         throw Error(fmt::format("exposure must be -64 to 64 stops, not {}", settings.exposure_ev));
     }

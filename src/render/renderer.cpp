@@ -1,6 +1,7 @@
 #include <pellucid/renderer.h>
 
 #include "gpu/environment_images.h"
+#include "render/adaptive_sampling.h"
 #include "render/aovs.h"
 #include "render/approximations.h"
 #include "render/camera_constants.h"
@@ -39,6 +40,21 @@ std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std
         if (!repeated) times.push_back(pass);
     }
     return times;
+}
+
+constexpr double kPilotShare = 0.1;  ///< of the progress that is shown
+
+Image image_of(const std::vector<std::uint32_t>& counts, vk::Extent2D extent) {
+    Image image(int(extent.width), int(extent.height), 1);
+    std::transform(counts.begin(), counts.end(), image.pixels.begin(),
+                   [](std::uint32_t count) { return float(count); });
+    return image;
+}
+
+const GpuImage& upload_counts(const Frame& frame, const std::vector<std::uint32_t>& counts) {
+    const GpuImage& image = frame.workspace.image("wanted samples", vk::Format::eR32Uint, frame.extent);
+    upload(frame.workspace.device(), image, 0, std::as_bytes(std::span(counts)));
+    return image;
 }
 
 /// Whether frames make the picture; a technique that shades its own paths makes it apart.
@@ -89,6 +105,13 @@ struct Renderer::Impl {
     std::vector<PassTime> run_frame(Frame frame, const FrameSettings& chosen, const RenderSettings& settings,
                                     std::optional<std::uint32_t> sample, const Progress& progress,
                                     std::optional<FrameImages>& images);
+    /// Draws a sample of every pixel, of those that want one; counts and times go to `part`. Returns its radiance.
+    const GpuImage& draw_sample(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                                std::uint32_t sample, const Progress& progress, RenderResult& part);
+    /// Draws samples of a tile that tell how many each of its pixels needs.
+    std::vector<std::uint32_t> samples_for(const Frame& frame, const FrameSettings& chosen,
+                                           const RenderSettings& settings, const Progress& progress,
+                                           RenderResult& part);
     /// Draws the samples of a tile; fills the radiance (the sum of the samples), AOVs, paths, counts and times of `part`.
     /// Returns the radiance on the device; null where the technique shades its own paths.
     const GpuImage* render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
@@ -215,12 +238,35 @@ std::vector<PassTime> Renderer::Impl::run_frame(Frame frame, const FrameSettings
     }
 }
 
+const GpuImage& Renderer::Impl::draw_sample(const Frame& frame, const FrameSettings& chosen,
+                                            const RenderSettings& settings, std::uint32_t sample,
+                                            const Progress& progress, RenderResult& part) {
+    std::optional<FrameImages> images;
+    part.frames.push_back(run_frame(frame, chosen, settings, sample, progress, images));
+    part.layer_passes = layer_source.geometry_passes();
+    return images->radiance;
+}
+
+std::vector<std::uint32_t> Renderer::Impl::samples_for(const Frame& frame, const FrameSettings& chosen,
+                                                       const RenderSettings& settings, const Progress& progress,
+                                                       RenderResult& part) {
+    PixelNoise noise;
+    for (std::uint32_t i = 0; i < kPilotSamples; ++i) {
+        // Numbers that no sample of the picture has.
+        const Progress of_sample = part_of(progress, double(i) / kPilotSamples, double(i + 1) / kPilotSamples);
+        noise.add(
+            download_rgb(device, draw_sample(frame, chosen, settings, settings.most_samples + i, of_sample, part)));
+    }
+    return noise.samples_for(settings.error, settings.exposure_ev, settings.most_samples);
+}
+
 const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSettings& chosen,
                                                const RenderSettings& settings, RenderResult& part) {
     const bool draws = draws_picture(chosen);
     // The frame through pixel centres gives the AOVs and counts; alone, it is the picture too.
     std::optional<FrameImages> images;
-    const bool alone = draws && settings.samples == 1;
+    const bool adaptive = settings.error > 0.0f;
+    const bool alone = draws && settings.samples == 1 && !adaptive;
     std::vector<PassTime> times =
         run_frame(frame, chosen, settings, std::nullopt, alone ? settings.progress : Progress(), images);
     read_back(device, *images, current_constants(), scene->first_triangles, settings, part);
@@ -228,20 +274,32 @@ const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSe
     part.cut_rays = solid_lighting.transmitted().cut_rays();
     if (!draws) return nullptr;
     const GpuImage* sum = &images->radiance;
-    if (alone) part.frames.push_back(std::move(times));
-    Frame sampled = frame;
-    if (settings.still) sampled.samples = settings.samples;
-    for (std::uint32_t sample = 0; !alone && sample < settings.samples; ++sample) {
-        const auto progress = [&](double done) {
-            if (settings.progress) settings.progress((double(sample) + done) / double(settings.samples));
-        };
-        times = run_frame(sampled, chosen, settings, sample, progress, images);
-        // Submitted apart: a frame that overflowed was drawn twice, and counts once.
-        sum = &accumulate(recorder, frame, images->radiance, sample);
-        for (PassTime& time : recorder.submit_and_wait()) times.push_back(std::move(time));
+    if (alone) {
         part.frames.push_back(std::move(times));
-        part.layer_passes = layer_source.geometry_passes();
-        progress(1.0);
+        part.radiance = download_rgb(device, *sum);
+        return sum;
+    }
+    Frame sampled = frame;
+    if (settings.still) sampled.samples = adaptive ? settings.most_samples : settings.samples;
+    std::uint32_t samples = settings.samples;
+    const GpuImage* wanted = nullptr;
+    const double before = adaptive ? kPilotShare : 0.0;
+    if (adaptive) {
+        const auto counts = samples_for(sampled, chosen, settings, part_of(settings.progress, 0.0, before), part);
+        samples = *std::max_element(counts.begin(), counts.end());
+        part.sample_counts = image_of(counts, frame.extent);
+        wanted = &upload_counts(frame, counts);
+    }
+    for (std::uint32_t sample = 0; sample < samples; ++sample) {
+        const auto share = [&](std::uint32_t done) { return before + (1.0 - before) * done / samples; };
+        const Progress progress = part_of(settings.progress, share(sample), share(sample + 1));
+        if (wanted != nullptr && !chosen.technique.searches_layers)
+            sampled.wanted_samples.emplace(WantedSamples{*wanted, sample});
+        const GpuImage& radiance = draw_sample(sampled, chosen, settings, sample, progress, part);
+        // Submitted apart: a frame that overflowed was drawn twice, and counts once.
+        sum = &accumulate(recorder, frame, radiance, sample, wanted);
+        for (PassTime& time : recorder.submit_and_wait()) part.frames.back().push_back(std::move(time));
+        if (progress) progress(1.0);
     }
     part.radiance = download_rgb(device, *sum);
     return sum;
@@ -286,9 +344,21 @@ Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSetting
 }
 
 void Renderer::Impl::trace_picture(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result) {
-    PathTracedImage traced = chosen.technique.trace_picture(
-        {cpu.tracer(), camera_for(settings), {settings.width, settings.height}, {0.0f, 0.0f}, settings.progress},
-        environment, settings.samples, chosen.parameters);
+    const auto trace = [&](const PictureSamples& samples, const Progress& progress) {
+        return chosen.technique.trace_picture(
+            {cpu.tracer(), camera_for(settings), {settings.width, settings.height}, {0.0f, 0.0f}, progress},
+            environment, samples, chosen.parameters);
+    };
+    PictureSamples samples{.count = settings.samples};
+    const double before = settings.error > 0.0f ? kPilotShare : 0.0;
+    if (settings.error > 0.0f) {
+        const PathTracedImage pilot =
+            trace({.count = kPilotSamples, .first = settings.most_samples}, part_of(settings.progress, 0.0, before));
+        samples.of_pixels = PixelNoise(pilot.radiance, pilot.standard_error, kPilotSamples)
+                                .samples_for(settings.error, settings.exposure_ev, settings.most_samples);
+        result.sample_counts = image_of(samples.of_pixels, {settings.width, settings.height});
+    }
+    PathTracedImage traced = trace(samples, part_of(settings.progress, before, 1.0));
     result.radiance = std::move(traced.radiance);
     result.standard_error = std::move(traced.standard_error);
     result.cut_paths = traced.cut_paths;
@@ -385,7 +455,8 @@ RenderResult Renderer::render(const RenderSettings& settings) {
         const bool draws = draws_picture(chosen);
         if (!draws) impl.trace_picture(chosen, settings, result);
         if (chosen.technique.report != nullptr) chosen.technique.report(*impl.scene, result.warnings);
-        const float scale = draws ? float(1.0 / double(settings.samples)) : 1.0f;
+        const bool summed = draws && settings.error <= 0.0f;  // otherwise it is a mean already
+        const float scale = summed ? float(1.0 / double(settings.samples)) : 1.0f;
         result.display = display_picture(impl.recorder, frame, drawn.tiles, {result.radiance, drawn.on_device, scale},
                                          impl.adaptation, settings);
         if (settings.tonemap == ToneMap::kKrawczyk) result.adapted_cd_m2 = impl.adaptation.adapted_cd_m2();

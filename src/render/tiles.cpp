@@ -135,6 +135,7 @@ void add_tile(RenderResult& result, RenderResult&& part, const Tile& tile, glm::
         }
     };
     add_image(result.radiance, std::move(part.radiance));
+    add_image(result.sample_counts, std::move(part.sample_counts));
     for (auto& [name, image] : part.aovs) add_image(result.aovs[name], std::move(image));
     if (whole) {
         result.paths = std::move(part.paths);

@@ -53,6 +53,12 @@ Image part_of(const Image& picture, const Tile& tile);
 /// Adds the picture and the counts of a tile to the result of a picture of `size`; warnings are left out.
 void add_tile(RenderResult& result, RenderResult&& part, const Tile& tile, glm::uvec2 size);
 
+/// Progress of a part of the work, which takes the whole from one share to another.
+inline Progress part_of(const Progress& whole, double from, double to) {
+    if (!whole) return {};
+    return [&whole, from, to](double done) { whole(from + done * (to - from)); };
+}
+
 /// Progress over all tiles, which never falls though a tile may begin anew.
 class TileProgress {
 public:

@@ -107,11 +107,17 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
     return radiance;
 }
 
-const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample) {
+const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample,
+                           const GpuImage* wanted) {
     const GpuImage& sum = frame.workspace.image("radiance sum", kRadianceFormat, frame.extent);
     const Recorder::Scope scope(recorder, "accumulate");
-    recorder.compute(frame.workspace.compute(shaders::accumulate_comp),
-                     {reads("radiance", radiance), updates("radiance_sum", sum)}, sample, frame.extent);
+    if (wanted != nullptr)
+        recorder.compute(frame.workspace.compute(shaders::accumulate_wanted_comp),
+                         {reads("radiance", radiance), updates("radiance_sum", sum), reads("wanted_samples", *wanted)},
+                         sample, frame.extent);
+    else
+        recorder.compute(frame.workspace.compute(shaders::accumulate_comp),
+                         {reads("radiance", radiance), updates("radiance_sum", sum)}, sample, frame.extent);
     return sum;
 }
 

@@ -26,8 +26,10 @@ ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& 
 const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers,
                       const ThinWalls& walls, const Refraction& refraction, View view);
 
-/// Adds `radiance` to the sum of the samples before it; `sample` 0 starts a new sum.
-const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample);
+/// Adds `radiance` to the sum of the samples before it; `sample` 0 starts a new sum. Where pixels want different numbers
+/// of samples (`wanted`), to the mean of each.
+const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample,
+                           const GpuImage* wanted = nullptr);
 
 /// Display values (RGBA8, sRGB-encoded) of `scale * radiance`, by a curve other than kKrawczyk (adaptation.h).
 const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale, ToneMap curve);

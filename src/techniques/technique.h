@@ -79,6 +79,13 @@ struct Preparation {
     std::vector<std::string>& warnings;
 };
 
+/// Which samples a picture has.
+struct PictureSamples {
+    std::uint32_t count = 1;               ///< of every pixel
+    std::vector<std::uint32_t> of_pixels = {};  ///< in place of `count`, rows from the top; empty: all alike
+    std::uint32_t first = 0;
+};
+
 /// A row of the registry: what the technique is, what it needs, and how it is recorded.
 struct Technique {
     TechniqueInfo info;
@@ -98,8 +105,8 @@ struct Technique {
     void (*draw_light)(Recorder& recorder, const Frame& frame, const Opaque& opaque,
                        const GpuImage& radiance) = nullptr;
     /// The picture of a technique that shades its own paths, which shade() then does not do. Null: none.
-    PathTracedImage (*trace_picture)(const TracedView& view, const Environment& environment, std::uint32_t samples,
-                                     const ParameterValues& parameters) = nullptr;
+    PathTracedImage (*trace_picture)(const TracedView& view, const Environment& environment,
+                                     const PictureSamples& samples, const ParameterValues& parameters) = nullptr;
     /// After a picture: what in it is not as it should be, a line each. Null: nothing ever.
     void (*report)(const GpuScene& scene, std::vector<std::string>& warnings) = nullptr;
 };

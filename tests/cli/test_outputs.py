@@ -128,6 +128,68 @@ class PathTraced(CliTest):
         self.assertEqual(sorted(read_exr(self.read("out.exr")).channels), ["B", "G", "R"])
 
 
+class Adaptive(CliTest):
+    """`--error X`: each pixel has the samples that it needs."""
+
+    def test_counts(self):
+        self.assert_rendered(self.render("shape:torus", "--environment", "checker", "--error", "0.2", "--most-samples", "20",
+                                         "--json", "out.json", output="out.exr", size="32x32"), "out.exr")
+        picture = read_exr(self.read("out.exr"))
+        self.assertEqual(sorted(picture.channels), ["B", "G", "R", "samples"])
+        counts = picture.pixels[picture.channels.index("samples")::4]
+        described = json.loads(self.read("out.json"))
+        self.assertEqual((min(counts), max(counts)), (4, described["most_samples"]))
+        self.assertAlmostEqual(described["samples"], sum(counts) / len(counts), places=4)
+        self.assertAlmostEqual(described["error"], 0.2)
+
+    def test_refused(self):
+        self.refuses("--error", "--error", "0.1", "--samples", "4")
+        self.refuses("--error", "--most-samples", "4")
+        self.refuses("--error", "--error", "-1")
+        self.refuses("most samples", "--error", "1", "--most-samples", "0")
+
+
+class Difference(CliTest):
+    """`pellucid difference`: pictures of whatever renderer."""
+
+    def setUp(self):
+        super().setUp()
+        for name, technique in (("a", "reference"), ("b", "one-interface")):
+            for extension in ("exr", "png"):
+                self.assert_rendered(self.render("shape:sphere", "--technique", technique, "--aov", f"events={name}-events.exr",
+                                                 output=f"{name}.{extension}", size="32x32"), f"{name}.{extension}")
+
+    def difference(self, *arguments):
+        result = self.run_cli("difference", *arguments, "--json", "difference.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(self.read("difference.json"))
+
+    def test_numbers(self):
+        for extension in ("exr", "png"):
+            same = self.difference(f"a.{extension}", f"a.{extension}")
+            self.assertEqual((same["pixels"], same["flip_mean"], same["rmse"]), (32 * 32, 0, 0))
+            whole = self.difference(f"a.{extension}", f"b.{extension}")
+            glass = self.difference(f"a.{extension}", f"b.{extension}", "--mask", "a-events.exr")
+            self.assertLess(glass["pixels"], whole["pixels"])
+            # All of the difference is in the glass.
+            self.assertAlmostEqual(glass["rmse"] ** 2 * glass["pixels"], whole["rmse"] ** 2 * whole["pixels"], delta=1e-3)
+            self.assertGreater(glass["flip_mean"], whole["flip_mean"])
+
+    def test_the_map_is_what_the_mean_is_of(self):
+        found = self.difference("a.exr", "b.exr", "--exposure", "1", "--map", "map.exr")
+        pixels = read_exr(self.read("map.exr")).pixels
+        self.assertAlmostEqual(found["flip_mean"], sum(pixels) / len(pixels), places=5)
+
+    def test_refused(self):
+        for words, arguments in ((("encoded",), ("a.exr", "b.png")), (("nothing.exr",), ("a.exr", "nothing.exr")),
+                                 (("--exposure",), ("a.png", "b.png", "--exposure", "1")),
+                                 (("pixels",), ("a.exr", "b.exr", "--mask", "small.exr")),
+                                 (("a.exr",), ("a.exr", "b.exr", "--map", "a.exr"))):
+            self.render("shape:sphere", output="small.exr", size="8x8")
+            with self.subTest(arguments=arguments):
+                self.assert_refused(self.run_cli("difference", *arguments), *words)
+
+
 class Aovs(CliTest):
     def test_each(self):
         arguments = [argument for name in AOVS for argument in ("--aov", f"{name}={name}.exr")]

@@ -117,7 +117,7 @@ class Sizes(CliTest):
 
 class Numbers(CliTest):
     def test_not_a_number(self):
-        for flag in ("--samples", "--exposure", "--ior", "--fov", "--attenuation-distance", "--crease-angle", "--steps"):
+        for flag in ("--samples", "--error", "--exposure", "--ior", "--fov", "--attenuation-distance", "--crease-angle", "--steps"):
             for value in ("abc", "", "1x", "1e999", "nan", "inf"):
                 self.refuses(flag, flag, value)
 

@@ -28,12 +28,14 @@ Refraction record(Recorder&, const Frame& frame, const Layers&, const ParameterV
     return upload_exact_paths(frame, parameters.whole(kMaxEvents.name));
 }
 
-PathTracedImage trace_picture(const TracedView& view, const Environment& environment, std::uint32_t samples,
+PathTracedImage trace_picture(const TracedView& view, const Environment& environment, const PictureSamples& samples,
                               const ParameterValues& parameters) {
     return view.tracer.path_trace(view.camera, environment,
                                   {.width = view.picture.x,
                                    .height = view.picture.y,
-                                   .samples = samples,
+                                   .samples = samples.count,
+                                   .samples_of_pixels = samples.of_pixels,
+                                   .first_sample = samples.first,
                                    .seed = parameters.whole("seed"),
                                    .max_vertices = parameters.whole("vertices")},
                                   view.progress);
