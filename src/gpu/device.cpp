@@ -117,16 +117,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
         info.missing.push_back("dynamicRendering");
     if (!features.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
         info.missing.push_back("synchronization2");
-    // kay_greenberg_1979.comp binds the most images, wyman_2005.comp the most buffers.
-    constexpr std::uint32_t kStorageImages = 11, kStorageBuffers = 24;
-    if (properties.limits.maxPerStageDescriptorStorageImages < kStorageImages) {
-        info.missing.push_back(fmt::format("{} storage images per shader stage (it has {})", kStorageImages,
-                                           properties.limits.maxPerStageDescriptorStorageImages));
-    }
-    if (properties.limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers) {
-        info.missing.push_back(fmt::format("{} storage buffers per shader stage (it has {})", kStorageBuffers,
-                                           properties.limits.maxPerStageDescriptorStorageBuffers));
-    }
+    if (!features.get<vk::PhysicalDeviceVulkan13Features>().maintenance4) info.missing.push_back("maintenance4");
     if (!universal_queue_family(physical)) info.missing.push_back("a queue with graphics and compute");
     if (!features.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics) {
         info.absent.push_back("fragmentStoresAndAtomics: layers are built by depth peeling");

@@ -1,25 +1,12 @@
 #include "gpu/environment_images.h"
 
+#include "gpu/shaders.h"
 #include "gpu/structs.h"
 
 #include <algorithm>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kSampleEnvironment[] = {
-#include "sample_environment.comp.inc"
-};
-constexpr std::uint32_t kHalveEnvironment[] = {
-#include "halve_environment.comp.inc"
-};
-constexpr std::uint32_t kFilterEnvironment[] = {
-#include "filter_environment.comp.inc"
-};
-
-constexpr std::uint32_t kTabulateFacets[] = {
-#include "tabulate_facets.comp.inc"
-};
 
 constexpr auto kFormat = vk::Format::eR32G32B32A32Sfloat;
 constexpr std::uint32_t kPyramidSize = PELLUCID_PYRAMID_SIZE, kFilterSize = PELLUCID_FILTER_SIZE;
@@ -62,16 +49,15 @@ GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Envi
     };
     const Push push{glm::vec4(environment.uniform_radiance, 0.0f), samples_per_side(environment)};
     recorder.compute(
-        workspace.compute({"sample_environment.comp", kSampleEnvironment}, {std::uint32_t(environment.kind)}),
+        workspace.compute(shaders::sample_environment_comp, {{"kEnvironmentKind", std::uint32_t(environment.kind)}}),
         {reads_layer("environment_map", map, 0), writes("pyramid", pyramid)}, push, {kPyramidSize, kPyramidSize});
     for (std::int32_t level = 1; level < PELLUCID_PYRAMID_LEVELS; ++level) {
-        recorder.compute(workspace.compute({"halve_environment.comp", kHalveEnvironment}),
-                         {updates("pyramid", pyramid)}, level, {kPyramidSize >> level, kPyramidSize >> level});
+        recorder.compute(workspace.compute(shaders::halve_environment_comp), {updates("pyramid", pyramid)}, level,
+                         {kPyramidSize >> level, kPyramidSize >> level});
     }
-    recorder.compute(workspace.compute({"filter_environment.comp", kFilterEnvironment}),
+    recorder.compute(workspace.compute(shaders::filter_environment_comp),
                      {reads_layer("pyramid", pyramid, 0), writes("filtered_environment", filtered)}, filtered.extent());
-    recorder.compute(workspace.compute({"tabulate_facets.comp", kTabulateFacets}),
-                     {writes("filtered_environment", filtered)},
+    recorder.compute(workspace.compute(shaders::tabulate_facets_comp), {writes("filtered_environment", filtered)},
                      {PELLUCID_FACET_TABLE_SIZE, PELLUCID_FACET_TABLE_SIZE});
     recorder.submit_and_wait();
     return filtered;

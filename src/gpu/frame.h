@@ -1,9 +1,11 @@
 #pragma once
 
+#include "gpu/binding.h"
 #include "gpu/gpu_scene.h"
 #include "gpu/workspace.h"
 
 #include <optional>
+#include <vector>
 
 namespace pellucid {
 
@@ -26,6 +28,19 @@ struct Frame {
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
     std::optional<WantedSamples> wanted_samples = std::nullopt;
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
+
+    std::vector<Binding> group = {reads("Frame", constants),
+                                  reads("Objects", scene.objects),
+                                  reads("Materials", scene.materials),
+                                  reads("Indices", scene.indices),
+                                  reads("Vertices", scene.vertices),
+                                  reads("Appearance", scene.appearance),
+                                  reads("Textures", scene.textures),
+                                  reads("texture_pages", scene.texture_pages),
+                                  reads_layer("environment_map", environment, 0),
+                                  reads_layer("filtered_environment", filtered_environment, 0)};
+    /// What any pass may look at, by the names that shaders have for it: the scene, its environment and the constants.
+    Binding bindings() const { return all_of(group); }
 };
 
 }  // namespace pellucid

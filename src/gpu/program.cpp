@@ -1,10 +1,14 @@
 #include "gpu/program.h"
 
+#include <pellucid/error.h>
+
 #include <fmt/format.h>
 #include <spirv_cross/spirv_cross.hpp>
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 
 namespace pellucid {
@@ -20,7 +24,7 @@ vk::PipelineShaderStageCreateInfo stage_info(vk::ShaderStageFlagBits stage, cons
 
 }  // namespace
 
-void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
+void ProgramInterface::add(ShaderCode shader, vk::ShaderStageFlagBits stage) {
     const spirv_cross::Compiler compiler(shader.words.data(), shader.words.size());
     const spirv_cross::ShaderResources resources = compiler.get_shader_resources();
     const auto add = [&](const spirv_cross::Resource& resource, vk::DescriptorType type,
@@ -29,17 +33,17 @@ void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
         const std::string name = instance.empty() ? resource.name : instance;
         const std::uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
         const auto same =
-            std::find_if(slots_.begin(), slots_.end(), [&](const BindingSlot& s) { return s.binding == binding; });
+            std::find_if(slots.begin(), slots.end(), [&](const BindingSlot& s) { return s.binding == binding; });
         const bool never_written = type == vk::DescriptorType::eSampledImage ||
                                    type == vk::DescriptorType::eUniformTexelBuffer ||
                                    type == vk::DescriptorType::eAccelerationStructureKHR;
         const bool writable = !never_written && !flags.get(spv::DecorationNonWritable);
         const bool readable = !flags.get(spv::DecorationNonReadable);
-        if (same == slots_.end()) {
-            slots_.push_back({name, binding, type, readable, writable, stage});
+        if (same == slots.end()) {
+            slots.push_back({name, binding, type, readable, writable, stage});
         } else if (same->name != name || same->type != type) {
-            throw std::logic_error(fmt::format("{}: binding {} is '{}' in {} and '{}' before", name_, binding, name,
-                                               shader.name, same->name));
+            throw std::logic_error(
+                fmt::format("binding {} is '{}' in {} and '{}' before", binding, name, shader.name, same->name));
         } else {
             same->readable |= readable;
             same->writable |= writable;
@@ -62,51 +66,99 @@ void Program::reflect(ShaderCode shader, vk::ShaderStageFlagBits stage) {
     }
     for (const auto& r : resources.push_constant_buffers) {
         const auto size = std::uint32_t(compiler.get_declared_struct_size(compiler.get_type(r.base_type_id)));
-        push_size_ = std::max(push_size_, size);
+        push_size = std::max(push_size, size);
     }
     if (!resources.uniform_buffers.empty() || !resources.sampled_images.empty()) {
         throw std::logic_error(fmt::format("{}: uniform buffers and combined samplers are not used here", shader.name));
     }
     if (stage == vk::ShaderStageFlagBits::eCompute) {
-        workgroup_ = vk::Extent2D{compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, 0),
-                                  compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, 1)};
+        workgroup = vk::Extent2D{compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, 0),
+                                 compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, 1)};
     }
-    stages_ |= stage;
+    stages |= stage;
+}
+
+std::string ProgramInterface::lacking(const vk::PhysicalDeviceLimits& limits) const {
+    using Type = vk::DescriptorType;
+    const auto most_in_a_stage = [&](std::initializer_list<Type> types) {
+        std::uint32_t most = 0;
+        for (const BindingSlot& first : slots) {
+            most = std::max(most, std::uint32_t(std::ranges::count_if(slots, [&](const BindingSlot& slot) {
+                                return (slot.stages & first.stages) && std::ranges::count(types, slot.type) > 0;
+                            })));
+        }
+        return most;
+    };
+    struct Need {
+        const char* of;
+        std::uint32_t needed, limit;
+    };
+    for (const Need& need :
+         {Need{"storage buffers per shader stage", most_in_a_stage({Type::eStorageBuffer}),
+               limits.maxPerStageDescriptorStorageBuffers},
+          Need{"storage images per shader stage", most_in_a_stage({Type::eStorageImage}),
+               limits.maxPerStageDescriptorStorageImages},
+          Need{"sampled images per shader stage", most_in_a_stage({Type::eSampledImage, Type::eUniformTexelBuffer}),
+               limits.maxPerStageDescriptorSampledImages},
+          Need{"bytes of push constants", push_size, limits.maxPushConstantsSize}}) {
+        if (need.needed > need.limit) return fmt::format("{} {} (it has {})", need.needed, need.of, need.limit);
+    }
+    return {};
+}
+
+std::string lacking_limit(ShaderCode compute, const vk::PhysicalDeviceLimits& limits) {
+    // Reflection takes milliseconds, and renderers ask before every frame.
+    static std::mutex mutex;
+    static std::map<const std::uint32_t*, ProgramInterface> known;
+    const std::lock_guard lock(mutex);
+    const auto [found, first] = known.try_emplace(compute.words.data());
+    if (first) found->second.add(compute, vk::ShaderStageFlagBits::eCompute);
+    return found->second.lacking(limits);
 }
 
 void Program::make_layouts(const Device& device) {
+    const auto& [slots, push_size, stages, workgroup] = interface_;
+    if (const std::string lacking = interface_.lacking(device.limits()); !lacking.empty())
+        throw DeviceError(fmt::format("{} needs {}, which {} lacks", name_, lacking, device.info().name));
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (const BindingSlot& slot : slots_) {
+    for (const BindingSlot& slot : slots) {
         bindings.push_back(
             {.binding = slot.binding, .descriptorType = slot.type, .descriptorCount = 1, .stageFlags = slot.stages});
     }
     set_layout_ = device.handle().createDescriptorSetLayout(
         {.bindingCount = std::uint32_t(bindings.size()), .pBindings = bindings.data()});
-    const vk::PushConstantRange range{.stageFlags = stages_, .offset = 0, .size = push_size_};
+    const vk::PushConstantRange range{.stageFlags = stages, .offset = 0, .size = push_size};
     const vk::DescriptorSetLayout set = *set_layout_;
     layout_ = device.handle().createPipelineLayout({.setLayoutCount = 1,
                                                     .pSetLayouts = &set,
-                                                    .pushConstantRangeCount = push_size_ > 0 ? 1u : 0u,
+                                                    .pushConstantRangeCount = push_size > 0 ? 1u : 0u,
                                                     .pPushConstantRanges = &range});
 }
 
-Program Program::compute(const Device& device, ShaderCode shader, std::span<const std::uint32_t> constants) {
+Program Program::compute(const Device& device, ShaderCode shader, std::span<const Constant> constants) {
     Program program;
     program.name_ = shader.name;
     program.bind_point_ = vk::PipelineBindPoint::eCompute;
-    program.reflect(shader, vk::ShaderStageFlagBits::eCompute);
+    program.interface_.add(shader, vk::ShaderStageFlagBits::eCompute);
     program.make_layouts(device);
     const vk::raii::ShaderModule module = make_module(device, shader);
     std::vector<vk::SpecializationMapEntry> entries;
-    for (std::uint32_t i = 0; i < constants.size(); ++i) {
-        entries.push_back({.constantID = i, .offset = i * 4, .size = 4});
+    std::vector<std::uint32_t> values;
+    const spirv_cross::Compiler compiler(shader.words.data(), shader.words.size());
+    for (const spirv_cross::SpecializationConstant& declared : compiler.get_specialization_constants()) {
+        const auto given = std::ranges::find(constants, compiler.get_name(declared.id), &Constant::name);
+        if (given == constants.end())
+            throw std::logic_error(
+                fmt::format("{}: no value for the constant '{}'", shader.name, compiler.get_name(declared.id)));
+        entries.push_back({.constantID = declared.constant_id, .offset = std::uint32_t(values.size() * 4), .size = 4});
+        values.push_back(given->value);
     }
     const vk::SpecializationInfo specialization{.mapEntryCount = std::uint32_t(entries.size()),
                                                 .pMapEntries = entries.data(),
-                                                .dataSize = constants.size_bytes(),
-                                                .pData = constants.data()};
+                                                .dataSize = values.size() * 4,
+                                                .pData = values.data()};
     vk::PipelineShaderStageCreateInfo stage = stage_info(vk::ShaderStageFlagBits::eCompute, module);
-    if (!constants.empty()) stage.pSpecializationInfo = &specialization;
+    stage.pSpecializationInfo = &specialization;
     program.pipeline_ = device.handle().createComputePipeline(nullptr, {.stage = stage, .layout = *program.layout_});
     return program;
 }
@@ -114,8 +166,8 @@ Program Program::compute(const Device& device, ShaderCode shader, std::span<cons
 Program Program::graphics(const Device& device, const Graphics& state) {
     Program program;
     program.name_ = state.fragment.name;
-    program.reflect(state.vertex, vk::ShaderStageFlagBits::eVertex);
-    program.reflect(state.fragment, vk::ShaderStageFlagBits::eFragment);
+    program.interface_.add(state.vertex, vk::ShaderStageFlagBits::eVertex);
+    program.interface_.add(state.fragment, vk::ShaderStageFlagBits::eFragment);
     program.make_layouts(device);
 
     const vk::raii::ShaderModule vertex = make_module(device, state.vertex);
@@ -173,9 +225,9 @@ Program Program::ray_tracing(const Device& device, const RayTracing& shaders) {
     Program program;
     program.name_ = shaders.raygen.name;
     program.bind_point_ = vk::PipelineBindPoint::eRayTracingKHR;
-    program.reflect(shaders.raygen, vk::ShaderStageFlagBits::eRaygenKHR);
-    program.reflect(shaders.miss, vk::ShaderStageFlagBits::eMissKHR);
-    program.reflect(shaders.closest_hit, vk::ShaderStageFlagBits::eClosestHitKHR);
+    program.interface_.add(shaders.raygen, vk::ShaderStageFlagBits::eRaygenKHR);
+    program.interface_.add(shaders.miss, vk::ShaderStageFlagBits::eMissKHR);
+    program.interface_.add(shaders.closest_hit, vk::ShaderStageFlagBits::eClosestHitKHR);
     program.make_layouts(device);
 
     const vk::raii::ShaderModule raygen = make_module(device, shaders.raygen);

@@ -26,6 +26,27 @@ struct BindingSlot {
     vk::ShaderStageFlags stages;
 };
 
+/// A specialization constant by the name that the shader gives it; booleans are 0 or 1.
+struct Constant {
+    std::string_view name;
+    std::uint32_t value;
+};
+
+/// The bindings and push constants of shaders, as SPIR-V reflection finds them.
+struct ProgramInterface {
+    std::vector<BindingSlot> slots;
+    std::uint32_t push_size = 0;  ///< bytes
+    vk::ShaderStageFlags stages;
+    vk::Extent2D workgroup{1, 1};  ///< of a compute shader
+
+    /// Throws std::logic_error if the shader disagrees with those before.
+    void add(ShaderCode shader, vk::ShaderStageFlagBits stage);
+    /// The first limit that they exceed, in words that follow "needs"; empty: none.
+    std::string lacking(const vk::PhysicalDeviceLimits& limits) const;
+};
+/// Likewise for a compute shader alone.
+std::string lacking_limit(ShaderCode compute, const vk::PhysicalDeviceLimits& limits);
+
 /// How a fragment's colour joins what the target holds; kMaxAddAlpha: the maximum of red, green and blue, the sum of
 /// alpha.
 enum class Blend { kReplace, kMultiply, kAdd, kMaxAddAlpha };
@@ -34,18 +55,20 @@ enum class Blend { kReplace, kMultiply, kAdd, kMaxAddAlpha };
 inline constexpr vk::ShaderStageFlags kRayTracingStages =
     vk::ShaderStageFlagBits::eRaygenKHR | vk::ShaderStageFlagBits::eMissKHR | vk::ShaderStageFlagBits::eClosestHitKHR;
 
-/// A compute, graphics or ray-tracing pipeline with the bindings its shaders declare.
+/// A compute, graphics or ray-tracing pipeline with the bindings its shaders declare. Making one throws DeviceError, naming
+/// the limit, if the device has fewer.
 class Program {
 public:
-    /// Workgroup size is the shader's own. `constants` are its specialization constants 0, 1, ...
-    static Program compute(const Device& device, ShaderCode shader, std::span<const std::uint32_t> constants = {});
+    /// Workgroup size is the shader's own. Every specialization constant of the shader has to be in `constants`, where
+    /// there may be others; throws std::logic_error if one is not.
+    static Program compute(const Device& device, ShaderCode shader, std::span<const Constant> constants = {});
 
     /// Vertex shaders fetch their vertices themselves (gpu/vertices.glsl).
     struct Graphics {
         ShaderCode vertex;
         ShaderCode fragment;
-        std::vector<vk::Format> colors;  ///< attachments; empty draws without any
-        bool depth = false;              ///< D32 attachment, nearest fragment wins
+        std::vector<vk::Format> colors = {};  ///< attachments; empty draws without any
+        bool depth = false;                   ///< D32 attachment, nearest fragment wins
         Blend blend = Blend::kReplace;
     };
     static Program graphics(const Device& device, const Graphics& state);
@@ -65,26 +88,22 @@ public:
     const ShaderTable& shader_table() const { return shader_table_; }
 
     const std::string& name() const { return name_; }
-    const std::vector<BindingSlot>& slots() const { return slots_; }
-    std::uint32_t push_size() const { return push_size_; }
-    vk::ShaderStageFlags stages() const { return stages_; }
+    const std::vector<BindingSlot>& slots() const { return interface_.slots; }
+    std::uint32_t push_size() const { return interface_.push_size; }
+    vk::ShaderStageFlags stages() const { return interface_.stages; }
     vk::PipelineBindPoint bind_point() const { return bind_point_; }
-    vk::Extent2D workgroup() const { return workgroup_; }
+    vk::Extent2D workgroup() const { return interface_.workgroup; }
     vk::Pipeline pipeline() const { return *pipeline_; }
     vk::PipelineLayout layout() const { return *layout_; }
     vk::DescriptorSetLayout set_layout() const { return *set_layout_; }
 
 private:
-    void reflect(ShaderCode shader, vk::ShaderStageFlagBits stage);
     void make_layouts(const Device& device);
     void make_shader_table(const Device& device);
 
     std::string name_;
-    std::vector<BindingSlot> slots_;
-    std::uint32_t push_size_ = 0;
-    vk::ShaderStageFlags stages_;
+    ProgramInterface interface_;
     vk::PipelineBindPoint bind_point_ = vk::PipelineBindPoint::eGraphics;
-    vk::Extent2D workgroup_{1, 1};
     vk::raii::DescriptorSetLayout set_layout_ = nullptr;
     vk::raii::PipelineLayout layout_ = nullptr;
     vk::raii::Pipeline pipeline_ = nullptr;

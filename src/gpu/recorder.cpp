@@ -14,64 +14,10 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using AccessBit = vk::AccessFlagBits2;
 
+constexpr vk::DeviceSize kReadBufferSize = 1 << 16;
 constexpr std::uint32_t kQueriesPerPool = 64;
 constexpr std::uint32_t kSetsPerPool = 64;
 constexpr std::uint32_t kDescriptorsPerPool = 16 * kSetsPerPool;
-
-vk::PipelineStageFlags2 stages_of(const BindingSlot& slot) {
-    vk::PipelineStageFlags2 stages;
-    if (slot.stages & vk::ShaderStageFlagBits::eCompute) stages |= Stage::eComputeShader;
-    if (slot.stages & vk::ShaderStageFlagBits::eVertex) stages |= Stage::eVertexShader;
-    if (slot.stages & vk::ShaderStageFlagBits::eFragment) stages |= Stage::eFragmentShader;
-    if (slot.stages & kRayTracingStages) stages |= Stage::eRayTracingShaderKHR;
-    return stages;
-}
-
-vk::AccessFlags2 access_of(const BindingSlot& slot, Access access) {
-    if (slot.type == vk::DescriptorType::eAccelerationStructureKHR) return AccessBit::eAccelerationStructureReadKHR;
-    const bool sampled =
-        slot.type == vk::DescriptorType::eSampledImage || slot.type == vk::DescriptorType::eUniformTexelBuffer;
-    const vk::AccessFlags2 read = sampled ? AccessBit::eShaderSampledRead : AccessBit::eShaderStorageRead;
-    vk::AccessFlags2 flags;
-    if (access != Access::kWrite) flags |= read;
-    if (access != Access::kRead) flags |= AccessBit::eShaderStorageWrite;
-    return flags;
-}
-
-std::string_view access_name(bool readable, bool writable) {
-    return readable && writable ? "reads and writes" : writable ? "writes" : "reads";
-}
-
-void check_access(const Program& program, const BindingSlot& slot, const Binding& binding) {
-    const bool reads_it = binding.access != Access::kWrite;
-    const bool writes_it = binding.access != Access::kRead;
-    if (reads_it == slot.readable && writes_it == slot.writable) return;
-    throw std::logic_error(fmt::format("{}: the shader {} '{}', the pass {} it", program.name(),
-                                       access_name(slot.readable, slot.writable), slot.name,
-                                       access_name(reads_it, writes_it)));
-}
-
-const Binding& binding_of(const Program& program, const BindingSlot& slot, std::span<const Binding> bindings) {
-    const auto match =
-        std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == slot.name; });
-    if (match == bindings.end()) {
-        throw std::logic_error(
-            fmt::format("{}: the shader declares '{}', the pass binds no such name", program.name(), slot.name));
-    }
-    const bool wants_texels = slot.type == vk::DescriptorType::eUniformTexelBuffer;
-    const bool wants_buffer = slot.type == vk::DescriptorType::eStorageBuffer || wants_texels;
-    const bool wants_structure = slot.type == vk::DescriptorType::eAccelerationStructureKHR;
-    if (wants_buffer != (match->buffer != nullptr) || wants_structure != (match->structure != nullptr)) {
-        throw std::logic_error(fmt::format("{}: the shader declares '{}' as {}, the pass binds the other kind",
-                                           program.name(), slot.name, vk::to_string(slot.type)));
-    }
-    if (wants_texels && match->buffer->texels() == vk::Format::eUndefined) {
-        throw std::logic_error(fmt::format("{}: the shader reads '{}' as a texel buffer, '{}' is none", program.name(),
-                                           slot.name, match->buffer->name()));
-    }
-    check_access(program, slot, *match);
-    return *match;
-}
 
 }  // namespace
 
@@ -93,6 +39,7 @@ void Recorder::restart() {
     timestamps_ = 0;
     states_.clear();
     when_done_.clear();
+    read_end_ = 0;
     begin_commands();
 }
 
@@ -112,13 +59,13 @@ void Recorder::synchronise(std::span<const Use> uses) {
     vk::MemoryBarrier2 barrier;
     for (const Use& use : uses) {
         State& state = states_[use.id];
-        const bool unseen_write = state.write_access && ((state.visible_stages & use.stage) != use.stage ||
-                                                         (state.visible_access & use.access) != use.access);
-        if (unseen_write || (use.write && state.write_access)) {
-            barrier.srcStageMask |= state.write_stage;
-            barrier.srcAccessMask |= state.write_access;
+        const auto seen = [&] { return std::ranges::any_of(state.reads, [&](const Use& r) { return r.covers(use); }); };
+        if (state.write && (use.write || !seen())) {
+            barrier.srcStageMask |= state.write->stage;
+            barrier.srcAccessMask |= state.write->access;
         }
-        if (use.write) barrier.srcStageMask |= state.read_stages;
+        if (!use.write) continue;
+        for (const Use& read : state.reads) barrier.srcStageMask |= read.stage;
     }
     if (barrier.srcStageMask) {
         for (const Use& use : uses) {
@@ -129,13 +76,10 @@ void Recorder::synchronise(std::span<const Use> uses) {
     }
     for (const Use& use : uses) {
         State& state = states_[use.id];
-        if (use.write) {
-            state = State{use.stage, use.access, {}, {}, {}};
-        } else {
-            state.visible_stages |= use.stage;
-            state.visible_access |= use.access;
-            state.read_stages |= use.stage;
-        }
+        if (use.write)
+            state = {use, {}};
+        else if (std::ranges::none_of(state.reads, [&](const Use& read) { return read.covers(use); }))
+            state.reads.push_back(use);
     }
 }
 
@@ -167,21 +111,21 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
     }
 }
 
-void Recorder::bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+void Recorder::bind(const Program& program, Bindings bindings, std::span<const std::byte> push,
                     std::vector<Use>& uses) {
     const bool graphics = program.bind_point() == vk::PipelineBindPoint::eGraphics;
     const std::size_t push_offset = graphics ? sizeof(DrawCall::object) : 0;  // which each draw sets by itself
-    if (bindings.size() != program.slots().size() || push_offset + push.size() != program.push_size()) {
-        throw std::logic_error(fmt::format(
-            "{}: the shader has {} bindings and {} bytes of push constants, the pass {} and {}", program.name(),
-            program.slots().size(), program.push_size(), bindings.size(), push_offset + push.size()));
+    if (push_offset + push.size() != program.push_size()) {
+        throw std::logic_error(fmt::format("{}: the shader has {} bytes of push constants, the pass {}", program.name(),
+                                           program.push_size(), push_offset + push.size()));
     }
+    const std::size_t count = program.slots().size();
     std::vector<vk::WriteDescriptorSet> set_writes;
-    std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
-    std::vector<vk::DescriptorImageInfo> images(bindings.size());
-    std::vector<vk::BufferView> texels(bindings.size());
-    std::vector<vk::AccelerationStructureKHR> structures(bindings.size());
-    std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structure_writes(bindings.size());
+    std::vector<vk::DescriptorBufferInfo> buffers(count);
+    std::vector<vk::DescriptorImageInfo> images(count);
+    std::vector<vk::BufferView> texels(count);
+    std::vector<vk::AccelerationStructureKHR> structures(count);
+    std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structure_writes(count);
     const vk::DescriptorSet set = allocate_set(program);
     for (const BindingSlot& slot : program.slots()) {
         const Binding& binding = binding_of(program, slot, bindings);
@@ -210,8 +154,9 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
             write.pNext = &structure_writes[i];
             id = binding.structure->id();
         }
-        uses.push_back({id, stages_of(slot), access_of(slot, binding.access), binding.access != Access::kRead});
+        uses.push_back({id, stages_of(slot), access_of(slot), slot.writable});
     }
+    check_own(program, bindings);
     device_.handle().updateDescriptorSets(set_writes, nullptr);
     commands_.bindPipeline(program.bind_point(), program.pipeline());
     commands_.bindDescriptorSets(program.bind_point(), program.layout(), 0, set, nullptr);
@@ -221,7 +166,7 @@ void Recorder::bind(const Program& program, std::span<const Binding> bindings, s
     }
 }
 
-void Recorder::compute_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+void Recorder::compute_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                              vk::Extent2D threads) {
     std::vector<Use> uses;
     bind(program, bindings, push, uses);
@@ -231,8 +176,8 @@ void Recorder::compute_bytes(const Program& program, std::span<const Binding> bi
                        (threads.height + group.height - 1) / group.height, 1);
 }
 
-void Recorder::compute_indirect_bytes(const Program& program, std::span<const Binding> bindings,
-                                      std::span<const std::byte> push, const Buffer& arguments) {
+void Recorder::compute_indirect_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
+                                      const Buffer& arguments) {
     std::vector<Use> uses;
     bind(program, bindings, push, uses);
     uses.push_back({arguments.id(), Stage::eDrawIndirect, AccessBit::eIndirectCommandRead, false});
@@ -240,7 +185,7 @@ void Recorder::compute_indirect_bytes(const Program& program, std::span<const Bi
     commands_.dispatchIndirect(arguments.handle(), 0);
 }
 
-void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                           const RenderTarget& target, std::span<const DrawCall> calls) {
     std::vector<Use> uses;
     bind(program, bindings, push, uses);
@@ -282,7 +227,7 @@ void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindi
     commands_.endRendering();
 }
 
-void Recorder::trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+void Recorder::trace_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                            vk::Extent2D rays) {
     const std::uint64_t limit = device_.ray_tracing()->max_rays;
     if (std::uint64_t(rays.width) * rays.height > limit) {
@@ -332,12 +277,26 @@ void Recorder::fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize 
     commands_.fillBuffer(buffer.handle(), offset, bytes, word);
 }
 
-void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes,
-                    vk::DeviceSize destination_offset) {
+void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes) {
     synchronise(std::array{Use{source.id(), Stage::eCopy, AccessBit::eTransferRead, false},
                            Use{destination.id(), Stage::eCopy, AccessBit::eTransferWrite, true}});
-    commands_.copyBuffer(source.handle(), destination.handle(),
-                         vk::BufferCopy{.dstOffset = destination_offset, .size = bytes});
+    commands_.copyBuffer(source.handle(), destination.handle(), vk::BufferCopy{.size = bytes});
+}
+
+// Values lie side by side in buffers on the host, so no copy waits for another.
+const std::byte* Recorder::read_bytes(const Buffer& source, vk::DeviceSize offset, vk::DeviceSize bytes) {
+    if (read_end_ % kReadBufferSize + bytes > kReadBufferSize)
+        read_end_ += kReadBufferSize - read_end_ % kReadBufferSize;
+    const std::size_t number = read_end_ / kReadBufferSize;
+    const vk::DeviceSize at = read_end_ % kReadBufferSize;
+    read_end_ += bytes;
+    if (number == read_buffers_.size()) {
+        read_buffers_.emplace_back(device_, "values read", kReadBufferSize, vk::BufferUsageFlagBits::eTransferDst,
+                                   true);
+    }
+    synchronise(std::array{Use{source.id(), Stage::eCopy, AccessBit::eTransferRead, false}});
+    commands_.copyBuffer(source.handle(), read_buffers_[number].handle(), vk::BufferCopy{offset, at, bytes});
+    return read_buffers_[number].mapped() + at;
 }
 
 void Recorder::write_timestamp(Stage stage) {

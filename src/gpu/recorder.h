@@ -1,12 +1,14 @@
 #pragma once
 
 #include "gpu/acceleration_structure.h"
+#include "gpu/binding.h"
 #include "gpu/memory.h"
 #include "gpu/program.h"
 
 #include <pellucid/device.h>
 
 #include <array>
+#include <cstring>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -16,30 +18,6 @@
 #include <vector>
 
 namespace pellucid {
-
-enum class Access { kRead, kWrite, kReadWrite };
-
-/// A resource bound to a shader's binding of the same name.
-struct Binding {
-    std::string_view name;
-    Access access;
-    const Buffer* buffer = nullptr;
-    const GpuImage* image = nullptr;
-    std::optional<std::uint32_t> layer;  ///< bind one layer as a 2D image; default: all, as an array
-    const AccelerationStructure* structure = nullptr;
-};
-inline Binding reads(std::string_view name, const Buffer& b) { return {name, Access::kRead, &b, nullptr, {}}; }
-inline Binding reads(std::string_view name, const GpuImage& i) { return {name, Access::kRead, nullptr, &i, {}}; }
-inline Binding reads_layer(std::string_view name, const GpuImage& i, std::uint32_t layer) {
-    return {name, Access::kRead, nullptr, &i, layer};
-}
-inline Binding reads(std::string_view name, const AccelerationStructure& s) {
-    return {name, Access::kRead, nullptr, nullptr, {}, &s};
-}
-inline Binding writes(std::string_view name, const Buffer& b) { return {name, Access::kWrite, &b, nullptr, {}}; }
-inline Binding writes(std::string_view name, const GpuImage& i) { return {name, Access::kWrite, nullptr, &i, {}}; }
-inline Binding updates(std::string_view name, const Buffer& b) { return {name, Access::kReadWrite, &b, nullptr, {}}; }
-inline Binding updates(std::string_view name, const GpuImage& i) { return {name, Access::kReadWrite, nullptr, &i, {}}; }
 
 inline vk::ClearValue clear_to(float value) { return vk::ClearColorValue(std::array{value, value, value, value}); }
 inline vk::ClearValue clear_to(std::array<std::uint32_t, 4> value) { return vk::ClearColorValue(value); }
@@ -53,9 +31,9 @@ struct RenderTarget {
         std::optional<vk::ClearValue> clear;
     };
     vk::Extent2D extent;
-    std::vector<Attachment> colors;
-    std::optional<Attachment> depth;
-    vk::Rect2D scissor;  ///< zero extent: everything
+    std::vector<Attachment> colors = {};
+    std::optional<Attachment> depth = {};
+    vk::Rect2D scissor = {};  ///< zero extent: everything
 };
 
 /// Triangle corners of one object: the shader sees them as gl_VertexIndex, which counts in GpuScene::indices,
@@ -89,48 +67,35 @@ public:
 
     /// Runs at least `threads.width` x `threads.height` invocations; the shader drops the surplus.
     template <class Push>
-    void compute(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
-                 vk::Extent2D threads) {
+    void compute(const Program& program, Bindings bindings, const Push& push, vk::Extent2D threads) {
         compute_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads);
     }
-    void compute(const Program& program, std::initializer_list<Binding> bindings, vk::Extent2D threads) {
+    void compute(const Program& program, Bindings bindings, vk::Extent2D threads) {
         compute_bytes(program, bindings, {}, threads);
-    }
-
-    template <class Push>
-    void compute(const Program& program, std::span<const Binding> bindings, const Push& push, vk::Extent2D threads) {
-        compute_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads);
     }
 
     /// Runs as many workgroups as the first three words of `arguments` say when the device gets there.
     template <class Push>
-    void compute_indirect(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
-                          const Buffer& arguments) {
+    void compute_indirect(const Program& program, Bindings bindings, const Push& push, const Buffer& arguments) {
         compute_indirect_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), arguments);
     }
-    template <class Push>
-    void compute_indirect(const Program& program, std::span<const Binding> bindings, const Push& push,
-                          const Buffer& arguments) {
-        compute_indirect_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), arguments);
-    }
-    void compute_indirect(const Program& program, std::initializer_list<Binding> bindings, const Buffer& arguments) {
+    void compute_indirect(const Program& program, Bindings bindings, const Buffer& arguments) {
         compute_indirect_bytes(program, bindings, {}, arguments);
     }
 
     template <class Push>
-    void draw(const Program& program, std::initializer_list<Binding> bindings, const Push& push,
-              const RenderTarget& target, std::span<const DrawCall> calls) {
+    void draw(const Program& program, Bindings bindings, const Push& push, const RenderTarget& target,
+              std::span<const DrawCall> calls) {
         draw_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), target, calls);
     }
 
-    void draw(const Program& program, std::initializer_list<Binding> bindings, const RenderTarget& target,
-              std::span<const DrawCall> calls) {
+    void draw(const Program& program, Bindings bindings, const RenderTarget& target, std::span<const DrawCall> calls) {
         draw_bytes(program, bindings, {}, target, calls);
     }
 
     /// Launches one ray generation per pixel of `rays`. Throws Error if that is more than the device launches.
     template <class Push>
-    void trace(const Program& program, std::initializer_list<Binding> bindings, const Push& push, vk::Extent2D rays) {
+    void trace(const Program& program, Bindings bindings, const Push& push, vk::Extent2D rays) {
         trace_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), rays);
     }
 
@@ -142,8 +107,16 @@ public:
     void clear_layer(const GpuImage& image, std::uint32_t layer, vk::ClearColorValue value);
     void fill(const Buffer& buffer, std::uint32_t word) { fill(buffer, 0, VK_WHOLE_SIZE, word); }
     void fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize bytes, std::uint32_t word);
-    void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes,
-              vk::DeviceSize destination_offset = 0);
+    void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes);
+    /// Calls `then` with the T at byte `offset` of `source`, once what is being recorded has run.
+    template <class T, class Then>
+    void read(const Buffer& source, vk::DeviceSize offset, Then then) {
+        when_done([from = read_bytes(source, offset, sizeof(T)), then = std::move(then)] {
+            T value;
+            std::memcpy(&value, from, sizeof(T));
+            then(value);
+        });
+    }
 
     /// Runs `step` on the host between what is recorded before, whose results it sees in mapped buffers, and what is
     /// recorded after, which sees what it wrote there. Where it returns false, what is recorded from here to end_of_steps()
@@ -170,23 +143,23 @@ private:
         vk::PipelineStageFlags2 stage;
         vk::AccessFlags2 access;
         bool write;
+        bool covers(const Use& other) const {
+            return (stage & other.stage) == other.stage && (access & other.access) == other.access;
+        }
     };
     struct State {
-        vk::PipelineStageFlags2 write_stage;
-        vk::AccessFlags2 write_access;
-        vk::PipelineStageFlags2 visible_stages;  // and accesses, to which the last write has been made visible
-        vk::AccessFlags2 visible_access;
-        vk::PipelineStageFlags2 read_stages;  // since the last write
+        std::optional<Use> write;  // the last,
+        std::vector<Use> reads;    // and those since, which see it
     };
 
-    void compute_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+    void compute_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                        vk::Extent2D threads);
-    void compute_indirect_bytes(const Program& program, std::span<const Binding> bindings,
-                                std::span<const std::byte> push, const Buffer& arguments);
-    void draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
+    void compute_indirect_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
+                                const Buffer& arguments);
+    void draw_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                     const RenderTarget& target, std::span<const DrawCall> calls);
-    void trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
-                     vk::Extent2D rays);
+    void trace_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push, vk::Extent2D rays);
+    const std::byte* read_bytes(const Buffer& source, vk::DeviceSize offset, vk::DeviceSize bytes);
     void begin_commands();
     void begin_label();
     void add_step(std::function<bool()> step);
@@ -194,8 +167,7 @@ private:
     void submit_commands(vk::CommandBuffer commands);
     void make_visible_to_host();
     void synchronise(std::span<const Use> uses);
-    void bind(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
-              std::vector<Use>& uses);
+    void bind(const Program& program, Bindings bindings, std::span<const std::byte> push, std::vector<Use>& uses);
     vk::DescriptorSet allocate_set(const Program& program);
     void write_timestamp(vk::PipelineStageFlagBits2 stage);
     std::vector<PassTime> read_times() const;
@@ -219,6 +191,8 @@ private:
     std::uint32_t timestamps_ = 0;
     std::map<ResourceId, State> states_;
     std::vector<std::function<void()>> when_done_;
+    std::vector<Buffer> read_buffers_;  // of kReadBufferSize, on the host
+    vk::DeviceSize read_end_ = 0;       // in all of them
 };
 
 }  // namespace pellucid

@@ -7,30 +7,21 @@
 
 namespace pellucid {
 
-const Program& Workspace::compute(ShaderCode shader, std::span<const std::uint32_t> constants) {
-    std::string name(shader.name);
-    for (const std::uint32_t constant : constants) name += fmt::format(" {}", constant);
-    auto found = programs_.find(name);
-    if (found == programs_.end()) {
-        found = programs_.emplace(name, Program::compute(device_, shader, constants)).first;
-    }
-    return found->second;
+const Program& Workspace::compute(ShaderCode shader, std::span<const Constant> constants) {
+    std::string key(shader.name);
+    for (const auto& [name, value] : constants) key += fmt::format(" {} {}", name, value);
+    return program(std::move(key), [&] { return Program::compute(device_, shader, constants); });
 }
 
 const Program& Workspace::graphics(const Program::Graphics& state) {
-    auto found = programs_.find(state.fragment.name);
-    if (found == programs_.end()) {
-        found = programs_.emplace(state.fragment.name, Program::graphics(device_, state)).first;
-    }
-    return found->second;
+    std::string key = fmt::format("{} {} {} {}", state.vertex.name, state.fragment.name, state.depth, int(state.blend));
+    for (const vk::Format format : state.colors) key += ' ' + vk::to_string(format);
+    return program(std::move(key), [&] { return Program::graphics(device_, state); });
 }
 
 const Program& Workspace::ray_tracing(const Program::RayTracing& shaders) {
-    auto found = programs_.find(shaders.raygen.name);
-    if (found == programs_.end()) {
-        found = programs_.emplace(shaders.raygen.name, Program::ray_tracing(device_, shaders)).first;
-    }
-    return found->second;
+    return program(fmt::format("{} {} {}", shaders.raygen.name, shaders.miss.name, shaders.closest_hit.name),
+                   [&] { return Program::ray_tracing(device_, shaders); });
 }
 
 const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::Extent2D extent, std::uint32_t layers) {

@@ -22,9 +22,9 @@ public:
 
     const Device& device() const { return device_; }
 
-    /// Programs are made once and kept. `constants` are the shader's specialization constants.
-    const Program& compute(ShaderCode shader, std::span<const std::uint32_t> constants);
-    const Program& compute(ShaderCode shader, std::initializer_list<std::uint32_t> constants = {}) {
+    /// Programs are made once and kept.
+    const Program& compute(ShaderCode shader, std::span<const Constant> constants);
+    const Program& compute(ShaderCode shader, std::initializer_list<Constant> constants = {}) {
         return compute(shader, std::span(constants));
     }
     const Program& graphics(const Program::Graphics& state);
@@ -51,6 +51,13 @@ private:
         SceneHierarchy resource;
         bool used = true;
     };
+
+    /// The program of a key that says all that it depends on.
+    template <class Make>
+    const Program& program(std::string key, const Make& make) {
+        const auto found = programs_.find(key);
+        return found != programs_.end() ? found->second : programs_.emplace(std::move(key), make()).first->second;
+    }
 
     const Device& device_;
     std::map<std::string, Program, std::less<>> programs_;

@@ -6,6 +6,7 @@
 // take n/2 passes and one more, wherever a view ray crosses no more than n surfaces. Where it crosses more, the two
 // sides have not met, and more passes are needed, n + 1 at most.
 #include "layers/layer_images.h"
+#include "layers/shaders.h"
 
 #include <fmt/format.h>
 
@@ -16,29 +17,8 @@
 namespace pellucid {
 namespace {
 
-constexpr std::uint32_t kLayerVertex[] = {
-#include "layer.vert.inc"
-};
-constexpr std::uint32_t kDualPeelLayersFragment[] = {
-#include "dual_peel_layers.frag.inc"
-};
-constexpr std::uint32_t kOrderLayersCompute[] = {
-#include "order_layers.comp.inc"
-};
-
 constexpr vk::Format kSideFormat = vk::Format::eR32G32B32A32Sfloat;
 constexpr std::uint64_t kMostTriangles = 0x7f000000u / 2;  // as many as dual_peel.glsl can tell apart
-
-/// As order_layers.comp declares them, of all builds of a frame.
-struct PeelCounters {
-    std::uint32_t extra_peels;
-    std::uint32_t crowded;
-};
-static_assert(sizeof(PeelCounters) == 8);
-
-const Buffer& counters_on_host(const Frame& frame) {
-    return frame.workspace.buffer("peel counts", sizeof(PeelCounters), true);
-}
 
 bool too_many_triangles(const Frame& frame, std::span<const DrawCall> solids) {
     return std::any_of(solids.begin(), solids.end(), [&](const DrawCall& call) {
@@ -55,8 +35,8 @@ struct Sides {
 Sides peel_both_sides(Recorder& recorder, const Frame& frame, const Opaque& opaque, std::span<const DrawCall> solids,
                       std::uint32_t passes) {
     Workspace& workspace = frame.workspace;
-    const Program& program = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
-                                                 .fragment = {"dual_peel_layers.frag", kDualPeelLayersFragment},
+    const Program& program = workspace.graphics({.vertex = shaders::layer_vert,
+                                                 .fragment = shaders::dual_peel_layers_frag,
                                                  .colors = {kSideFormat, kSideFormat},
                                                  .blend = Blend::kMaxAddAlpha});
     // Requests of one frame may take different numbers of passes.
@@ -65,16 +45,12 @@ Sides peel_both_sides(Recorder& recorder, const Frame& frame, const Opaque& opaq
     const vk::ClearValue nothing = vk::ClearColorValue(std::array{-float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f});
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
         const RenderTarget target{.extent = frame.extent,
-                                  .colors = {{&sides.near_side, pass, nothing}, {&sides.far_side, pass, nothing}},
-                                  .depth = {},
-                                  .scissor = {}};
+                                  .colors = {{&sides.near_side, pass, nothing}, {&sides.far_side, pass, nothing}}};
         // Before the first pass there is nothing to read; something of the right kind has to be bound.
         const bool first = pass == 0;
         const std::uint32_t last = first ? 0 : pass - 1;
         recorder.draw(program,
-                      {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                       reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
-                       reads_layer("last_near", first ? opaque.radiance : sides.near_side, last),
+                      {frame.bindings(), reads_layer("last_near", first ? opaque.radiance : sides.near_side, last),
                        reads_layer("last_far", first ? opaque.radiance : sides.far_side, last)},
                       first ? 1u : 0u, target, solids);
     }
@@ -92,31 +68,33 @@ Layers LayerSource::peel_dual(Recorder& recorder, const Frame& frame, const Opaq
     geometry_passes_ += peels + 1;
 
     const LayerImages images = allocate_layers(frame, request);
-    const Buffer& counters = frame.workspace.buffer("peel counters", sizeof(PeelCounters));
-    if (builds_++ == 0) recorder.fill(counters, 0);
+    const Buffer& counters = frame.workspace.buffer("peel counters", sizeof(glm::uvec2));
+    recorder.fill(counters, 0);
     recorder.clear(images.depth, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
     recorder.clear(images.triangle, vk::ClearColorValue(std::array{PELLUCID_NO_TRIANGLE, 0u, 0u, 0u}));
-    recorder.compute(frame.workspace.compute({"order_layers.comp", kOrderLayersCompute}),
+    recorder.compute(frame.workspace.compute(shaders::order_layers_comp),
                      {reads("near_side", sides.near_side), reads("far_side", sides.far_side),
                       reads("opaque_depth", opaque.depth), writes("layer_depth", images.depth),
                       writes("layer_triangle", images.triangle), updates("PeelCounters", counters)},
                      std::array{request.count, request.hidden_by_opaque ? 1u : 0u, peels}, frame.extent);
-    recorder.copy(counters, counters_on_host(frame), counters.size());
+    recorder.read<glm::uvec2>(counters, 0, [this](const glm::uvec2& counted) {
+        dual_.counted = glm::max(dual_.counted.value_or(counted), counted);
+    });
     return finish_layers(recorder, frame, images, opaque, request, *this);
 }
 
 // Sides that have not met do not say how far they are from it: the frame is drawn again with as many passes as can
 // be needed, and that tells how many are.
-bool LayerSource::must_peel_more(const Frame& frame) {
-    if (builds_ == 0) return false;
-    PeelCounters counters;
-    std::memcpy(&counters, counters_on_host(frame).mapped(), sizeof(counters));
-    if (counters.crowded > 0) {
+bool LayerSource::must_peel_more() {
+    if (!dual_.counted) return false;
+    const auto [extra_peels, crowded] = std::pair(dual_.counted->x, dual_.counted->y);
+    dual_.counted.reset();
+    if (crowded > 0) {
         dual_.crowded = true;
         return true;
     }
-    const bool more = counters.extra_peels > dual_.extra_peels;
-    if (more || dual_.measuring) dual_.extra_peels = counters.extra_peels;
+    const bool more = extra_peels > dual_.extra_peels;
+    if (more || dual_.measuring) dual_.extra_peels = extra_peels;
     dual_.measuring = more;
     return more;
 }

@@ -5,18 +5,13 @@
 #include "layers/fragment_list.glsl"
 #include "layers/layer_fragment.glsl"
 
-layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };  // fragments, per build and band
-layout(std430, set = 0, binding = 3) writeonly buffer Nodes { Node nodes[]; };
+layout(std430, set = 0, binding = 3) buffer Nodes { uint node_count, nodes_reserved[3]; Node nodes[]; };
 layout(set = 0, binding = 4, r32ui) uniform uimage2DArray heads;
-layout(push_constant) uniform Push {
-    uint drawn_object;
-    uint counter;
-    uint capacity;
-};
+layout(push_constant) uniform Push { uint drawn_object; };
 
 void main() {
-    uint node = atomicAdd(counters[counter], 1u);
-    if (node >= capacity) return;  // counted all the same: the host enlarges the pool
+    uint node = atomicAdd(node_count, 1u);
+    if (node >= nodes.length()) return;  // counted all the same: the host enlarges the pool
     uint next = imageAtomicExchange(heads, ivec3(gl_FragCoord.xy, 0), node + 1u);
     nodes[node] = Node(rasterised_fragment(), next);
 }

@@ -1,17 +1,11 @@
 #include "layers/layer_images.h"
 
 #include "layers/pixel_list.h"
+#include "layers/shaders.h"
 
 #include <array>
 
 namespace pellucid {
-namespace {
-
-constexpr std::uint32_t kResolveNormals[] = {
-#include "resolve_normals.comp.inc"
-};
-
-}  // namespace
 
 LayerImages allocate_layers(const Frame& frame, const LayerRequest& request) {
     Workspace& workspace = frame.workspace;
@@ -25,12 +19,10 @@ const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const Laye
     const Buffer& covered = list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE,
                                         request.name + " pixels", 0, frame.extent.height, frame.wanted_samples);
     const bool one_object = request.solids.size() == 1;
-    recorder.compute_indirect(
-        frame.workspace.compute({"resolve_normals.comp", kResolveNormals}, {one_object ? 1u : 0u}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices), reads("layer_triangle", images.triangle),
-         writes("layer_normal", images.normal), reads("PixelList", covered)},
-        std::array{request.count, one_object ? request.solids[0].object : 0u}, covered);
+    recorder.compute_indirect(frame.workspace.compute(shaders::resolve_normals_comp, {{"kOneObject", one_object}}),
+                              {frame.bindings(), reads("layer_triangle", images.triangle),
+                               writes("layer_normal", images.normal), reads("PixelList", covered)},
+                              std::array{request.count, one_object ? request.solids[0].object : 0u}, covered);
     return covered;
 }
 

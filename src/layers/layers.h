@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gpu/counted_buffer.h"
 #include "gpu/frame.h"
 #include "gpu/scene_topology.h"
 #include "layers/mesh_maps.h"
@@ -41,7 +42,16 @@ struct Layers {
     std::uint32_t count;
     const Opaque& opaque;
     LayerSource& source;  ///< builds more, for techniques that look at objects one by one
+    std::vector<Binding> group = {reads("layer_depth", depth),          reads("layer_triangle", triangle),
+                                  reads("layer_normal", normal),        reads("PixelList", covered),
+                                  reads("opaque_depth", opaque.depth),  reads("opaque_radiance", opaque.radiance),
+                                  reads("opaque_object", opaque.object)};
+    /// All of this by the names that shaders have for it; "PixelList" is `covered`, unless the pass has another.
+    Binding bindings() const { return all_of(group); }
 };
+
+/// Bytes of a fragment in its list; twin of Node in fragment_list.glsl.
+inline constexpr vk::DeviceSize kFragmentNodeSize = 12;
 
 /// Which layers are wanted.
 struct LayerRequest {
@@ -54,35 +64,31 @@ struct LayerRequest {
     std::string name = "layer";
 };
 
-/// Room for the fragments of the single pass: measured in one frame, used in the next.
+/// Capacity for the fragments of the single pass, to begin with.
 struct FragmentPool {
     std::uint32_t capacity = 0;  ///< fragments; 0: choose
     std::uint32_t bands = 1;     ///< the picture is done in this many horizontal bands
-    std::uint32_t builds = 1;    ///< a frame makes at most this many, or one of each solid of glass and of all
-};
-
-/// Room for a surface map; likewise. 0: choose.
-struct MapPool {
-    std::uint32_t records = 0;
-    std::uint32_t tiles = 0;  ///< that large triangles are cut into
 };
 
 /// What dual depth peeling learnt of a scene: measured in one frame, used in the next. It is kept until another scene
 /// or picture size is set, so a single crowded pixel in one view makes later views peel one by one.
 struct DualPeeling {
-    std::uint32_t extra_peels = 0;  ///< beyond half the layers: view rays cross more surfaces than there are layers
-    bool measuring = false;         ///< the frame makes all the passes that can be needed, to count those that are
-    bool crowded = false;           ///< three surfaces at one depth, which only peeling one by one tells apart
+    std::uint32_t extra_peels = 0;      ///< beyond half the layers: view rays cross more surfaces than there are layers
+    bool measuring = false;             ///< the frame makes all the passes that can be needed, to count those that are
+    bool crowded = false;               ///< three surfaces at one depth, which only peeling one by one tells apart
+    std::optional<glm::uvec2> counted;  ///< of the frame that has run: extra peels that it needs, crowded pixels
 };
 
 /// Builds the layers of a frame, as often as it is asked to. Lives from frame to frame and learns from each how
 /// much room the next one needs.
 class LayerSource {
 public:
-    explicit LayerSource(FragmentPool pool = {}) : pool_(pool) {}
+    explicit LayerSource(FragmentPool pool = {}) : bands_(pool.bands) {
+        counted("fragments", kFragmentNodeSize).set_capacity(pool.capacity);
+    }
 
     /// Before the first build() of a frame.
-    void begin_frame(LayerBuilder builder) { builder_ = builder, builds_ = geometry_passes_ = 0, mapped_ = false; }
+    void begin_frame(LayerBuilder builder) { builder_ = builder, geometry_passes_ = 0; }
     Layers build(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     /// A map of the view, in which every triangle of the scene is. Once per frame; needs GpuScene::topology.
     SurfaceMap map_view(Recorder& recorder, const Frame& frame);
@@ -91,10 +97,11 @@ public:
     /// Lists every triangle of the scene in the texels of a projection.
     SurfaceMap map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
                             const MapProjection& projection);
-    /// How many items of `name` a frame has room for, at first `guess`; what a frame counted is the next one's guess.
-    std::uint32_t room(const std::string& name, std::uint32_t guess);
-    /// The first word of `counter` is how many there were, once the frame has run.
-    void measure_room(Recorder& recorder, const Frame& frame, const std::string& name, const Buffer& counter);
+    /// A buffer of a technique, which lives as long as what it has learnt; must_repeat() looks at it, too.
+    CountedBuffer& counted(const std::string& name, vk::DeviceSize item_size,
+                           vk::Format texels = vk::Format::eUndefined, bool host_visible = false) {
+        return counted_.try_emplace(name, name, item_size, texels, host_visible).first->second;
+    }
     /// Maps of every mesh, each in its own frame, built where a mesh is new or has moved. Once per frame.
     SurfaceMap map_meshes(Recorder& recorder, const Frame& frame, std::uint32_t resolution) {
         return mesh_maps_.bring_up_to_date(recorder, frame, resolution);
@@ -111,29 +118,17 @@ private:
     Layers peel(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     Layers peel_dual(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     Layers gather(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
-    bool must_enlarge_rooms();
-    bool must_peel_more(const Frame& frame);
+    bool must_peel_more();
     struct FragmentBand;
     void rasterise_fragments(Recorder& recorder, const Frame& frame, const LayerRequest& request,
                              const FragmentBand& band);
-    bool must_enlarge_pool(const Frame& frame);
-    bool must_enlarge_tiles(const Frame& frame);
-    bool must_enlarge_map(const Frame& frame);
-    bool must_rebuild_layers(const Frame& frame);
+    void cut_bands(const Frame& frame);
 
     LayerBuilder builder_ = LayerBuilder::kSinglePass;
-    std::uint32_t builds_ = 0;  ///< in this frame, that counted something
     std::uint32_t geometry_passes_ = 0;
-    FragmentPool pool_;
-    std::uint32_t tile_capacity_ = 0;  ///< that large triangles are cut into; 0: choose
+    std::uint32_t bands_;  ///< horizontal, of the picture, whose fragments fit one after the other
     DualPeeling dual_;
-    struct Room {
-        std::uint32_t capacity = 0;
-        const Buffer* counted = nullptr;  ///< on the host; in this frame
-    };
-    std::map<std::string, Room> rooms_;
-    MapPool map_pool_;
-    bool mapped_ = false;  ///< in this frame
+    std::map<std::string, CountedBuffer> counted_;
     MeshMaps mesh_maps_;
 };
 

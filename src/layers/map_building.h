@@ -1,11 +1,12 @@
 #pragma once
 
+#include "gpu/counted_buffer.h"
 #include "gpu/frame.h"
 #include "gpu/scene_topology.h"
 #include "layers/surface_map.h"
 
 #include <cstdint>
-#include <string_view>
+#include <functional>
 
 namespace pellucid {
 
@@ -17,13 +18,6 @@ struct MapRecord {
     std::uint32_t first_head, first_node, first_triangle;
 };
 static_assert(sizeof(MapRecord) == 96);
-
-/// Twin of MapCount in map_count.glsl.
-struct MapCount {
-    std::uint32_t tiles;
-    std::uint32_t records;
-    std::uint32_t placed;
-};
 
 inline constexpr vk::DeviceSize kMapTriangleSize = 48;
 inline constexpr vk::DeviceSize kMapTexelSize = 8;   ///< TexelRecords
@@ -55,18 +49,15 @@ struct MapBuild {
     std::uint32_t index;  ///< there
     bool of_mesh;  ///< of the mesh that starts at record.first_triangle, in its own frame; otherwise of all objects
     std::uint32_t triangle_count;
-    std::uint32_t first_record, records;  ///< room in map.records,
-    std::uint32_t found, tiles;           ///< and while it is built; found >= records
+    std::uint32_t first_record, records;         ///< capacity in map.records
+    CountedBuffer& found;                        ///< begun; records before they are sorted, of at least that capacity
+    CountedBuffer& tiles;                        ///< that large triangles are cut into
+    std::function<void(std::uint32_t)> counted;  ///< gets the records that it needs, once the frame has run
 };
-/// Records the passes that fill it, and copies the MapCount to `counts` (host visible), entry build.index.
-void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topology, const MapBuild& build,
-               const Buffer& counts);
+/// Records the passes that fill it.
+void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topology, const MapBuild& build);
 
-/// How many items of a size a buffer of the device can have, in whole blocks.
-std::uint32_t most_map_items(const Device& device, vk::DeviceSize item_size);
-/// `room` if it is enough for what was `needed`, otherwise more. Throws Error, naming `what`, if the device has no
-/// room for it.
-std::uint32_t room_for(const Device& device, std::uint32_t room, std::uint32_t needed, vk::DeviceSize item_size,
-                       std::string_view what);
+/// Threads of the shaders that take a triangle each, in rows that a dispatch may have.
+vk::Extent2D threads_for(const Device& device, std::uint32_t triangles);
 
 }  // namespace pellucid

@@ -2,20 +2,21 @@
 #define PELLUCID_LAYERS_MAP_RECORDS_GLSL
 
 // Records as the rasteriser finds them, before they are sorted by texel. Needs: layers/map_triangle_setup.glsl.
-#include "layers/map_count.glsl"
-
 layout(std430, set = 0, binding = 6) buffer Texels { TexelRecords texels[]; };
-layout(std430, set = 0, binding = 7) writeonly buffer Found { uvec4 found[]; };  // texel, number there, triangle, range
+layout(std430, set = 0, binding = 7) buffer Found {
+    uint found_count, found_reserved[3];
+    uvec4 found[];  // texel, number there, triangle, range
+};
 
 // Puts a record into its place of the list, if there is room (places are counted beyond it: the host then makes more)
 // and if the triangle is in the texel; kNoTexel holds the place otherwise.
-void put_record(MapRecord map, uint place, ivec2 texel, uint triangle, uint range, uint capacity, bool covered) {
+void put_record(MapRecord map, uint place, ivec2 texel, uint triangle, uint range, bool covered) {
     uint index = kNoTexel, number = 0u;
     if (covered) {
         index = map.first_head + uint(texel_order(map, texel));
         number = atomicAdd(texels[index].count, 1u);
     }
-    if (place < capacity) found[place] = uvec4(index, number, triangle, range);
+    if (place < found.length()) found[place] = uvec4(index, number, triangle, range);
 }
 
 #endif

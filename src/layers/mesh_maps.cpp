@@ -68,9 +68,20 @@ void make_room(Buffer& buffer, const Device& device, const char* name, std::uint
                     host_visible, texels);
 }
 
+/// How many items of a size a buffer of the device can have, in whole blocks.
+std::uint32_t most_map_items(const Device& device, vk::DeviceSize item_size) {
+    const vk::DeviceSize bytes = std::min<vk::DeviceSize>(device.max_storage_binding(), device.max_allocation());
+    const vk::DeviceSize most =
+        std::min<vk::DeviceSize>(bytes / item_size, std::min(device.limits().maxTexelBufferElements, 0x7ffffffeu));
+    return std::uint32_t(most / kMapRangeBlock * kMapRangeBlock);
+}
+
 constexpr std::uint32_t kCoarsest = 8;  // texels; what a scene whose maps do not fit even so lacks is memory
 
 }  // namespace
+
+MeshMaps::MeshMaps()
+    : found_("surfaces in texels of a mesh", kMapFoundSize, kMapFormat), tiles_("tiles of a mesh", kMapTileSize) {}
 
 SurfaceMap MeshMaps::buffers() const {
     return {&maps_, &triangles_, &normals_, &texels_, &ranges_, &records_, &pyramid_, &objects_};
@@ -128,18 +139,18 @@ MeshMaps::Room MeshMaps::place_maps(const GpuScene& scene) {
 void MeshMaps::lay_out(const Frame& frame) {
     const Device& device = frame.workspace.device();
     const GpuScene& scene = frame.scene;
-    tiles_ = std::max<std::uint64_t>(tiles_, std::uint64_t(texels_across_) * texels_across_ / 4 + 1024);
+    const auto tiles = [&] { return std::uint64_t(texels_across_) * texels_across_ / 4 + 1024; };
+    tiles_.set_capacity(std::max<std::uint64_t>(tiles_.capacity(), tiles()));
     Room room = place_maps(scene);
     const auto too_much = [&] {
         return room.texels > most_map_items(device, kMapTexelSize) ||
-               room.nodes > most_map_items(device, kMapNodeSize) ||
-               std::max(room.records, room.found) > most_map_items(device, kMapFoundSize) ||
-               tiles_ > most_map_items(device, kMapTileSize);
+               room.nodes > most_map_items(device, kMapNodeSize) || room.records > found_.limit(device) ||
+               tiles_.capacity() > tiles_.limit(device);
     };
     // Coarser maps find the same surfaces, in more time.
     while (too_much() && texels_across_ > kCoarsest) {
         texels_across_ = std::max(texels_across_ * 4 / 5, kCoarsest);
-        tiles_ = std::uint64_t(texels_across_) * texels_across_ / 4 + 1024;
+        tiles_.set_capacity(tiles());
         for (Mapped& mesh : meshes_) {
             for (Place& place : mesh.places) place.records = 0;
         }
@@ -150,7 +161,7 @@ void MeshMaps::lay_out(const Frame& frame) {
             fmt::format("the maps of {} meshes with {} surfaces per texel and triangle are more than {} has room for",
                         meshes_.size(), room.records, device.info().name));
     }
-    found_ = std::max<std::uint64_t>(room.found, 1);
+    found_.set_capacity(std::max<std::uint64_t>(room.found, 1));
     make_room(texels_, device, "texels of the meshes' maps", room.texels * kMapTexelSize, kMapPairFormat);
     make_room(pyramid_, device, "pyramids of the meshes' maps", room.nodes * kMapNodeSize, kMapFormat);
     make_room(ranges_, device, "depths in the meshes' maps", room.records * kMapRangeSize, kMapFormat);
@@ -160,7 +171,6 @@ void MeshMaps::lay_out(const Frame& frame) {
     make_room(normals_, device, "normals of the meshes' maps", scene.indices.size() / 12 * kMapTriangleSize,
               kMapFormat);
     make_room(maps_, device, "meshes' maps", meshes_.size() * kAxes * sizeof(MapRecord), {}, true);
-    make_room(counts_, device, "counts of the meshes' maps", meshes_.size() * kAxes * sizeof(MapCount), {}, true);
     make_room(objects_, device, "mapped objects", scene.object_count * sizeof(MappedObject), {}, true);
     laid_out_ = true;
 }
@@ -208,14 +218,15 @@ SurfaceMap MeshMaps::bring_up_to_date(Recorder& recorder, const Frame& frame, st
     const SurfaceMap map = buffers();
     for (const std::uint32_t m : building_) {
         for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
-            const Place& place = meshes_[m].places[axis];
+            Place& place = meshes_[m].places[axis];
             const std::uint32_t index = m * kAxes + axis;
             MapRecord record;
             std::memcpy(&record, maps_.mapped() + index * sizeof(MapRecord), sizeof(record));
+            found_.begin(recorder, frame.workspace, 0);
             build_map(recorder, frame, *scene.topology,
                       {map, record, index, true, scene.meshes[m].triangle_count, std::uint32_t(place.first_record),
-                       std::uint32_t(place.records), std::uint32_t(found_), std::uint32_t(tiles_)},
-                      counts_);
+                       std::uint32_t(place.records), found_, tiles_,
+                       [&place](std::uint32_t records) { place.counted = records; }});
         }
         meshes_[m].moves = scene.meshes[m].moves;
     }
@@ -223,21 +234,17 @@ SurfaceMap MeshMaps::bring_up_to_date(Recorder& recorder, const Frame& frame, st
 }
 
 bool MeshMaps::must_repeat() {
-    bool repeat = false;
+    bool repeat = tiles_.grow();
     for (const std::uint32_t m : building_) {
         meshes_[m].built = true;
-        for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
-            MapCount count{};
-            std::memcpy(&count, counts_.mapped() + (m * kAxes + axis) * sizeof(count), sizeof(count));
-            Place& place = meshes_[m].places[axis];
-            const std::uint64_t records = std::max(count.records, count.placed);
-            if (records <= place.records && count.tiles <= tiles_) continue;
+        for (Place& place : meshes_[m].places) {
+            if (place.counted <= place.records) continue;
             // With room to spare, as deforming meshes need a little more in one frame and less in the next.
-            if (records > place.records) place.records = whole_range_blocks(records + records / 4);
-            if (count.tiles > tiles_) tiles_ = count.tiles + count.tiles / 4;
+            place.records = whole_range_blocks(place.counted + place.counted / 4);
             repeat = true;
         }
     }
+    found_.grow();
     building_.clear();
     if (repeat) laid_out_ = false;
     return repeat;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "gpu/counted_buffer.h"
 #include "gpu/frame.h"
-#include "gpu/recorder.h"
 #include "layers/surface_map.h"
 
 #include <cstdint>
@@ -19,6 +19,8 @@ struct MapRecord;
 /// in which it passes the fewest texels.
 class MeshMaps {
 public:
+    MeshMaps();
+
     static constexpr std::uint32_t kAxes = 3;
 
     /// Builds the maps of meshes that are new or have moved since the last call, within the frame. `resolution`:
@@ -36,6 +38,7 @@ private:
         std::uint64_t first_texel = 0, texels = 0;
         std::uint64_t first_node = 0, nodes = 0;
         std::uint64_t first_record = 0, records = 0;  ///< records 0: choose
+        std::uint64_t counted = 0;                    ///< records that it needs, of the frame that has run
     };
     struct Mapped {
         bool shown = false;  ///< by an object
@@ -60,9 +63,9 @@ private:
     std::uint32_t texels_across_ = 0;                        ///< and what there is room for
     std::vector<Mapped> meshes_;
     std::vector<std::uint32_t> building_;  ///< meshes, in the frame that is being recorded
-    std::uint64_t found_ = 0, tiles_ = 0;  ///< room while a map is built
+    CountedBuffer found_, tiles_;          ///< while a map is built
     bool laid_out_ = false;
-    Buffer maps_, objects_, counts_, triangles_, normals_, texels_, ranges_, records_, pyramid_;
+    Buffer maps_, objects_, triangles_, normals_, texels_, ranges_, records_, pyramid_;
 };
 
 }  // namespace pellucid

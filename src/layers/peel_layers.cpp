@@ -1,24 +1,15 @@
 // Depth peeling, one geometry pass per layer: Everitt, "Interactive Order-Independent Transparency", NVIDIA 2001.
 #include "layers/layer_images.h"
+#include "layers/shaders.h"
 
 #include <array>
 
 namespace pellucid {
-namespace {
-
-constexpr std::uint32_t kLayerVertex[] = {
-#include "layer.vert.inc"
-};
-constexpr std::uint32_t kPeelLayersFragment[] = {
-#include "peel_layers.frag.inc"
-};
-
-}  // namespace
 
 Layers LayerSource::peel(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request) {
     Workspace& workspace = frame.workspace;
-    const Program& program = workspace.graphics({.vertex = {"layer.vert", kLayerVertex},
-                                                 .fragment = {"peel_layers.frag", kPeelLayersFragment},
+    const Program& program = workspace.graphics({.vertex = shaders::layer_vert,
+                                                 .fragment = shaders::peel_layers_frag,
                                                  .colors = {vk::Format::eR32Sfloat, vk::Format::eR32Uint},
                                                  .depth = true});
     const LayerImages images = allocate_layers(frame, request);
@@ -31,12 +22,9 @@ Layers LayerSource::peel(Recorder& recorder, const Frame& frame, const Opaque& o
         const RenderTarget target{.extent = frame.extent,
                                   .colors = {{&images.depth, layer, clear_to(float(PELLUCID_EMPTY_DEPTH))},
                                              {&images.triangle, layer, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})}},
-                                  .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-                                  .scissor = {}};
+                                  .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}};
         recorder.draw(program,
-                      {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-                       reads("Indices", frame.scene.indices), reads("Vertices", frame.scene.vertices),
-                       reads("opaque_depth", opaque.depth),
+                      {frame.bindings(), reads("opaque_depth", opaque.depth),
                        reads_layer("last_depth", layer > 0 ? images.depth : opaque.depth, last),
                        reads_layer("last_triangle", layer > 0 ? images.triangle : no_triangle, last)},
                       std::array{layer, request.hidden_by_opaque ? 1u : 0u}, target, request.solids);

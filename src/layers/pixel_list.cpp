@@ -1,16 +1,10 @@
 #include "layers/pixel_list.h"
+#include "layers/shaders.h"
 
 #include <array>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kListPixels[] = {
-#include "list_pixels.comp.inc"
-};
-constexpr std::uint32_t kStartList[] = {
-#include "start_list.comp.inc"
-};
 
 constexpr vk::DeviceSize kHeaderWords = 4;  // arguments of the dispatch, and the length
 constexpr std::uint32_t kEverySample = ~0u;
@@ -23,7 +17,7 @@ const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::stri
     const Buffer& list = frame.workspace.buffer(name, (kHeaderWords + pixels) * sizeof(std::uint32_t),
                                                 frame.workspace.device().is_cpu());
     const vk::DeviceSize row = vk::DeviceSize(kListGroup) * recorder.device().limits().maxComputeWorkGroupCount[0];
-    recorder.compute(frame.workspace.compute({"start_list.comp", kStartList}), {writes("PixelList", list)},
+    recorder.compute(frame.workspace.compute(shaders::start_list_comp), {writes("PixelList", list)},
                      std::uint32_t((pixels + row - 1) / row), {1, 1});
     return list;
 }
@@ -33,7 +27,7 @@ const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage
                           const std::optional<WantedSamples>& wanted) {
     const Buffer& list = start_pixel_list(recorder, frame, name);
     recorder.compute(
-        frame.workspace.compute({"list_pixels.comp", kListPixels}),
+        frame.workspace.compute(shaders::list_pixels_comp),
         {reads("marks", marks), reads("wanted_samples", wanted ? wanted->counts : marks), updates("PixelList", list)},
         std::array{empty, first_row, row_end, wanted ? wanted->sample : kEverySample},
         {frame.extent.width, row_end - first_row});

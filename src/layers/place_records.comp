@@ -4,7 +4,6 @@
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 #include "layers/surface_map.glsl"
-#include "layers/map_count.glsl"
 #include "layers/objects.glsl"
 
 layout(local_size_x = 64) in;
@@ -18,16 +17,13 @@ layout(std430, set = 0, binding = 10) readonly buffer ShellTraits { uint shell_t
 layout(constant_id = 0) const bool kOneObject = false;
 layout(constant_id = 1) const bool kOfMesh = false;     // records are of no object: whoever walks it knows that one's traits
 layout(constant_id = 2) const bool kManySlots = false;  // shells of one mesh differ
-layout(push_constant) uniform Push {
-    uint found_capacity;
-    uint end;  // of the map's room
-};
+layout(push_constant) uniform Push { uint end; };  // of the map's records
 
 void main() {
     uint group = gl_WorkGroupID.x * gl_NumWorkGroups.y + gl_WorkGroupID.y;
     uint i = group * 64u + gl_LocalInvocationID.x;
-    if (i >= min(counts.records, found_capacity)) return;
-    uvec4 record = texelFetch(found, int(i));  // texel, number there, triangle, range
+    if (i >= min(texelFetch(found, 0).x, uint(textureSize(found)) - 1u)) return;
+    uvec4 record = texelFetch(found, int(i) + 1);  // texel, number there, triangle, range
     if (record.x == kNoTexel) return;
     uint object = kOneObject ? 0u : find_object(record.z);
     uint place = texelFetch(texels, int(record.x)).x + record.y;

@@ -2,12 +2,12 @@
 // Makes room for the records of each texel: blocks of texels lie together, as rays pass through them.
 #extension GL_GOOGLE_include_directive : require
 #include "layers/surface_map.glsl"
-#include "layers/map_count.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 6) buffer Texels { TexelRecords texels[]; };
+layout(std430, set = 0, binding = 7) buffer Found { uint found_count, placed; };
 layout(push_constant) uniform Push {
     uint map_index;
     uint first_record;  // of the map
@@ -26,7 +26,7 @@ void main() {
     uint sum = 0u;
     for (int i = low; i < high; ++i) sum += whole_blocks(texels[i].count);
     if (sum == 0u) return;
-    uint first = first_record + atomicAdd(counts.placed, sum);
+    uint first = first_record + atomicAdd(placed, sum);
     for (int i = low; i < high; ++i) {
         texels[i].first = first;
         first += whole_blocks(texels[i].count);

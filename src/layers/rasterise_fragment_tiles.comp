@@ -10,17 +10,12 @@ layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord obje
 
 layout(local_size_x = 64) in;
 
-layout(push_constant) uniform Push {
-    uint counter;
-    uint capacity;
-    uint tile_capacity;
-    uint first_row, row_end;
-};
+layout(push_constant) uniform Push { uint first_row, row_end; };
 
 void main() {
     uint group = gl_WorkGroupID.x * gl_NumWorkGroups.y + gl_WorkGroupID.y;
     uint i = group * 64u + gl_LocalInvocationID.x;
-    if (i >= min(counts.tiles, tile_capacity)) return;
+    if (i >= min(tile_count, tiles.length())) return;
     uint triangle = tiles[i].x;
     ObjectRecord object = objects[find_object(triangle)];
     PlacedMesh mesh =
@@ -32,7 +27,7 @@ void main() {
         for (int x = low.x; x <= high.x; ++x) {
             float depth;
             bool covered = t.crosses_near ? met_at(t, ivec2(x, y), depth) : covered_at(t, ivec2(x, y), depth);
-            if (covered) append_fragment(ivec2(x, y), Fragment(depth, t.record), counter, capacity);
+            if (covered) append_fragment(ivec2(x, y), Fragment(depth, t.record));
         }
     }
 }

@@ -13,9 +13,6 @@ layout(push_constant) uniform Push {
     PlacedMesh object;
     uint triangle_count;
     uint row;  // invocations in a row of the dispatch
-    uint counter;
-    uint capacity;
-    uint tile_capacity;
     uint first_row, row_end;  // of the picture
 };
 
@@ -43,9 +40,9 @@ void main() {
             covered &= covered - 1u;
             pixel = t.low + ivec2(i % size.x, i / size.x);
             covered_at(t, pixel, depth);
-            append_fragment(pixel, Fragment(depth, t.record), counter, capacity);
+            append_fragment(pixel, Fragment(depth, t.record));
         }
         return;
     }
-    cut_into_tiles(triangle, t.low, t.high, tile_capacity);
+    cut_into_tiles(triangle, t.low, t.high);
 }

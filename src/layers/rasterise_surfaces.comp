@@ -19,8 +19,6 @@ layout(constant_id = 0) const bool kOfMesh = false;
 layout(constant_id = 1) const bool kOneObject = false;
 layout(push_constant) uniform Push {
     uint triangle_count;
-    uint record_capacity;
-    uint tile_capacity;
     uint map_index;
     uint row;  // invocations in a row of the dispatch
 };
@@ -59,14 +57,14 @@ void main() {
     ivec2 size = c.high - c.low + 1;
     if (size.x <= 0 || size.y <= 0) return;
     if (size.x * size.y <= kSmall) {
-        uint at = atomicAdd(counts.records, uint(size.x * size.y)), end = at + uint(size.x * size.y);
+        uint at = atomicAdd(found_count, uint(size.x * size.y)), end = at + uint(size.x * size.y);
         ivec2 texel = c.low;
         for (; at < end; ++at) {
-            put_record(map, at, texel, triangle, depths_in_texel(c, texel), record_capacity, covers(c, texel));
+            put_record(map, at, texel, triangle, depths_in_texel(c, texel), covers(c, texel));
             bool turn = texel.x == c.high.x;
             texel = ivec2(turn ? c.low.x : texel.x + 1, turn ? texel.y + 1 : texel.y);
         }
         return;
     }
-    cut_into_tiles(triangle, c.low, c.high, tile_capacity);
+    cut_into_tiles(triangle, c.low, c.high);
 }

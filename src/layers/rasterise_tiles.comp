@@ -10,16 +10,12 @@ layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Maps { MapRecord maps[]; };
 layout(std430, set = 0, binding = 4) readonly buffer MapTriangles { vec4 map_triangles[]; };
-layout(push_constant) uniform Push {
-    uint record_capacity;
-    uint tile_capacity;
-    uint map_index;
-};
+layout(push_constant) uniform Push { uint map_index; };
 
 void main() {
     uint group = gl_WorkGroupID.x * gl_NumWorkGroups.y + gl_WorkGroupID.y;
     uint i = group * 64u + gl_LocalInvocationID.x;
-    if (i >= min(counts.tiles, tile_capacity)) return;
+    if (i >= min(tile_count, tiles.length())) return;
     MapRecord map = maps[map_index];
     uint triangle = tiles[i].x;
     ivec2 first = tile_corner(i);
@@ -32,8 +28,7 @@ void main() {
     for (int y = low.y; y <= high.y; ++y) {
         for (int x = low.x; x <= high.x; ++x) {
             if (covers(c, ivec2(x, y))) {
-                put_record(map, atomicAdd(counts.records, 1u), ivec2(x, y), triangle, depths_in_texel(c, ivec2(x, y)),
-                           record_capacity, true);
+                put_record(map, atomicAdd(found_count, 1u), ivec2(x, y), triangle, depths_in_texel(c, ivec2(x, y)), true);
             }
         }
     }

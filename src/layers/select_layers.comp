@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord obje
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(std430, set = 0, binding = 2) readonly buffer Nodes { Node nodes[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Nodes { uint node_count, nodes_reserved[3]; Node nodes[]; };
 layout(set = 0, binding = 3, r32ui) readonly uniform uimage2DArray heads;
 layout(set = 0, binding = 4, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 5, r32f) writeonly uniform image2DArray layer_depth;

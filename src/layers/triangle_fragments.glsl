@@ -8,8 +8,7 @@
 #include "gpu/vertices.glsl"
 #include "layers/fragment_list.glsl"
 
-layout(std430, set = 0, binding = 2) buffer Counters { uint counters[]; };  // fragments, per build and band
-layout(std430, set = 0, binding = 3) writeonly buffer Nodes { Node nodes[]; };
+layout(std430, set = 0, binding = 3) buffer Nodes { uint node_count, nodes_reserved[3]; Node nodes[]; };
 layout(set = 0, binding = 4, r32ui) uniform uimage2DArray heads;
 
 // An object as far as it matters here.
@@ -113,9 +112,9 @@ bool met_at(ScreenTriangle t, ivec2 pixel, out float depth) {
     return min(min(weights.x, weights.y), 1.0 - weights.x - weights.y) >= 0.0 && depth >= frame.near_plane;
 }
 
-void append_fragment(ivec2 pixel, Fragment fragment, uint counter, uint capacity) {
-    uint node = atomicAdd(counters[counter], 1u);
-    if (node >= capacity) return;  // counted all the same: the host enlarges the pool
+void append_fragment(ivec2 pixel, Fragment fragment) {
+    uint node = atomicAdd(node_count, 1u);
+    if (node >= nodes.length()) return;  // counted all the same: the host enlarges the pool
     uint next = imageAtomicExchange(heads, ivec3(pixel, 0), node + 1u);
     nodes[node] = Node(fragment, next);
 }

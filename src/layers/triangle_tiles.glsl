@@ -2,26 +2,27 @@
 #define PELLUCID_LAYERS_TRIANGLE_TILES_GLSL
 
 // The list of tiles that large triangles are cut into, so that no invocation has much more to do than its neighbours.
-#include "layers/map_count.glsl"
-
 const int kTile = 8;  // texels or pixels along a side
 
 // Programs that go through the list, and do not write it, define PELLUCID_READS_TILES.
 #ifdef PELLUCID_READS_TILES
-layout(std430, set = 0, binding = 8) readonly buffer Tiles { uvec2 tiles[]; };  // triangle, tile's x | y << 16
+layout(std430, set = 0, binding = 8) readonly buffer Tiles {
+    uint tile_count, tiles_reserved[3];
+    uvec2 tiles[];  // triangle, tile's x | y << 16
+};
 
 // Its corner of the lowest coordinates.
 ivec2 tile_corner(uint tile) { return kTile * ivec2(tiles[tile].y & 0xffffu, tiles[tile].y >> 16); }
 #else
-layout(std430, set = 0, binding = 8) writeonly buffer Tiles { uvec2 tiles[]; };
+layout(std430, set = 0, binding = 8) buffer Tiles { uint tile_count, tiles_reserved[3]; uvec2 tiles[]; };
 
 // Lists the tiles of a triangle's box; those beyond the capacity are counted, and the host makes room.
-void cut_into_tiles(uint triangle, ivec2 low, ivec2 high, uint capacity) {
+void cut_into_tiles(uint triangle, ivec2 low, ivec2 high) {
     ivec2 first = low / kTile, count = high / kTile - first + 1;
-    uint at = atomicAdd(counts.tiles, uint(count.x * count.y));
+    uint at = atomicAdd(tile_count, uint(count.x * count.y));
     for (int i = 0; i < count.x * count.y; ++i) {
         ivec2 tile = first + ivec2(i % count.x, i / count.x);
-        if (at + uint(i) < capacity) tiles[at + uint(i)] = uvec2(triangle, uint(tile.x) | uint(tile.y) << 16);
+        if (at + uint(i) < tiles.length()) tiles[at + uint(i)] = uvec2(triangle, uint(tile.x) | uint(tile.y) << 16);
     }
 }
 #endif

@@ -1,20 +1,11 @@
 #include "shade/adaptation.h"
+#include "shade/shaders.h"
 
 #include <algorithm>
 #include <cstring>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kSumLogLuminance[] = {
-#include "sum_log_luminance.comp.inc"
-};
-constexpr std::uint32_t kAdaptLuminance[] = {
-#include "adapt_luminance.comp.inc"
-};
-constexpr std::uint32_t kKrawczyk[] = {
-#include "krawczyk.comp.inc"
-};
 
 constexpr std::uint32_t kGroupSide = 16;  // of sum_log_luminance.comp, invocations
 constexpr std::uint32_t kSide = 4;        // pixels of an invocation there
@@ -51,7 +42,7 @@ void Adaptation::add(Recorder& recorder, const Frame& frame, const GpuImage& rad
         std::uint32_t side, first_sum;
     };
     const Recorder::Scope scope(recorder, "tonemap");
-    recorder.compute(frame.workspace.compute({"sum_log_luminance.comp", kSumLogLuminance}),
+    recorder.compute(frame.workspace.compute(shaders::sum_log_luminance_comp),
                      {reads("radiance", radiance), writes("TileSums", *sums_)}, Push{look.unit_cd_m2, kSide, added_},
                      threads_of(frame.extent));
     added_ += sum_count(frame.extent);
@@ -65,7 +56,7 @@ void Adaptation::adapt(Recorder& recorder, const Frame& frame, const Look& look)
         std::uint32_t first;
     };
     const Recorder::Scope scope(recorder, "tonemap");
-    recorder.compute(frame.workspace.compute({"adapt_luminance.comp", kAdaptLuminance}),
+    recorder.compute(frame.workspace.compute(shaders::adapt_luminance_comp),
                      {reads("TileSums", *sums_), updates("Adaptation", adapted_)},
                      Push{added_, pixels_, std::min(look.elapsed_s, kLongest), first_ ? 1u : 0u}, {1, 1});
     recorder.when_done([this] { first_ = false; });
@@ -79,7 +70,7 @@ const GpuImage& Adaptation::tonemap(Recorder& recorder, const Frame& frame, cons
     };
     const GpuImage& display = frame.workspace.image("display", vk::Format::eR8G8B8A8Unorm, frame.extent);
     const Recorder::Scope scope(recorder, "tonemap");
-    recorder.compute(frame.workspace.compute({"krawczyk.comp", kKrawczyk}),
+    recorder.compute(frame.workspace.compute(shaders::krawczyk_comp),
                      {reads("radiance", radiance), writes("display", display), reads("Adaptation", adapted_)},
                      Push{look.unit_cd_m2, look.exposure}, frame.extent);
     return display;

@@ -1,46 +1,16 @@
 #include "shade/shade.h"
+#include "shade/shaders.h"
 
 #include <array>
 
 namespace pellucid {
 namespace {
 
-constexpr std::uint32_t kSurfaceVertex[] = {
-#include "surface.vert.inc"
-};
-constexpr std::uint32_t kOpaque[] = {
-#include "opaque.frag.inc"
-};
-constexpr std::uint32_t kThinTint[] = {
-#include "thin_tint.frag.inc"
-};
-constexpr std::uint32_t kThinReflection[] = {
-#include "thin_reflection.frag.inc"
-};
-constexpr std::uint32_t kBackground[] = {
-#include "background.comp.inc"
-};
-constexpr std::uint32_t kShade[] = {
-#include "shade.comp.inc"
-};
-constexpr std::uint32_t kComposePicture[] = {
-#include "compose_picture.comp.inc"
-};
-constexpr std::uint32_t kAccumulate[] = {
-#include "accumulate.comp.inc"
-};
-constexpr std::uint32_t kAccumulateWanted[] = {
-#include "accumulate_wanted.comp.inc"
-};
-constexpr std::uint32_t kTonemap[] = {
-#include "tonemap.comp.inc"
-};
-
 constexpr auto kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
 constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;  // 32-bit float targets need not blend
 
 Program::Graphics surface_program(ShaderCode fragment, std::vector<vk::Format> colors, Blend blend, bool depth) {
-    return {.vertex = {"surface.vert", kSurfaceVertex},
+    return {.vertex = shaders::surface_vert,
             .fragment = fragment,
             .colors = std::move(colors),
             .depth = depth,
@@ -51,9 +21,8 @@ Program::Graphics surface_program(ShaderCode fragment, std::vector<vk::Format> c
 
 Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     Workspace& workspace = frame.workspace;
-    const Program& program = workspace.graphics(
-        surface_program({"opaque.frag", kOpaque}, {kRadianceFormat, vk::Format::eR32Sfloat, vk::Format::eR32Uint},
-                        Blend::kReplace, true));
+    const Program& program = workspace.graphics(surface_program(
+        shaders::opaque_frag, {kRadianceFormat, vk::Format::eR32Sfloat, vk::Format::eR32Uint}, Blend::kReplace, true));
     const GpuImage& radiance = workspace.image("opaque radiance", kRadianceFormat, frame.extent);
     const GpuImage& depth = workspace.image("opaque depth", vk::Format::eR32Sfloat, frame.extent);
     const GpuImage& object = workspace.image("opaque object", vk::Format::eR32Uint, frame.extent);
@@ -68,25 +37,17 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
                               .colors = {{&radiance, 0, clear_to(0.0f)},
                                          {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
                                          {&object, 0, clear_to({0u, 0u, 0u, 0u})}},
-                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-                              .scissor = {}};
-    recorder.draw(
-        program,
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects), reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices), reads("Appearance", frame.scene.appearance),
-         reads("Materials", frame.scene.materials), reads("Textures", frame.scene.textures),
-         reads("texture_pages", frame.scene.texture_pages), reads_layer("environment_map", frame.environment, 0),
-         reads_layer("filtered_environment", frame.filtered_environment, 0)},
-        target, frame.scene.opaque);
+                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}};
+    recorder.draw(program, {frame.bindings()}, target, frame.scene.opaque);
     return {radiance, depth, object};
 }
 
 ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers) {
     Workspace& workspace = frame.workspace;
     const Program& tint =
-        workspace.graphics(surface_program({"thin_tint.frag", kThinTint}, {kLookFormat}, Blend::kMultiply, false));
-    const Program& reflection = workspace.graphics(
-        surface_program({"thin_reflection.frag", kThinReflection}, {kLookFormat}, Blend::kAdd, false));
+        workspace.graphics(surface_program(shaders::thin_tint_frag, {kLookFormat}, Blend::kMultiply, false));
+    const Program& reflection =
+        workspace.graphics(surface_program(shaders::thin_reflection_frag, {kLookFormat}, Blend::kAdd, false));
     // What nothing in the scene draws into is not looked at either.
     const auto look_image = [&](std::string_view name) -> const GpuImage& {
         return workspace.image(name, kLookFormat, frame.scene.thin_walled.empty() ? vk::Extent2D{1, 1} : frame.extent);
@@ -94,26 +55,16 @@ ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& 
     const GpuImage& thin_tint = look_image("thin tint");
     const GpuImage& thin_reflection = look_image("thin reflection");
     const auto target = [&](const GpuImage& image, float clear) {
-        return RenderTarget{
-            .extent = frame.extent, .colors = {{&image, 0, clear_to(clear)}}, .depth = {}, .scissor = {}};
+        return RenderTarget{.extent = frame.extent, .colors = {{&image, 0, clear_to(clear)}}};
     };
     const GpuScene& scene = frame.scene;
 
     const Recorder::Scope scope(recorder, "surface look");
     if (scene.thin_walled.empty()) return {thin_tint, thin_reflection};
-    recorder.draw(
-        tint,
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-         reads("Vertices", scene.vertices), reads("Appearance", scene.appearance), reads("Materials", scene.materials),
-         reads("Textures", scene.textures), reads("texture_pages", scene.texture_pages),
-         reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
-        target(thin_tint, 1.0f), scene.thin_walled);
+    recorder.draw(tint, {frame.bindings(), reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
+                  target(thin_tint, 1.0f), scene.thin_walled);
     recorder.draw(reflection,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-                   reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
-                   reads("Materials", scene.materials), reads("Textures", scene.textures),
-                   reads("texture_pages", scene.texture_pages), reads("opaque_depth", opaque.depth),
-                   reads("layer_depth", layers.depth), reads_layer("environment_map", frame.environment, 0)},
+                  {frame.bindings(), reads("opaque_depth", opaque.depth), reads("layer_depth", layers.depth)},
                   target(thin_reflection, 0.0f), scene.thin_walled);
     return {thin_tint, thin_reflection};
 }
@@ -122,9 +73,13 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
                       const ThinWalls& walls, const Refraction& refraction, View view) {
     Workspace& workspace = frame.workspace;
     const GpuImage& radiance = workspace.image("radiance", kRadianceFormat, frame.extent);
-    const std::uint32_t analysis = view == View::kAnalysis ? 1 : 0;
-    const auto any = [](const std::vector<DrawCall>& objects) { return objects.empty() ? 0u : 1u; };
-    const std::uint32_t thin_walls = any(frame.scene.thin_walled);
+    const std::array constants = {Constant{"kEnvironmentKind", frame.environment_kind},
+                                  Constant{"kAnalysis", view == View::kAnalysis},
+                                  Constant{"kThinWalls", !frame.scene.thin_walled.empty()},
+                                  Constant{"kOpaque", !frame.scene.opaque.empty()},
+                                  Constant{"kTextured", frame.scene.textured_glass},
+                                  Constant{"kPathRadiance", refraction.radiance != nullptr},
+                                  Constant{"kReflected", refraction.reflected != nullptr}};
     // Something of the right kind has to be bound where paths pick up nothing.
     const GpuImage& path_radiance =
         refraction.radiance ? *refraction.radiance : workspace.image("no radiance", kRadianceFormat, {1, 1});
@@ -133,39 +88,18 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
 
     const Recorder::Scope scope(recorder, "shade");
     recorder.compute(
-        workspace.compute({"background.comp", kBackground},
-                          {frame.environment_kind, analysis, thin_walls, any(frame.scene.opaque)}),
-        {reads("Frame", frame.constants), reads_layer("environment_map", frame.environment, 0),
-         reads("thin_tint", walls.thin_tint), reads("thin_reflection", walls.thin_reflection),
+        workspace.compute(shaders::background_comp, constants),
+        {frame.bindings(), reads("thin_tint", walls.thin_tint), reads("thin_reflection", walls.thin_reflection),
          reads("opaque_radiance", opaque.radiance), reads("opaque_depth", opaque.depth), writes("radiance", radiance)},
         frame.extent);
     recorder.compute_indirect(
-        workspace.compute({"shade.comp", kShade},
-                          {frame.environment_kind, analysis, thin_walls, frame.scene.textured_glass ? 1u : 0u,
-                           refraction.radiance ? 1u : 0u, refraction.reflected ? 1u : 0u}),
-        {reads("Frame", frame.constants),
-         reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials),
-         reads_layer("environment_map", frame.environment, 0),
-         reads("layer_triangle", layers.triangle),
-         reads("layer_normal", layers.normal),
-         reads("PixelList", layers.covered),
-         reads("thin_tint", walls.thin_tint),
-         reads("thin_reflection", walls.thin_reflection),
-         reads("exit_direction", refraction.exit_direction),
-         reads("transmittance", refraction.transmittance),
-         reads("path_events", refraction.events),
-         reads("path_radiance", path_radiance),
-         reads("reflected_radiance", reflected),
-         reads("texture_pages", frame.scene.texture_pages),
-         reads("Appearance", frame.scene.appearance),
-         reads("Textures", frame.scene.textures),
-         reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices),
-         writes("radiance", radiance)},
+        workspace.compute(shaders::shade_comp, constants),
+        {frame.bindings(), layers.bindings(), refraction.bindings(), reads("thin_tint", walls.thin_tint),
+         reads("thin_reflection", walls.thin_reflection), reads("path_radiance", path_radiance),
+         reads("reflected_radiance", reflected), writes("radiance", radiance)},
         layers.covered);
     if (refraction.picture) {
-        recorder.compute(workspace.compute({"compose_picture.comp", kComposePicture}, {analysis}),
+        recorder.compute(workspace.compute(shaders::compose_picture_comp, constants),
                          {reads("picture", *refraction.picture), reads("reflected_radiance", reflected),
                           reads("path_events", refraction.events), writes("radiance", radiance)},
                          frame.extent);
@@ -178,11 +112,11 @@ const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImag
     const GpuImage& sum = frame.workspace.image("radiance sum", kRadianceFormat, frame.extent);
     const Recorder::Scope scope(recorder, "accumulate");
     if (wanted != nullptr)
-        recorder.compute(frame.workspace.compute({"accumulate_wanted.comp", kAccumulateWanted}),
+        recorder.compute(frame.workspace.compute(shaders::accumulate_wanted_comp),
                          {reads("radiance", radiance), updates("radiance_sum", sum), reads("wanted_samples", *wanted)},
                          sample, frame.extent);
     else
-        recorder.compute(frame.workspace.compute({"accumulate.comp", kAccumulate}),
+        recorder.compute(frame.workspace.compute(shaders::accumulate_comp),
                          {reads("radiance", radiance), updates("radiance_sum", sum)}, sample, frame.extent);
     return sum;
 }
@@ -194,7 +128,7 @@ const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& 
     };
     const GpuImage& display = frame.workspace.image("display", vk::Format::eR8G8B8A8Unorm, frame.extent);
     const Recorder::Scope scope(recorder, "tonemap");
-    recorder.compute(frame.workspace.compute({"tonemap.comp", kTonemap}),
+    recorder.compute(frame.workspace.compute(shaders::tonemap_comp),
                      {reads("radiance", radiance), writes("display", display)}, Push{scale, std::uint32_t(curve)},
                      frame.extent);
     return display;

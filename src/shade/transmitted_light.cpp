@@ -5,6 +5,7 @@
 #include "gpu/punctual_light.h"
 
 #include "layers/pixel_list.h"
+#include "shade/shaders.h"
 
 #include <fmt/format.h>
 
@@ -15,16 +16,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kSurfaceVertex[] = {
-#include "surface.vert.inc"
-};
-constexpr std::uint32_t kTranslucentSurface[] = {
-#include "translucent_surface.frag.inc"
-};
-constexpr std::uint32_t kTransmitLight[] = {
-#include "transmit_light.comp.inc"
-};
 
 constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;
 
@@ -44,15 +35,15 @@ struct TransmittedLight::Surfaces {
 
 void TransmittedLight::begin(TransmittedLightSetup setup) {
     workspace_.trim();
-    counted_ = nullptr;
+    cut_rays_ = 0;
     any_ = false;
     const bool same_maps = setup.resolution == setup_.resolution && setup.layers == setup_.layers &&
                            setup.views.size() == setup_.views.size();
-    if (!same_maps) source_ = LayerSource({.builds = std::uint32_t(setup.views.size())});
+    if (!same_maps) source_ = LayerSource();
     setup_ = std::move(setup);
 }
 
-void TransmittedLight::forget() { source_ = LayerSource({.builds = std::uint32_t(setup_.views.size())}); }
+void TransmittedLight::forget() { source_ = LayerSource(); }
 
 Frame TransmittedLight::light_frame(const Frame& frame, const Buffer& constants) const {
     return {workspace_,
@@ -69,8 +60,8 @@ TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, c
     Workspace& workspace = frame.workspace;
     const GpuScene& scene = frame.scene;
     const Program& program =
-        workspace.graphics({.vertex = {"surface.vert", kSurfaceVertex},
-                            .fragment = {"translucent_surface.frag", kTranslucentSurface},
+        workspace.graphics({.vertex = shaders::surface_vert,
+                            .fragment = shaders::translucent_surface_frag,
                             .colors = {kLookFormat, kLookFormat, vk::Format::eR32Uint, vk::Format::eR32Uint},
                             .depth = true});
     const GpuImage& reflected = workspace.image("translucent reflected", kLookFormat, frame.extent);
@@ -84,14 +75,8 @@ TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, c
                                          {&transmitted, 0, clear_to(0.0f)},
                                          {&triangle, 0, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})},
                                          {&normal, 0, clear_to({0u, 0u, 0u, 0u})}},
-                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()},
-                              .scissor = {}};
-    recorder.draw(program,
-                  {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
-                   reads("Vertices", scene.vertices), reads("Appearance", scene.appearance),
-                   reads("Materials", scene.materials), reads("Textures", scene.textures),
-                   reads("texture_pages", scene.texture_pages), reads("opaque_depth", opaque.depth)},
-                  target, scene.translucent);
+                              .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}};
+    recorder.draw(program, {frame.bindings(), reads("opaque_depth", opaque.depth)}, target, scene.translucent);
     const Buffer& pixels =
         list_pixels(recorder, frame, triangle, PELLUCID_NO_TRIANGLE, "translucent pixels", 0, frame.extent.height);
     return {triangle, normal, reflected, transmitted, pixels};
@@ -134,17 +119,17 @@ void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const
     };
     const Recorder::Scope scope(recorder, "transmitted light");
     recorder.compute_indirect(
-        frame.workspace.compute({"transmit_light.comp", kTransmitLight},
-                                {method_constant(setup_.method), measures ? 1u : 0u,
-                                 scene.opaque.size() == 1 && scene.object_count == 1 ? 1u : 0u}),
-        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Materials", scene.materials),
-         reads("LightFrame", constants), reads("surface_triangle", surfaces.triangle),
+        frame.workspace.compute(shaders::transmit_light_comp,
+                                {{"kMethod", method_constant(setup_.method)},
+                                 {"kMeasures", measures},
+                                 {"kOneObject", scene.opaque.size() == 1 && scene.object_count == 1}}),
+        {frame.bindings(), reads("LightFrame", constants), reads("surface_triangle", surfaces.triangle),
          reads("surface_normals", surfaces.normal), reads("surface_reflected", surfaces.reflected),
          reads("surface_transmitted", surfaces.transmitted), reads("layer_triangle", triangles),
          reads("LocalThickness", setup_.local ? setup_.local->values : nothing),
          reads("LocalObjects", setup_.local ? setup_.local->objects : nothing), updates("radiance", opaque.radiance),
          writes("thickness", thickness), updates("LightCounters", workspace_.buffer("light counters", 4)),
-         reads("PixelList", surfaces.pixels), reads("Indices", scene.indices), reads("Vertices", scene.vertices)},
+         reads("PixelList", surfaces.pixels)},
         Push{punctual_light(setup_.lights.at(view.light)), view.face, layer_count()}, surfaces.pixels);
 }
 
@@ -158,8 +143,7 @@ void TransmittedLight::record(Recorder& recorder, const Frame& frame, const Opaq
     recorder.fill(counters, 0);
     for (std::size_t view = 0; view < setup_.views.size(); ++view)
         record_view(recorder, frame, opaque, surfaces, thickness, view, measures);
-    counted_ = &workspace_.buffer("light counts", 4, true);
-    recorder.copy(counters, *counted_, 4);
+    recorder.read<std::uint32_t>(counters, 0, [this](std::uint32_t rays) { cut_rays_ = rays; });
 }
 
 void TransmittedLight::add(Recorder& recorder, const Frame& frame, const Opaque& opaque) {
@@ -176,12 +160,6 @@ const GpuImage& TransmittedLight::measure(Recorder& recorder, const Frame& frame
 bool TransmittedLight::must_repeat(const Frame& frame) {
     if (!any_ || !needs_layers()) return false;
     return source_.must_repeat(light_frame(frame, frame.constants));
-}
-
-std::uint64_t TransmittedLight::cut_rays() const {
-    std::uint32_t count = 0;
-    if (any_ && counted_ != nullptr) std::memcpy(&count, counted_->mapped(), sizeof(count));
-    return count;
 }
 
 }  // namespace pellucid

@@ -53,7 +53,7 @@ public:
     /// As LayerSource::must_repeat().
     bool must_repeat(const Frame& frame);
     /// Of the frame that has run: pixels whose ray of light crosses more surfaces than there are layers.
-    std::uint64_t cut_rays() const;
+    std::uint64_t cut_rays() const { return cut_rays_; }
     std::uint32_t geometry_passes() const { return any_ ? source_.geometry_passes() : 0; }
     std::uint32_t view_count() const { return std::uint32_t(setup_.views.size()); }
     /// Forgets what it has learnt of a scene.
@@ -78,7 +78,7 @@ private:
     LayerSource source_;
     TransmittedLightSetup setup_;
     bool any_ = false;  ///< in this frame
-    const Buffer* counted_ = nullptr;
+    std::uint32_t cut_rays_ = 0;
 };
 
 }  // namespace pellucid

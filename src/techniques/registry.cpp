@@ -72,7 +72,11 @@ const Truth* truth_of(const TechniqueInfo& info) { return find_row(kTruths, info
 
 std::string lacking_for(const Device& device, const TechniqueInfo& info) {
     const Technique* technique = technique_of(info);
-    return technique && technique->lacking ? technique->lacking(device) : std::string();
+    if (technique == nullptr) return {};
+    std::string lacking = technique->lacking ? technique->lacking(device) : std::string();
+    for (const ShaderCode* shader : technique->programs)
+        if (lacking.empty()) lacking = lacking_limit(*shader, device.limits());
+    return lacking;
 }
 
 ParameterValues::ParameterValues(const TechniqueInfo& technique, const ParameterMap& given) : technique_(technique) {

@@ -6,6 +6,7 @@
 #include <pellucid/progress.h>
 #include <pellucid/technique.h>
 
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,11 @@ struct Refraction {
     /// Null: none.
     const GpuImage* picture = nullptr;
     bool everywhere = false;  ///< pixels without glass hold the view ray, and what it meets
+
+    std::vector<Binding> group = {updates("exit_direction", exit_direction), updates("exit_position", exit_position),
+                                  updates("transmittance", transmittance), updates("path_events", events)};
+    /// The first four by the names that shaders have for them.
+    Binding bindings() const { return all_of(group); }
 };
 /// `with_radiance`: for techniques that pick up radiance.
 Refraction allocate_refraction(const Frame& frame, bool with_radiance = false);
@@ -77,7 +83,8 @@ struct Preparation {
 /// A row of the registry: what the technique is, what it needs, and how it is recorded.
 struct Technique {
     TechniqueInfo info;
-    /// What the device lacks for it, in words that follow "needs"; empty: nothing. Null: any device will do.
+    std::initializer_list<const ShaderCode*> programs = {};  ///< compute shaders, whose limits a device must have
+    /// What else the device lacks for it, in words that follow "needs"; empty: nothing. Null: any device will do.
     std::string (*lacking)(const Device& device) = nullptr;
     std::uint32_t (*layer_count)(const ParameterValues& parameters);
     /// Called before every picture; does its work in the first that needs it. Null: there is nothing to do.

@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "gpu/recorder.h"
+#include "volume/shaders.h"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +13,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kCoverColumns[] = {
-#include "cover_columns.comp.inc"
-};
 
 constexpr std::int64_t kLattice = 256;                    // of corners, in a column's width; twin of kColumn
 constexpr std::int32_t kFull = 65536;                     // a column through a voxel; twin of kFull
@@ -123,7 +120,7 @@ private:
     void submit(const Slab& slab) {
         if (block_count_ == 0) return;
         const Push push{std::uint32_t(block_count_), samples_, slab.first, size_.x, slab.rows, size_.z};
-        recorder_.compute(workspace_.compute({"cover_columns.comp", kCoverColumns}),
+        recorder_.compute(workspace_.compute(shaders::cover_columns_comp),
                           {reads("Blocks", blocks_), updates("Differences", differences_)}, push,
                           {std::uint32_t(block_count_), 1});
         recorder_.submit_and_wait();

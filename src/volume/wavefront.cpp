@@ -4,6 +4,7 @@
 
 #include "volume/light_buffers.h"
 #include "volume/light_state.h"
+#include "volume/shaders.h"
 #include "volume/upload_volumes.h"
 
 #include <pellucid/error.h>
@@ -11,40 +12,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kEmitLight[] = {
-#include "emit_light.comp.inc"
-};
-constexpr std::uint32_t kBeginRound[] = {
-#include "begin_round.comp.inc"
-};
-constexpr std::uint32_t kStepSummedLight[] = {
-#include "step_summed_light.comp.inc"
-};
-constexpr std::uint32_t kStepBrightestLight[] = {
-#include "step_brightest_light.comp.inc"
-};
-constexpr std::uint32_t kLandLight[] = {
-#include "land_light.comp.inc"
-};
-constexpr std::uint32_t kEndLight[] = {
-#include "end_light.comp.inc"
-};
-constexpr std::uint32_t kResolveSummedLight[] = {
-#include "resolve_summed_light.comp.inc"
-};
-constexpr std::uint32_t kResolveBrightestLight[] = {
-#include "resolve_brightest_light.comp.inc"
-};
-constexpr std::uint32_t kResolveReceivers[] = {
-#include "resolve_receivers.comp.inc"
-};
 
 /// Twin of Push in light_patch.glsl.
 struct LightPush {
@@ -185,7 +159,6 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
                         scene.lights.size(), volumes.count, PELLUCID_MOST_FRONTS));
     fronts_ = filled(device_, "fronts of light", front_list_.fronts);
     state_ = Buffer(device_, "state of light", sizeof(gpu::LightState), kStorage);
-    state_copy_ = Buffer(device_, "copy of the state of light", sizeof(gpu::LightState), kStorage, true);
 
     double voxels_across = 0.0;
     for (const VolumeRecord& record : records_) voxels_across += double(glm::length(record.size));
@@ -229,7 +202,7 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
 void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
     lights_ = tracing.lights;
     resolve_voxels(recorder, workspace, tracing);
-    const Program& resolve_receivers = workspace.compute({"resolve_receivers.comp", kResolveReceivers});
+    const Program& resolve_receivers = workspace.compute(shaders::resolve_receivers_comp);
     for (std::uint32_t i = 0; i < light_.receiver_list.size(); ++i) {
         const gpu::LightReceiver& own = light_.receiver_list[i];
         recorder.compute(resolve_receivers,
@@ -238,22 +211,21 @@ void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tra
                          ReceiverPush{i, tracing.push.power_scale},
                          {std::uint32_t(own.side.w), std::uint32_t(own.up.w)});
     }
-    recorder.copy(state_, state_copy_, sizeof(gpu::LightState));
-    recorder.when_done(
-        [this, key = tracing.key, scale = double(tracing.push.power_scale), tally = tracing.settings.tally] {
-            read_statistics(scale, tally);
-            key_ = key;
-        });
+    recorder.read<gpu::LightState>(state_, 0,
+                                   [this, key = tracing.key, scale = double(tracing.push.power_scale),
+                                    tally = tracing.settings.tally](const gpu::LightState& state) {
+                                       read_statistics(state, scale, tally);
+                                       key_ = key;
+                                   });
 }
 
 void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
     const bool sums = tracing.settings.kept == KeptLight::kSum;
-    const Program& resolve = sums ? workspace.compute({"resolve_summed_light.comp", kResolveSummedLight})
-                                  : workspace.compute({"resolve_brightest_light.comp", kResolveBrightestLight});
-    const std::vector<Binding> own_bindings = {
+    const Program& resolve = sums ? workspace.compute(shaders::resolve_summed_light_comp)
+                                  : workspace.compute(shaders::resolve_brightest_light_comp);
+    const std::vector<Binding> bindings = {
         writes("light_irradiance", light_.irradiance), writes("light_direction", light_.direction),
         reads("Placements", light_.placements), reads(sums ? "Sums" : "Keys", voxel_light_)};
-    const std::span<const Binding> bindings = own_bindings;
     for (std::uint32_t i = 0; i < light_.placement_list.size(); ++i) {
         const gpu::LightPlacement& own = light_.placement_list[i];
         const vk::Extent2D threads{own.size_x, own.size_y * own.size_z};
@@ -269,7 +241,7 @@ void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, c
 }
 
 void WavefrontTracer::begin_round(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
-    recorder.compute(workspace.compute({"begin_round.comp", kBeginRound}),
+    recorder.compute(workspace.compute(shaders::begin_round_comp),
                      {updates("State", state_), writes("StepGroups", step_groups_), writes("LandGroups", land_groups_)},
                      tracing.push, {1, 1});
 }
@@ -279,7 +251,7 @@ void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const Volu
                             const Tracing& tracing) {
     recorder.fill(state_, 0);
     recorder.fill(texels_, 0);
-    const Program& emit = workspace.compute({"emit_light.comp", kEmitLight});
+    const Program& emit = workspace.compute(shaders::emit_light_comp);
     for (std::uint32_t i = 0; i < front_list_.fronts.size(); ++i) {
         const gpu::LightFront& front = front_list_.fronts[i];
         LightPush own = tracing.push;
@@ -290,7 +262,7 @@ void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const Volu
                          own, {std::uint32_t(front.corner.w), std::uint32_t(front.side.w)});
     }
     begin_round(recorder, workspace, tracing);
-    recorder.compute_indirect(workspace.compute({"land_light.comp", kLandLight}, {1}),
+    recorder.compute_indirect(workspace.compute(shaders::land_light_comp, {{"kStraight", true}}),
                               {reads("Receivers", light_.receivers), updates("State", state_),
                                reads("Landed", patches_[0]), updates("Texels", texels_)},
                               tracing.push, step_groups_);
@@ -298,15 +270,16 @@ void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const Volu
 
 void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
                                    Tracing& tracing, std::uint32_t rounds, std::uint32_t tally) {
-    const auto flag = [](bool value) { return value ? 1u : 0u; };
     const LightPush& push = tracing.push;
-    const Program& land = workspace.compute({"land_light.comp", kLandLight}, {0});
-    std::vector<std::uint32_t> constants = {flag(volumes.absorbs || volumes.scatters),
-                                            flag(volumes.scatters),
-                                            flag(tracing.overlapping),
-                                            flag(push.receiver_count > 0),
-                                            flag(tracing.settings.keep_folds),
-                                            flag(volumes.reflects && tracing.settings.fresnel)};
+    const Program& land = workspace.compute(shaders::land_light_comp, {{"kStraight", false}});
+    const std::array constants = {Constant{"kMedium", volumes.absorbs || volumes.scatters},
+                                  Constant{"kScatters", volumes.scatters},
+                                  Constant{"kOverlapping", tracing.overlapping},
+                                  Constant{"kReceivers", push.receiver_count > 0},
+                                  Constant{"kKeepFolds", tracing.settings.keep_folds},
+                                  Constant{"kBoundary", volumes.reflects && tracing.settings.fresnel},
+                                  Constant{"kTally", tally},
+                                  Constant{"kShown", push.shown_spacing > 0.0f}};
     std::vector<Binding> step_bindings = {reads("volume_index", volumes.index),
                                           reads("volume_bricks", volumes.bricks),
                                           reads("volume_absorption", volumes.absorption),
@@ -321,15 +294,14 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
     const bool sums = tracing.settings.kept == KeptLight::kSum;
     step_bindings.push_back(updates(sums ? "Sums" : "Keys", voxel_light_));
     if (!sums) step_bindings.push_back(updates("Tally", tally_));
-    constants.insert(constants.end(), {tally, flag(push.shown_spacing > 0.0f)});
-    const Program& step = sums ? workspace.compute({"step_summed_light.comp", kStepSummedLight}, constants)
-                               : workspace.compute({"step_brightest_light.comp", kStepBrightestLight}, constants);
+    const Program& step = sums ? workspace.compute(shaders::step_summed_light_comp, constants)
+                               : workspace.compute(shaders::step_brightest_light_comp, constants);
     const std::uint32_t last = std::min(tracing.rounds, tracing.rounds_done + rounds);
     for (; tracing.rounds_done < last; ++tracing.rounds_done) {
         std::vector<Binding> bindings = step_bindings;
         bindings.push_back(reads("PatchesIn", patches_[tracing.rounds_done % 2]));
         bindings.push_back(writes("PatchesOut", patches_[1 - tracing.rounds_done % 2]));
-        recorder.compute_indirect(step, std::span<const Binding>(bindings), push, step_groups_);
+        recorder.compute_indirect(step, bindings, push, step_groups_);
         begin_round(recorder, workspace, tracing);
         recorder.compute_indirect(land,
                                   {reads("Receivers", light_.receivers), updates("State", state_),
@@ -340,14 +312,12 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
 
 /// Counts what is still on its way.
 void WavefrontTracer::end(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
-    recorder.compute_indirect(workspace.compute({"end_light.comp", kEndLight}),
+    recorder.compute_indirect(workspace.compute(shaders::end_light_comp),
                               {updates("State", state_), reads("PatchesIn", patches_[tracing.rounds_done % 2])},
                               tracing.push, step_groups_);
 }
 
-void WavefrontTracer::read_statistics(double power_scale, bool tally) {
-    gpu::LightState state;
-    std::memcpy(&state, state_copy_.mapped(), sizeof(state));
+void WavefrontTracer::read_statistics(const gpu::LightState& state, double power_scale, bool tally) {
     const auto power = [&](std::uint32_t fate) {
         const auto color = [&](std::uint32_t c) {
             const std::uint32_t* words = &state.power[6 * fate + 2 * c];

@@ -5,6 +5,7 @@
 #include "gpu/workspace.h"
 #include "volume/light_fronts.h"
 #include "volume/light_records.h"
+#include "volume/light_state.h"
 #include "volume/volume_records.h"
 
 #include <pellucid/scene.h>
@@ -68,7 +69,7 @@ private:
     void end(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
     void finish(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
     void resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
-    void read_statistics(double power_scale, bool tally);
+    void read_statistics(const gpu::LightState& state, double power_scale, bool tally);
 
     const Device& device_;
     std::string key_, volume_key_;
@@ -80,7 +81,7 @@ private:
     std::uint64_t voxels_ = 0;
     Buffer patches_[2], landed_;        ///< gpu::LightPatch
     Buffer step_groups_, land_groups_;  ///< numbers of workgroups
-    Buffer voxel_light_, tally_, texels_, state_, state_copy_, tally_copy_, fronts_;
+    Buffer voxel_light_, tally_, texels_, state_, tally_copy_, fronts_;
     LightFronts front_list_;
     LightVolumes light_;
     std::vector<Light> lights_;

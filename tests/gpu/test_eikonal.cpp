@@ -7,16 +7,13 @@
 #include <pellucid/scene.h>
 
 #include "gpu/device_test.h"
+#include "gpu_tests/shaders.h"
 
 #include <functional>
 #include <random>
 
 namespace pellucid::test {
 namespace {
-
-constexpr std::uint32_t kShader[] = {
-#include "eikonal_twin.comp.inc"
-};
 
 struct Case {
     glm::vec4 position, direction;
@@ -112,7 +109,7 @@ protected:
         const Buffer& input = workspace().buffer("cases", cases.size() * sizeof(Case), true);
         const Buffer& output = workspace().buffer("answers", cases.size() * sizeof(Answer), true);
         std::memcpy(input.mapped(), cases.data(), input.size());
-        recorder().compute(workspace().compute({"eikonal_twin.comp", kShader}, {cubic ? 1u : 0u}),
+        recorder().compute(workspace().compute(shaders::eikonal_twin_comp, {{"kCubic", cubic}}),
                            {reads("volume_index", volumes.index), reads("volume_bricks", volumes.bricks),
                             reads("Volumes", volumes.records), reads("Cases", input), writes("Answers", output)},
                            {std::uint32_t(cases.size()), 1});

@@ -3,13 +3,10 @@
 #include "gpu/structs.h"
 
 #include "gpu/device_test.h"
+#include "gpu_tests/shaders.h"
 
 namespace pellucid::test {
 namespace {
-
-constexpr std::uint32_t kShader[] = {
-#include "filtered_radiance.comp.inc"
-};
 
 Environment formula(Environment::Kind kind) {
     Environment environment;
@@ -66,7 +63,7 @@ protected:
         for (const glm::vec3& direction : directions) data.emplace_back(direction, roughness);
         std::memcpy(frame.mapped(), &constants_, sizeof(constants_));
         std::memcpy(lookups.mapped(), data.data(), lookups.size());
-        recorder().compute(workspace().compute({"filtered_radiance.comp", kShader}),
+        recorder().compute(workspace().compute(shaders::filtered_radiance_comp),
                            {reads("Frame", frame), reads("Lookups", lookups), writes("Answers", answers),
                             reads_layer("environment_map", map_, 0), reads_layer("filtered_environment", filtered_, 0)},
                            {std::uint32_t(directions.size()), 1});

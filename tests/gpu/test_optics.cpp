@@ -2,15 +2,12 @@
 #include "optics/interface.h"
 
 #include "gpu/device_test.h"
+#include "gpu_tests/shaders.h"
 
 #include <random>
 
 namespace pellucid::test {
 namespace {
-
-constexpr std::uint32_t kShader[] = {
-#include "optics_twin.comp.inc"
-};
 
 struct Case {
     glm::vec4 direction, normal;
@@ -44,7 +41,7 @@ TEST_F(OpticsTwin, ShaderAgreesWithCpp) {
     const Buffer& input = workspace().buffer("cases", cases.size() * sizeof(Case), true);
     const Buffer& output = workspace().buffer("answers", cases.size() * sizeof(Answer), true);
     std::memcpy(input.mapped(), cases.data(), input.size());
-    recorder().compute(workspace().compute({"optics_twin.comp", kShader}),
+    recorder().compute(workspace().compute(shaders::optics_twin_comp),
                        {reads("Cases", input), writes("Answers", output)}, {std::uint32_t(cases.size()), 1});
     recorder().submit_and_wait();
     const std::vector<Answer> answers = read_back<Answer>(output);

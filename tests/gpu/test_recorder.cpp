@@ -1,9 +1,14 @@
 // The recorder's promises: barriers, and mismatches that name both sides.
+#include "gpu/counted_buffer.h"
 #include "gpu/device_test.h"
+#include "gpu_tests/shaders.h"
 
 #include <gmock/gmock.h>
 
+#include <array>
+#include <numeric>
 #include <stdexcept>
+#include <vector>
 
 namespace pellucid::test {
 namespace {
@@ -12,14 +17,10 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr std::uint32_t kShader[] = {
-#include "optics_twin.comp.inc"
-};
-
 using RecorderTest = DeviceTest;
 
 TEST_F(RecorderTest, MismatchesNameShaderAndPass) {
-    const Program& program = workspace().compute({"optics_twin.comp", kShader});
+    const Program& program = workspace().compute(shaders::optics_twin_comp);
     const Buffer& buffer = workspace().buffer("b", 64);
     const GpuImage& image = workspace().image("i", vk::Format::eR32Uint, {1, 1});
     const auto record = [&](Binding second) { recorder().compute(program, {reads("Cases", buffer), second}, {1, 1}); };
@@ -33,7 +34,7 @@ TEST_F(RecorderTest, MismatchesNameShaderAndPass) {
         [&] {
             recorder().compute(program, {reads("Cases", buffer)}, {1, 1});
         },
-        ThrowsMessage<std::logic_error>(HasSubstr("2 bindings")));
+        ThrowsMessage<std::logic_error>(HasSubstr("declares 'Answers'")));
     EXPECT_THAT(
         [&] {
             recorder().compute(program, {reads("Cases", buffer), writes("Answers", buffer)}, 1.0f, {1, 1});
@@ -54,6 +55,65 @@ TEST_F(RecorderTest, OrdersDependentCommands) {
         recorder().submit_and_wait();
         EXPECT_EQ(read_back<std::uint32_t>(host), std::vector<std::uint32_t>((1 << 16) / 4, round));
     }
+}
+
+TEST_F(RecorderTest, ReadsValues) {
+    using Values = std::array<std::uint32_t, 1024>;
+    const Buffer& a = workspace().buffer("a", 2 * sizeof(Values));
+    std::vector<std::uint32_t> read;
+    for (std::uint32_t i = 0; i < 40; ++i) {  // more than one buffer on the host holds
+        recorder().fill(a, sizeof(Values), sizeof(Values), i);
+        recorder().read<Values>(a, sizeof(Values), [&](const Values& values) {
+            EXPECT_EQ(values.front(), values.back());
+            read.push_back(values.front());
+        });
+    }
+    EXPECT_TRUE(read.empty());
+    recorder().submit_and_wait();
+    std::vector<std::uint32_t> expected(40);
+    std::iota(expected.begin(), expected.end(), 0u);
+    EXPECT_EQ(read, expected);
+}
+
+TEST_F(RecorderTest, CountedBuffersGrowToWhatWasCounted) {
+    CountedBuffer counted("items", 12);
+    const auto needs_more = [&](std::initializer_list<std::uint32_t> counts) {
+        for (const std::uint32_t count : counts) {
+            recorder().fill(counted.begin(recorder(), workspace(), 10), 0, 4, count);  // as shaders would count
+            counted.end(recorder());
+        }
+        recorder().submit_and_wait();
+        return counted.grow();
+    };
+    EXPECT_FALSE(needs_more({10, 3}));
+    EXPECT_EQ(counted.capacity(), 10u);
+    EXPECT_TRUE(needs_more({4, 100, 5}));
+    EXPECT_EQ(counted.capacity(), 125u);
+    EXPECT_FALSE(needs_more({125}));
+    const std::uint32_t most = counted.limit(device());
+    EXPECT_TRUE(needs_more({most}));
+    EXPECT_EQ(counted.capacity(), most);
+    counted.set_capacity(10);
+    EXPECT_TRUE(needs_more({most + 1}));
+    EXPECT_THAT([&] { counted.begin(recorder(), workspace(), 10); }, ThrowsMessage<TooLarge>(HasSubstr("items")));
+    recorder().restart();
+}
+
+TEST_F(RecorderTest, ProgramsNameTheLimitThatTheyExceed) {
+    vk::PhysicalDeviceLimits limits = device().limits();
+    EXPECT_EQ(lacking_limit(shaders::eikonal_twin_comp, limits), "");
+    limits.maxPerStageDescriptorSampledImages = 1;
+    EXPECT_EQ(lacking_limit(shaders::eikonal_twin_comp, limits), "2 sampled images per shader stage (it has 1)");
+    limits.maxPerStageDescriptorStorageBuffers = 2;
+    EXPECT_EQ(lacking_limit(shaders::eikonal_twin_comp, limits), "3 storage buffers per shader stage (it has 2)");
+}
+
+TEST_F(RecorderTest, ConstantsOfAShaderHaveToBeNamed) {
+    EXPECT_THAT(
+        [&] {
+            workspace().compute(shaders::eikonal_twin_comp, {{"kCubical", true}});
+        },
+        ThrowsMessage<std::logic_error>(HasSubstr("no value for the constant 'kCubic'")));
 }
 
 TEST_F(RecorderTest, ScopesOfOneNameAddUp) {

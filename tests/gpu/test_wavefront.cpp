@@ -4,6 +4,7 @@
 #include "optics/phase.h"
 
 #include "gpu/wavefront_test.h"
+#include "gpu_tests/shaders.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
@@ -12,10 +13,6 @@
 
 namespace pellucid::test {
 namespace {
-
-constexpr std::uint32_t kLookupShader[] = {
-#include "light_lookup_twin.comp.inc"
-};
 
 // 1%: the bar for power. What is emitted is known beforehand, so that neither side is the tracer's own word.
 TEST_F(Wavefront, PowerOnEnclosingPlanesIsThePowerEmitted) {
@@ -440,7 +437,7 @@ TEST_F(Wavefront, ShadersLookLightUp) {
     const Buffer& output = workspace().buffer("answers", cases.size() * sizeof(Found), true);
     std::memcpy(input.mapped(), cases.data(), input.size());
     const LightVolumes& light = tracer().light();
-    recorder().compute(workspace().compute({"light_lookup_twin.comp", kLookupShader}),
+    recorder().compute(workspace().compute(shaders::light_lookup_twin_comp),
                        {reads("light_irradiance", light.irradiance), reads("light_direction", light.direction),
                         reads("Volumes", volumes().records), reads("Placements", light.placements),
                         reads("Receivers", light.receivers), reads("ReceiverLight", light.receiver_light),

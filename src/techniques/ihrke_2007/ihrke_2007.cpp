@@ -1,5 +1,6 @@
 #include "techniques/ihrke_2007/ihrke_2007.h"
 
+#include "techniques/shaders.h"
 #include "techniques/visibility_layers/visibility_layers.h"
 #include "volume/draw_wavefronts.h"
 #include "volume/scene_volumes.h"
@@ -14,18 +15,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kMarchRays[] = {
-#include "march_rays.comp.inc"
-};
-
-constexpr std::uint32_t kFollowHeldPaths[] = {
-#include "follow_held_paths.comp.inc"
-};
-
-constexpr std::uint32_t kEndLitPaths[] = {
-#include "end_lit_paths.comp.inc"
-};
 
 constexpr std::array kOwnParameters = {
     ParameterInfo{"integrator", "", 3, 0, 3, true,
@@ -82,7 +71,23 @@ public:
     Volumes(const SceneVolumes& volumes, const ParameterValues& parameters)
         : volumes_(volumes), images_(volumes.images()), parameters_(parameters) {}
 
-    const Buffer& records() const override { return images_.records; }
+    std::vector<Binding> bindings() const override {
+        const LightVolumes& light = volumes_.light_volumes();
+        // Where no light was traced something of the right kind stands in.
+        const bool lit = volumes_.lit();
+        return {reads("Volumes", images_.records),
+                reads("volume_index", images_.index),
+                reads("volume_bricks", images_.bricks),
+                reads("volume_absorption", images_.absorption),
+                reads("volume_scattering", images_.scattering),
+                reads("volume_emission", images_.emission),
+                reads("Placements", lit ? light.placements : images_.records),
+                reads("Receivers", lit ? light.receivers : images_.records),
+                reads("ReceiverLight", lit ? light.receiver_light : images_.records),
+                reads("light_irradiance", lit ? light.irradiance : images_.emission),
+                reads("light_direction", lit ? light.direction : images_.emission),
+                reads("Lights", lit ? volumes_.lights() : images_.records)};
+    }
     void set(PathPush& push) const override {
         push.volume_count = images_.count;
         push.proxy = sharp() ? kSharpInterfaces : parameters_.whole("proxy");
@@ -92,59 +97,35 @@ public:
     }
 
     void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const override {
-        std::vector<Binding> bindings = pass.scene;
-        for (const auto* more : {&pass.state, &pass.walk, &pass.light})
-            bindings.insert(bindings.end(), more->begin(), more->end());
-        const Binding own[] = {reads("volume_index", images_.index),
-                               reads("volume_bricks", images_.bricks),
-                               reads("volume_absorption", images_.absorption),
-                               reads("volume_scattering", images_.scattering),
-                               reads("volume_emission", images_.emission),
-                               reads("PixelList", entering),
-                               updates("NextList", next),
-                               updates("EndedList", ended)};
-        bindings.insert(bindings.end(), std::begin(own), std::end(own));
-        const std::vector<Binding> light = light_bindings();
-        bindings.insert(bindings.end(), light.begin(), light.end());
-        const auto flag = [](bool value) { return value ? 1u : 0u; };
-        std::vector<std::uint32_t> constants = pass.constants;
-        for (const std::uint32_t constant :
-             {parameters_.whole("integrator"), flag(images_.absorbs), flag(images_.reflects), flag(images_.scatters),
-              flag(images_.emits), flag(images_.disperses), flag(pass.frame.scene.object_count > 0),
-              flag(images_.overlapping), std::bit_cast<std::uint32_t>(float(parameters_["step"])),
-              parameters_.whole("max-steps"), flag(volumes_.lit()), parameters_.whole("interpolation")})
+        std::vector<Constant> constants = pass.constants;
+        for (const Constant& constant :
+             {Constant{"kIntegrator", parameters_.whole("integrator")}, Constant{"kAbsorbs", images_.absorbs},
+              Constant{"kBoundaries", images_.reflects}, Constant{"kScatters", images_.scatters},
+              Constant{"kEmits", images_.emits}, Constant{"kDisperses", images_.disperses},
+              Constant{"kSurfacesInside", pass.frame.scene.object_count > 0},
+              Constant{"kOverlapping", images_.overlapping},
+              Constant{"kStep", std::bit_cast<std::uint32_t>(float(parameters_["step"]))},
+              Constant{"kMostSteps", parameters_.whole("max-steps")}, Constant{"kLit", volumes_.lit()},
+              Constant{"kCubic", parameters_.whole("interpolation")}})
             constants.push_back(constant);
-        pass.recorder.compute_indirect(pass.frame.workspace.compute({"march_rays.comp", kMarchRays}, constants),
-                                       std::span<const Binding>(bindings), pass.push, entering);
+        const std::vector<Binding> group = bindings();
+        pass.recorder.compute_indirect(
+            pass.frame.workspace.compute(shaders::march_rays_comp, constants),
+            {pass.frame.bindings(), pass.bindings, all_of(group), reads("PixelList", entering),
+             updates("NextList", next), updates("EndedList", ended)},
+            pass.push, entering);
     }
 
-    std::optional<Variant> held_follow() const override {
-        if (!sharp()) return std::nullopt;
-        return Variant{{"follow_held_paths.comp", kFollowHeldPaths},
-                       {reads("volume_index", images_.index), reads("volume_bricks", images_.bricks)}};
+    ShaderCode follow_shader() const override {
+        return sharp() ? shaders::follow_held_paths_comp : shaders::follow_paths_comp;
     }
-
-    std::optional<Variant> lit_end() const override {
-        if (!volumes_.lit()) return std::nullopt;
-        Variant end{{"end_lit_paths.comp", kEndLitPaths}, light_bindings()};
-        end.bindings.push_back(reads("Lights", volumes_.lights()));
-        return end;
+    ShaderCode end_shader() const override {
+        return volumes_.lit() ? shaders::end_lit_paths_comp : shaders::end_paths_comp;
     }
 
 private:
     static constexpr std::uint32_t kSharpInterfaces = 2;  // of visibility_bindings.glsl
     bool sharp() const { return parameters_["interfaces"] != 0.0; }
-    /// Of light_bindings.glsl. Where no light was traced something of the right kind stands in.
-    std::vector<Binding> light_bindings() const {
-        const LightVolumes& light = volumes_.light_volumes();
-        const bool lit = volumes_.lit();
-        return {reads("Volumes", images_.records),
-                reads("Placements", lit ? light.placements : images_.records),
-                reads("Receivers", lit ? light.receivers : images_.records),
-                reads("ReceiverLight", lit ? light.receiver_light : images_.records),
-                reads("light_irradiance", lit ? light.irradiance : images_.emission),
-                reads("light_direction", lit ? light.direction : images_.emission)};
-    }
 
     const SceneVolumes& volumes_;
     const VolumeImages& images_;
@@ -205,6 +186,8 @@ constexpr Technique kIhrke2007{
              .many_media = true,
              .whole_scene = true,
              .volumes = true},
+    .programs = {&shaders::begin_paths_comp, &shaders::begin_at_eye_comp, &shaders::march_rays_comp,
+                 &shaders::follow_held_paths_comp, &shaders::follow_paths_comp, &shaders::end_lit_paths_comp},
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
     .prepare = prepare,
     .record = record,

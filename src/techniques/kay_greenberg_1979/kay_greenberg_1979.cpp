@@ -1,4 +1,5 @@
 #include "techniques/kay_greenberg_1979/kay_greenberg_1979.h"
+#include "techniques/shaders.h"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +7,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kShader[] = {
-#include "kay_greenberg_1979.comp.inc"
-};
 
 constexpr std::array kParameters = {
     ParameterInfo{"mode", "", 2, 0, 2, true, "0 linear, 1 non-linear, 2 refraction"},
@@ -60,15 +57,8 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const Recorder::Scope scope(recorder, "trace");
     const Refraction refraction = clear_refraction(recorder, frame, true);
     recorder.compute_indirect(
-        frame.workspace.compute({"kay_greenberg_1979.comp", kShader}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
-         reads("PixelList", layers.covered), writes("exit_direction", refraction.exit_direction),
-         writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
-         writes("path_events", refraction.events), reads("opaque_depth", layers.opaque.depth),
-         reads("opaque_radiance", layers.opaque.radiance), reads("opaque_object", layers.opaque.object),
-         writes("path_radiance", *refraction.radiance)},
+        frame.workspace.compute(shaders::kay_greenberg_1979_comp),
+        {frame.bindings(), layers.bindings(), refraction.bindings(), writes("path_radiance", *refraction.radiance)},
         push_of(parameters, frame.scene), layers.covered);
     return refraction;
 }
@@ -82,6 +72,7 @@ constexpr Technique kKayGreenberg1979{
                         "SIGGRAPH '79, Computer Graphics 13(2)", 1979, "2 and 4"},
              .parameters = kParameters,
              .opaque_behind = true},
+    .programs = {&shaders::kay_greenberg_1979_comp},
     // One more tells whether there are surfaces that are not looked at.
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers") + 1u; },
     .record = record,

@@ -1,15 +1,12 @@
 #include "techniques/oliveira_brauwers_2007/oliveira_brauwers_2007.h"
 
 #include "layers/back_faces.h"
+#include "techniques/shaders.h"
 
 #include <array>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kShader[] = {
-#include "oliveira_brauwers_2007.comp.inc"
-};
 
 constexpr std::array kParameters = {
     ParameterInfo{"back-face", "", 1, 0, 1, true, "far side of the glass: 0 the first back face, 1 the farthest"},
@@ -25,15 +22,10 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const Refraction refraction = clear_refraction(recorder, frame);
     const std::array push = {parameters.whole("steps"), parameters.whole("binary-steps"),
                              parameters.whole("interpolate")};
-    recorder.compute_indirect(
-        frame.workspace.compute({"oliveira_brauwers_2007.comp", kShader}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
-         reads("PixelList", layers.covered), writes("exit_direction", refraction.exit_direction),
-         writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
-         writes("path_events", refraction.events), reads("back_depth", back.depth), reads("back_normal", back.normal)},
-        push, layers.covered);
+    recorder.compute_indirect(frame.workspace.compute(shaders::oliveira_brauwers_2007_comp),
+                              {frame.bindings(), layers.bindings(), refraction.bindings(),
+                               reads("back_depth", back.depth), reads("back_normal", back.normal)},
+                              push, layers.covered);
     return refraction;
 }
 
@@ -45,6 +37,7 @@ constexpr Technique kOliveiraBrauwers2007{
              .source = {"Manuel M. Oliveira, Maicon Brauwers", "Real-Time Refraction Through Deformable Objects",
                         "ACM Symposium on Interactive 3D Graphics and Games (I3D)", 2007, "3"},
              .parameters = kParameters},
+    .programs = {&shaders::oliveira_brauwers_2007_comp},
     .layer_count = [](const ParameterValues&) { return 1u; },
     .record = record,
     .searches_layers = true,

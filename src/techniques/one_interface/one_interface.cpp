@@ -1,24 +1,14 @@
 #include "techniques/one_interface/one_interface.h"
+#include "techniques/shaders.h"
 
 namespace pellucid {
 namespace {
 
-constexpr std::uint32_t kShader[] = {
-#include "one_interface.comp.inc"
-};
-
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues&) {
     const Recorder::Scope scope(recorder, "trace");
     const Refraction refraction = clear_refraction(recorder, frame);
-    recorder.compute_indirect(
-        frame.workspace.compute({"one_interface.comp", kShader}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
-         reads("PixelList", layers.covered), writes("exit_direction", refraction.exit_direction),
-         writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
-         writes("path_events", refraction.events)},
-        layers.covered);
+    recorder.compute_indirect(frame.workspace.compute(shaders::one_interface_comp),
+                              {frame.bindings(), layers.bindings(), refraction.bindings()}, layers.covered);
     return refraction;
 }
 
@@ -29,6 +19,7 @@ constexpr Technique kOneInterface{
              .summary = "refraction at the first interface only: what engines draw",
              .source = {},
              .parameters = {}},
+    .programs = {&shaders::one_interface_comp},
     .layer_count = [](const ParameterValues&) { return 1u; },
     .record = record,
 };

@@ -1,19 +1,10 @@
 #include "techniques/ray_tracing/ray_tracing.h"
+#include "techniques/shaders.h"
 
 #include <array>
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kRaygen[] = {
-#include "ray_tracing.rgen.inc"
-};
-constexpr std::uint32_t kMiss[] = {
-#include "ray_tracing.rmiss.inc"
-};
-constexpr std::uint32_t kClosestHit[] = {
-#include "ray_tracing.rchit.inc"
-};
 
 constexpr std::array kParameters = {
     ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed"},
@@ -45,9 +36,9 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const Push push{words_of(frame.scene.vertices.address()), words_of(frame.scene.indices.address()),
                     parameters.whole("events")};
     recorder.trace(
-        frame.workspace.ray_tracing({.raygen = {"ray_tracing.rgen", kRaygen},
-                                     .miss = {"ray_tracing.rmiss", kMiss},
-                                     .closest_hit = {"ray_tracing.rchit", kClosestHit}}),
+        frame.workspace.ray_tracing({.raygen = shaders::ray_tracing_rgen,
+                                     .miss = shaders::ray_tracing_rmiss,
+                                     .closest_hit = shaders::ray_tracing_rchit}),
         {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
          reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
          reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),

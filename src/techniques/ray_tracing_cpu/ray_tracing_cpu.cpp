@@ -60,6 +60,7 @@ constexpr Technique kRayTracingCpu{
              .parameters = kParameters,
              .many_media = true,
              .whole_scene = true},
+    .programs = kPathPrograms,
     .lacking = [](const Device& device) -> std::string {
         return device.is_cpu() ? "" : "a device that is a processor (a software driver)";
     },

@@ -33,6 +33,7 @@ constexpr Technique kVisibilityCube{
              .parameters = kParameters,
              .many_media = true,
              .whole_scene = true},
+    .programs = kPathPrograms,
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
     .prepare = prepare_paths,
     .record = record,

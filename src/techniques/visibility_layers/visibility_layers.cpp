@@ -2,6 +2,7 @@
 
 #include "layers/map_building.h"
 #include "layers/pixel_list.h"
+#include "techniques/shaders.h"
 
 #include <algorithm>
 #include <array>
@@ -9,19 +10,6 @@
 
 namespace pellucid {
 namespace {
-
-constexpr std::uint32_t kBeginPaths[] = {
-#include "begin_paths.comp.inc"
-};
-constexpr std::uint32_t kBeginAtEye[] = {
-#include "begin_at_eye.comp.inc"
-};
-constexpr std::uint32_t kFollowPaths[] = {
-#include "follow_paths.comp.inc"
-};
-constexpr std::uint32_t kEndPaths[] = {
-#include "end_paths.comp.inc"
-};
 
 /// That there is time for beyond those of the longest path, for each branch: most branches leave soon.
 constexpr std::uint32_t kSurfacesPerBranch = 4;
@@ -66,15 +54,14 @@ public:
                 : push_.most_branches > 0 || volumes != nullptr ? Ways::kTree
                                                                 : Ways::kTransmitted;
         if (ways_ == Ways::kStochastic) push_.most_branches = 0;
-        push_.branch_capacity =
-            ways_ == Ways::kTree ? layers.source.room("branches", std::uint32_t(pixels() / 4 + 1024)) : 1;
         words_ = words_of(topology_);
-        const std::uint32_t vectors = 4 + (words_ + 1) / 4;  // kBranchVectors of path_state.glsl
-        branches_ = &frame.workspace.buffer("branches", 16 + std::uint64_t(push_.branch_capacity) * vectors * 16);
     }
 
     Refraction follow() {
-        if (ways_ == Ways::kTree) recorder_.fill(*branches_, 0);
+        begin_branches();
+        group_ = path_bindings();
+        // Something has to be bound where there are no volumes.
+        volume_group_ = volumes_ != nullptr ? volumes_->bindings() : std::vector{reads("Volumes", *map_.maps)};
         for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = &start_pixel_list(recorder_, frame_, kListNames[i]);
         next_ = lists_[0];
         if (push_.whole_picture != 0 || !topology_.all_alone)
@@ -104,8 +91,7 @@ public:
         if (finder_ != nullptr) recorder_.end_of_steps();
         if (at_once) end(*ended_, false);
         end(*next_, true);
-        if (ways_ == Ways::kTree) layers_.source.measure_room(recorder_, frame_, "branches", *branches_);
-        if (finder_ != nullptr) layers_.source.measure_room(recorder_, frame_, "candidates", *map_.records);
+        if (ways_ == Ways::kTree) branches().end(recorder_);
         Refraction refraction = refraction_;
         if (ways_ != Ways::kTransmitted || push_.whole_picture != 0) refraction.reflected = &reflected_;
         if (push_.whole_picture != 0) refraction.picture = refraction.radiance;
@@ -115,46 +101,67 @@ public:
 private:
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
-    std::vector<std::uint32_t> constants() const {
+    std::vector<Constant> constants() const {
         const GpuScene& scene = frame_.scene;
-        return {words_,
-                scene.object_count == 1 ? 1u : 0u,
-                ways_ == Ways::kTree ? 1u : 0u,
-                ways_ == Ways::kStochastic ? 1u : 0u,
-                scene.dispersive ? 1u : 0u,
-                scene.rough_glass ? 1u : 0u,
-                frame_.environment_kind,
-                scene.opaque.empty() ? 0u : 1u,
-                map_.objects != nullptr ? 1u : 0u,
-                topology_.all_alone ? 0u : 1u,
-                surfaces_per_pass_,
-                volumes_ != nullptr ? 1u : 0u,
-                topology_.many_slots ? 1u : 0u,
-                scene.textured_glass ? 1u : 0u,
-                topology_.crossing ? 1u : 0u,
-                finder_ != nullptr ? 1u : 0u};
+        return {{"kMediumWords", words_},
+                {"kOneObject", scene.object_count == 1},
+                {"kTree", ways_ == Ways::kTree},
+                {"kStochastic", ways_ == Ways::kStochastic},
+                {"kDispersive", scene.dispersive},
+                {"kRough", scene.rough_glass},
+                {"kEnvironmentKind", frame_.environment_kind},
+                {"kOpaqueObjects", !scene.opaque.empty()},
+                {"kMapPerMesh", map_.objects != nullptr},
+                {"kTouching", !topology_.all_alone},
+                {"kSurfacesPerPass", surfaces_per_pass_},
+                {"kVolumes", volumes_ != nullptr},
+                {"kManySlots", topology_.many_slots},
+                {"kTexturedGlass", scene.textured_glass},
+                {"kCrossing", topology_.crossing},
+                {"kFoundOnHost", finder_ != nullptr}};
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 
-    PathPass pass() const {
-        const GpuScene& scene = frame_.scene;
-        return {
-            recorder_,
-            frame_,
-            layers_,
-            constants(),
-            {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials)},
-            {updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
-             updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_)},
-            {reads("Slots", topology_.slots), reads("Maps", *map_.maps), reads("map_triangles", *map_.triangles),
-             reads("map_normals", *map_.normals), reads("texels", *map_.texels), reads("ranges", *map_.ranges),
-             reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
-             reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
-             reads("Indices", scene.indices), reads("Appearance", scene.appearance), reads("Textures", scene.textures),
-             reads("texture_pages", scene.texture_pages), reads("candidate_lists", *map_.texels),
-             reads("candidates", *map_.records)},
-            {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
-            push_};
+    PathPass pass() const { return {recorder_, frame_, constants(), all_of(group_), push_}; }
+
+    /// By the names of visibility_bindings.glsl, path_state.glsl, path_walk.glsl and path_light.glsl.
+    std::vector<Binding> path_bindings() const {
+        return {updates("PathPlaces", places_),
+                updates("PathWays", ways_buffer_),
+                updates("PathWeights", weights_),
+                updates("PathMedia", media_),
+                updates("Waiting", waiting_),
+                updates("Branches", *branches_),
+                reads("Slots", topology_.slots),
+                reads("Traits", topology_.traits),
+                reads("ShellTraits", topology_.shell_traits),
+                reads("Boxes", topology_.boxes),
+                reads("EyeMedia", topology_.eye),
+                reads("Maps", *map_.maps),
+                reads("map_triangles", *map_.triangles),
+                reads("map_normals", *map_.normals),
+                reads("texels", *map_.texels),
+                reads("ranges", *map_.ranges),
+                reads("records", *map_.records),
+                reads("pyramid", *map_.pyramid),
+                reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
+                reads("candidate_lists", *map_.texels),
+                reads("candidates", *map_.records),
+                layers_.bindings(),
+                refraction_.bindings(),
+                updates("path_radiance", *refraction_.radiance),
+                updates("reflected_radiance", reflected_)};
+    }
+
+    CountedBuffer& branches() {
+        const std::uint32_t vectors = 4 + (words_ + 1) / 4;  // kBranchVectors of path_state.glsl
+        return layers_.source.counted("branches", vectors * 16);
+    }
+    void begin_branches() {
+        branches_ = &frame_.workspace.buffer("no branches", 16);  // something has to be bound
+        if (ways_ != Ways::kTree) return;
+        branches_ = &branches().begin(recorder_, frame_.workspace, pixels() / 4 + 1024);
+        push_.branch_capacity = branches().capacity();
     }
 
     const Buffer& start_entering() const {
@@ -163,52 +170,15 @@ private:
     }
 
     void begin() {
-        const GpuScene& scene = frame_.scene;
-        recorder_.compute_indirect(program({"begin_paths.comp", kBeginPaths}),
-                                   {reads("Frame", frame_.constants),
-                                    reads("Objects", scene.objects),
-                                    reads("Materials", scene.materials),
-                                    reads("map_triangles", *map_.triangles),
-                                    reads("map_normals", *map_.normals),
-                                    reads("Traits", topology_.traits),
-                                    reads("ShellTraits", topology_.shell_traits),
-                                    reads("Indices", scene.indices),
-                                    reads("Appearance", scene.appearance),
-                                    reads("Textures", scene.textures),
-                                    reads("texture_pages", scene.texture_pages),
-                                    reads("Slots", topology_.slots),
-                                    reads("layer_triangle", layers_.triangle),
-                                    reads("PixelList", layers_.covered),
-                                    updates("NextList", *next_),
-                                    updates("PathPlaces", places_),
-                                    updates("PathWays", ways_buffer_),
-                                    updates("PathWeights", weights_),
-                                    updates("PathMedia", media_),
-                                    updates("Waiting", waiting_),
-                                    updates("Branches", *branches_),
-                                    writes("path_radiance", *refraction_.radiance),
-                                    writes("reflected_radiance", reflected_)},
-                                   push_, layers_.covered);
-    }
-
-    /// What passes that walk the maps have in common, and `own`.
-    static std::vector<Binding> walking(const PathPass& pass, std::initializer_list<Binding> own) {
-        std::vector<Binding> bindings = pass.scene;
-        for (const auto* more : {&pass.state, &pass.walk}) bindings.insert(bindings.end(), more->begin(), more->end());
-        bindings.insert(bindings.end(), own);
-        return bindings;
-    }
-    const Buffer& volume_records() const {
-        return volumes_ != nullptr ? volumes_->records() : *map_.maps;  // something has to be bound
+        recorder_.compute_indirect(program(shaders::begin_paths_comp),
+                                   {frame_.bindings(), all_of(group_), updates("NextList", *next_)}, push_,
+                                   layers_.covered);
     }
 
     void begin_at_eye() {
-        const std::vector<Binding> bindings = walking(
-            pass(), {reads("layer_triangle", layers_.triangle), reads("opaque_depth", layers_.opaque.depth),
-                     reads("Volumes", volume_records()), reads("EyeMedia", topology_.eye), updates("NextList", *next_),
-                     writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)});
-        recorder_.compute(program({"begin_at_eye.comp", kBeginAtEye}), std::span<const Binding>(bindings), push_,
-                          frame_.extent);
+        recorder_.compute(program(shaders::begin_at_eye_comp),
+                          {frame_.bindings(), all_of(group_), all_of(volume_group_), updates("NextList", *next_)},
+                          push_, frame_.extent);
     }
 
     /// Before paths go on: the host finds what those of the list may meet. Where there are none any more, nothing is left to
@@ -227,7 +197,6 @@ private:
             {reinterpret_cast<Candidate*>(map_.records->mapped()), map_.records->size() / sizeof(Candidate)}};
         const bool each_begins = first && topology_.eye_differs;
         recorder_.on_host([=, finder = finder_, ended = PixelListOnHost(*ended_), all = lists_] {
-            if (first) candidates.all.front() = {};
             if (paths.list.pixels().empty()) {
                 for (const Buffer* left : all)
                     PixelListOnHost(*left).set_size(0);  // what an earlier pass has left there
@@ -242,53 +211,20 @@ private:
     void follow(std::uint32_t pass, const Buffer& entering) {
         const Buffer& list = *next_;
         next_ = &start_pixel_list(recorder_, frame_, kListNames[1 - pass % 2]);
-        std::vector<Binding> bindings =
-            walking(this->pass(), {reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
-                                   reads("Boxes", topology_.boxes), reads("Volumes", volume_records()),
-                                   updates("EnteringList", entering)});
-        ShaderCode shader{"follow_paths.comp", kFollowPaths};
-        if (const auto held = volumes_ != nullptr ? volumes_->held_follow() : std::nullopt) {
-            shader = held->shader;
-            bindings.insert(bindings.end(), held->bindings.begin(), held->bindings.end());
-        }
-        recorder_.compute_indirect(program(shader), std::span<const Binding>(bindings), push_, list);
+        recorder_.compute_indirect(
+            program(volumes_ != nullptr ? volumes_->follow_shader() : shaders::follow_paths_comp),
+            {frame_.bindings(), all_of(group_), all_of(volume_group_), reads("PixelList", list),
+             updates("NextList", *next_), updates("EndedList", *ended_), updates("EnteringList", entering)},
+            push_, list);
     }
 
     void end(const Buffer& list, bool closing) {
-        const GpuScene& scene = frame_.scene;
         PathPush push = push_;
         push.closing = closing ? 1 : 0;
-        std::vector<Binding> bindings = {reads("Frame", frame_.constants),
-                                         reads("Objects", scene.objects),
-                                         reads("Materials", scene.materials),
-                                         reads("Slots", topology_.slots),
-                                         reads("Indices", scene.indices),
-                                         reads("Vertices", scene.vertices),
-                                         reads("PixelList", list),
-                                         updates("NextList", closing ? *ended_ : *next_),
-                                         updates("PathPlaces", places_),
-                                         updates("PathWays", ways_buffer_),
-                                         updates("PathWeights", weights_),
-                                         updates("PathMedia", media_),
-                                         updates("Waiting", waiting_),
-                                         updates("Branches", *branches_),
-                                         reads("Textures", scene.textures),
-                                         reads("texture_pages", scene.texture_pages),
-                                         reads("Appearance", scene.appearance),
-                                         reads_layer("environment_map", frame_.environment, 0),
-                                         reads_layer("filtered_environment", frame_.filtered_environment, 0),
-                                         writes("exit_direction", refraction_.exit_direction),
-                                         writes("exit_position", refraction_.exit_position),
-                                         writes("transmittance", refraction_.transmittance),
-                                         writes("path_events", refraction_.events),
-                                         updates("path_radiance", *refraction_.radiance),
-                                         updates("reflected_radiance", reflected_)};
-        ShaderCode shader{"end_paths.comp", kEndPaths};
-        if (const auto lit = volumes_ != nullptr ? volumes_->lit_end() : std::nullopt) {
-            shader = lit->shader;
-            bindings.insert(bindings.end(), lit->bindings.begin(), lit->bindings.end());
-        }
-        recorder_.compute_indirect(program(shader), std::span<const Binding>(bindings), push, list);
+        recorder_.compute_indirect(program(volumes_ != nullptr ? volumes_->end_shader() : shaders::end_paths_comp),
+                                   {frame_.bindings(), all_of(group_), all_of(volume_group_), reads("PixelList", list),
+                                    updates("NextList", closing ? *ended_ : *next_)},
+                                   push, list);
     }
 
     Recorder& recorder_;
@@ -315,6 +251,7 @@ private:
     std::array<const Buffer*, 2> lists_{};  ///< of paths, which take turns
     const Buffer* next_ = nullptr;          ///< one of them
     const Buffer* ended_ = nullptr;
+    std::vector<Binding> group_, volume_group_;  ///< of all passes
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
@@ -341,16 +278,17 @@ Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& la
                         const ParameterValues& parameters) {
     const Recorder::Scope scope(recorder, "trace");
     const std::uint64_t pixels = std::uint64_t(frame.extent.width) * frame.extent.height;
-    const std::uint32_t room = layers.source.room("candidates", std::uint32_t(pixels + pixels / 4 + 1024));
+    CountedBuffer& counted = layers.source.counted("candidates", sizeof(Candidate), kMapPairFormat, true);
+    const Buffer& candidates = counted.begin(recorder, frame.workspace, pixels + pixels / 4 + 1024);
     const Buffer& lists =
         frame.workspace.buffer("candidate lists", pixels * sizeof(CandidateList), true, kMapPairFormat);
-    const Buffer& candidates =
-        frame.workspace.buffer("candidates", std::uint64_t(room) * sizeof(Candidate), true, kMapPairFormat);
     // What takes the place of a map has its triangles alone; what else shaders declare is bound, and not looked at.
     const Buffer& triangles = finder.triangles();
     const SurfaceMap map{&triangles, &triangles,  &finder.normals(), &lists,
                          &triangles, &candidates, &triangles,        nullptr};
-    return Paths(recorder, frame, layers, map, parameters, nullptr, &finder).follow();
+    const Refraction refraction = Paths(recorder, frame, layers, map, parameters, nullptr, &finder).follow();
+    counted.end(recorder);
+    return refraction;
 }
 
 constexpr Technique kVisibilityLayers{
@@ -360,6 +298,7 @@ constexpr Technique kVisibilityLayers{
              .parameters = kPathParameters,
              .many_media = true,
              .whole_scene = true},
+    .programs = kPathPrograms,
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
     .prepare = prepare_paths,
     .record = record,

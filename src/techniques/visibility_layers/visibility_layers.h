@@ -2,17 +2,17 @@
 
 #include "gpu/recorder.h"
 #include "layers/host_finder.h"
+#include "techniques/shaders.h"
 #include "techniques/technique.h"
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace pellucid {
 
 extern const Technique kVisibilityLayers;
 
-/// Of follow_paths().
+/// Technique::parameters of techniques that call follow_paths().
 inline constexpr std::array kPathParameters = {
     ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed along a path"},
     ParameterInfo{"branches", "", -1, -1, 255, true,
@@ -47,12 +47,8 @@ struct PathPush {
 struct PathPass {
     Recorder& recorder;
     const Frame& frame;
-    const Layers& layers;
-    std::vector<std::uint32_t> constants;  ///< of visibility_bindings.glsl
-    std::vector<Binding> scene;            ///< of visibility_bindings.glsl
-    std::vector<Binding> state;            ///< of path_state.glsl
-    std::vector<Binding> walk;             ///< of path_walk.glsl
-    std::vector<Binding> light;            ///< of path_light.glsl
+    std::vector<Constant> constants;  ///< of visibility_bindings.glsl
+    Binding bindings;                 ///< of paths, the maps that they walk, and what they leave
     PathPush push;
 };
 
@@ -60,25 +56,22 @@ struct PathPass {
 class PathVolumes {
 public:
     virtual ~PathVolumes() = default;
-    virtual const Buffer& records() const = 0;  ///< VolumeRecord[]
+    virtual std::vector<Binding> bindings() const = 0;  ///< of volumes, and of their light
     virtual void set(PathPush& push) const = 0;
     /// Takes the paths of `entering` through volumes; into `next` or, where they end, `ended`.
     virtual void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const = 0;
-    /// A program that takes another's place.
-    struct Variant {
-        ShaderCode shader;
-        std::vector<Binding> bindings;  ///< besides those that it has otherwise
-    };
-    /// Of the program that ends paths where lights shine on what they end on; none where there are no lights.
-    virtual std::optional<Variant> lit_end() const = 0;
-    /// Of the program that takes paths from surface to surface, where solids hold volumes.
-    virtual std::optional<Variant> held_follow() const = 0;
+    /// Ends paths, on what lights shine on where there are some.
+    virtual ShaderCode end_shader() const = 0;
+    /// Takes paths from surface to surface, where solids may hold volumes.
+    virtual ShaderCode follow_shader() const = 0;
 };
 
 /// Texels of a mesh's maps along the longest side of its box, unless a parameter says otherwise.
 inline constexpr std::uint32_t kMeshMapResolution = 512;
 
-/// Technique::prepare of techniques that call it.
+/// Technique::programs and Technique::prepare of techniques that call follow_paths().
+inline constexpr std::initializer_list<const ShaderCode*> kPathPrograms = {
+    &shaders::begin_paths_comp, &shaders::begin_at_eye_comp, &shaders::follow_paths_comp, &shaders::end_paths_comp};
 void prepare_paths(const Preparation& preparation, const ParameterValues& parameters);
 /// Follows the view rays through `map`: from the first surface of `layers` on or, with `volumes`, where surfaces may lie at
 /// one place or where the eye is in a solid, from the eye on.

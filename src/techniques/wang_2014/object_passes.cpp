@@ -1,23 +1,11 @@
 #include "techniques/wang_2014/object_passes.h"
 
 #include "layers/pixel_list.h"
+#include "techniques/shaders.h"
 
 #include <array>
 
 namespace pellucid {
-namespace {
-
-constexpr std::uint32_t kMergeLayers[] = {
-#include "merge_layers.comp.inc"
-};
-constexpr std::uint32_t kEnterSolid[] = {
-#include "enter_solid.comp.inc"
-};
-constexpr std::uint32_t kLeaveSolid[] = {
-#include "leave_solid.comp.inc"
-};
-
-}  // namespace
 
 ObjectPasses::ObjectPasses(Recorder& recorder, const Frame& frame, const Layers& seen, const Layers& layers,
                            const Refraction& refraction, const ObjectSearch& search)
@@ -38,7 +26,7 @@ ObjectPasses::MergedLayers ObjectPasses::merge_layers(Recorder& recorder, const 
     recorder.clear(normal, vk::ClearColorValue(std::array{0u, 0u, 0u, 0u}));
     recorder.fill(entry_limit, 0);
     recorder.compute_indirect(
-        workspace.compute({"merge_layers.comp", kMergeLayers}),
+        workspace.compute(shaders::merge_layers_comp),
         {reads("layer_depth", layers.depth), reads("layer_normal", layers.normal), reads("PixelList", layers.covered),
          writes("merged_depth", depth), writes("merged_normal", normal), updates("EntryLimit", entry_limit)},
         layers.count, layers.covered);
@@ -49,15 +37,10 @@ const Buffer& ObjectPasses::enter(const Buffer& pixels, std::uint32_t layer) {
     const Buffer& inside = start_pixel_list(recorder_, frame_, "rays inside");
     search_.layer = layer;
     recorder_.compute_indirect(
-        frame_.workspace.compute({"enter_solid.comp", kEnterSolid}, {layer == 0 ? 1u : 0u}),
-        {reads("Frame", frame_.constants), reads("Objects", frame_.scene.objects),
-         reads("Materials", frame_.scene.materials), reads("layer_depth", layers_.depth),
-         reads("layer_triangle", layers_.triangle), reads("layer_normal", layers_.normal),
-         reads("seen_triangle", seen_.triangle), reads_layer("merged_depth", merged_.depth, layer),
-         reads_layer("merged_normal", merged_.normal, layer), reads("EntryLimit", merged_.entry_limit),
-         reads("PixelList", pixels), updates("Inside", inside), updates("exit_direction", refraction_.exit_direction),
-         updates("exit_position", refraction_.exit_position), updates("transmittance", refraction_.transmittance),
-         updates("path_events", refraction_.events)},
+        frame_.workspace.compute(shaders::enter_solid_comp, {{"kNextObject", layer == 0}}),
+        {frame_.bindings(), layers_.bindings(), refraction_.bindings(), reads("seen_triangle", seen_.triangle),
+         reads_layer("merged_depth", merged_.depth, layer), reads_layer("merged_normal", merged_.normal, layer),
+         reads("EntryLimit", merged_.entry_limit), reads("PixelList", pixels), updates("Inside", inside)},
         search_, pixels);
     return inside;
 }
@@ -71,15 +54,11 @@ const Buffer& ObjectPasses::leave(const Buffer& pixels, std::uint32_t layer, std
         const Buffer& reflected =
             start_pixel_list(recorder_, frame_, reflection % 2 == 0 ? "rays reflected" : "rays reflected again");
         recorder_.compute_indirect(
-            frame_.workspace.compute({"leave_solid.comp", kLeaveSolid}, {from_eye && reflection == 0 ? 1u : 0u}),
-            {reads("Frame", frame_.constants), reads("Objects", frame_.scene.objects),
-             reads("Materials", frame_.scene.materials), reads("layer_depth", layers_.depth),
-             reads("layer_triangle", layers_.triangle), reads("layer_normal", layers_.normal),
-             reads("seen_triangle", seen_.triangle), reads_layer("merged_depth", merged_.depth, layer),
-             reads_layer("merged_normal", merged_.normal, layer), reads("EntryLimit", merged_.entry_limit),
-             reads("PixelList", *searching), updates("Outside", outside), updates("Reflected", reflected),
-             updates("exit_direction", refraction_.exit_direction), updates("exit_position", refraction_.exit_position),
-             updates("transmittance", refraction_.transmittance), updates("path_events", refraction_.events)},
+            frame_.workspace.compute(shaders::leave_solid_comp, {{"kFromEye", from_eye && reflection == 0}}),
+            {frame_.bindings(), layers_.bindings(), refraction_.bindings(), reads("seen_triangle", seen_.triangle),
+             reads_layer("merged_depth", merged_.depth, layer), reads_layer("merged_normal", merged_.normal, layer),
+             reads("EntryLimit", merged_.entry_limit), reads("PixelList", *searching), updates("Outside", outside),
+             updates("Reflected", reflected)},
             search_, *searching);
         searching = &reflected;
     }

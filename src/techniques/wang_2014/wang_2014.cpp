@@ -1,5 +1,6 @@
 #include "techniques/wang_2014/wang_2014.h"
 
+#include "techniques/shaders.h"
 #include "techniques/wang_2014/object_passes.h"
 
 #include <algorithm>
@@ -105,6 +106,7 @@ constexpr Technique kWang2014{
                         "master's thesis, National Chengchi University", 2014, "chapter 3"},
              .parameters = kParameters,
              .many_media = true},
+    .programs = {&shaders::merge_layers_comp, &shaders::enter_solid_comp, &shaders::leave_solid_comp},
     .layer_count = layer_count,
     .record = record,
     .searches_layers = true,

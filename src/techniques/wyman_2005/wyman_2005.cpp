@@ -1,6 +1,7 @@
 #include "techniques/wyman_2005/wyman_2005.h"
 
 #include "layers/back_faces.h"
+#include "techniques/shaders.h"
 #include "techniques/wyman_2005/baked_distances.h"
 
 #include <array>
@@ -9,13 +10,6 @@ namespace pellucid {
 namespace {
 
 using wyman_2005::Distances;
-
-constexpr std::uint32_t kShader[] = {
-#include "wyman_2005.comp.inc"
-};
-constexpr std::uint32_t kNearbyGeometry[] = {
-#include "nearby_geometry.comp.inc"
-};
 
 constexpr std::array kParameters = {
     ParameterInfo{"back-face", "", 0, 0, 1, true, "far side of the glass: 0 the first back face, 1 the farthest"},
@@ -38,14 +32,8 @@ void find_nearby_geometry(Recorder& recorder, const Frame& frame, const Layers& 
                           const ParameterValues& parameters) {
     const std::array push = {parameters.whole("nearby-steps"), parameters.whole("nearby-binary-steps")};
     recorder.compute_indirect(
-        frame.workspace.compute({"nearby_geometry.comp", kNearbyGeometry}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-         reads("layer_triangle", layers.triangle), reads("PixelList", layers.covered),
-         updates("exit_direction", refraction.exit_direction), updates("exit_position", refraction.exit_position),
-         updates("transmittance", refraction.transmittance), updates("path_events", refraction.events),
-         reads("opaque_radiance", layers.opaque.radiance), reads("opaque_depth", layers.opaque.depth),
-         reads("opaque_object", layers.opaque.object), writes("path_radiance", *refraction.radiance)},
+        frame.workspace.compute(shaders::nearby_geometry_comp),
+        {frame.bindings(), layers.bindings(), refraction.bindings(), writes("path_radiance", *refraction.radiance)},
         push, layers.covered);
 }
 
@@ -60,15 +48,9 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const bool nearby = !frame.scene.opaque.empty();
     const Refraction refraction = clear_refraction(recorder, frame, nearby);
     recorder.compute_indirect(
-        frame.workspace.compute({"wyman_2005.comp", kShader}, {distances == Distances::kSampled ? 1u : 0u}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials), reads("Indices", frame.scene.indices),
-         reads("Vertices", frame.scene.vertices), reads("layer_depth", layers.depth),
-         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
-         reads("PixelList", layers.covered), writes("exit_direction", refraction.exit_direction),
-         writes("exit_position", refraction.exit_position), writes("transmittance", refraction.transmittance),
-         writes("path_events", refraction.events), reads("back_depth", back.depth), reads("back_normal", back.normal),
-         reads("BakedObjects", baked.objects), reads("Distances", baked.values)},
+        frame.workspace.compute(shaders::wyman_2005_comp, {{"kSampled", distances == Distances::kSampled}}),
+        {frame.bindings(), layers.bindings(), refraction.bindings(), reads("back_depth", back.depth),
+         reads("back_normal", back.normal), reads("BakedObjects", baked.objects), reads("Distances", baked.values)},
         side, layers.covered);
     if (nearby) find_nearby_geometry(recorder, frame, layers, refraction, parameters);
     return refraction;
@@ -84,6 +66,7 @@ constexpr Technique kWyman2005{
              .parameters = kParameters,
              .bakes = true,
              .opaque_behind = true},
+    .programs = {&shaders::nearby_geometry_comp, &shaders::wyman_2005_comp},
     .layer_count = [](const ParameterValues&) { return 1u; },
     .prepare = prepare,
     .record = record,
