@@ -23,7 +23,6 @@ vk::PipelineStageFlags2 stages_of(const BindingSlot& slot) {
     if (slot.stages & vk::ShaderStageFlagBits::eCompute) stages |= Stage::eComputeShader;
     if (slot.stages & vk::ShaderStageFlagBits::eVertex) stages |= Stage::eVertexShader;
     if (slot.stages & vk::ShaderStageFlagBits::eFragment) stages |= Stage::eFragmentShader;
-    if (slot.stages & kRayTracingStages) stages |= Stage::eRayTracingShaderKHR;
     return stages;
 }
 
@@ -280,20 +279,6 @@ void Recorder::draw_bytes(const Program& program, std::span<const Binding> bindi
         commands_.draw(call.corner_count, 1, call.first_corner, 0);
     }
     commands_.endRendering();
-}
-
-void Recorder::trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
-                           vk::Extent2D rays) {
-    const std::uint64_t limit = device_.ray_tracing()->max_rays;
-    if (std::uint64_t(rays.width) * rays.height > limit) {
-        throw TooLarge(fmt::format("{}x{} pixels: {} traces {} rays at once", rays.width, rays.height,
-                                   device_.info().name, limit));
-    }
-    std::vector<Use> uses;
-    bind(program, bindings, push, uses);
-    synchronise(uses);
-    const Program::ShaderTable& table = program.shader_table();
-    commands_.traceRaysKHR(table.raygen, table.miss, table.hit, {}, rays.width, rays.height, 1);
 }
 
 // A structure that others are placed in stands for them: whoever waits for its build waits for theirs, since

@@ -128,12 +128,6 @@ public:
         draw_bytes(program, bindings, {}, target, calls);
     }
 
-    /// Launches one ray generation per pixel of `rays`. Throws Error if that is more than the device launches.
-    template <class Push>
-    void trace(const Program& program, std::initializer_list<Binding> bindings, const Push& push, vk::Extent2D rays) {
-        trace_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), rays);
-    }
-
     /// Builds a structure, or refits it, from `inputs`: the buffers or structures that it is made of.
     void build(const AccelerationStructure& structure, vk::BuildAccelerationStructureModeKHR mode,
                std::span<const ResourceId> inputs, const BuildScratch& scratch);
@@ -185,8 +179,6 @@ private:
                                 std::span<const std::byte> push, const Buffer& arguments);
     void draw_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
                     const RenderTarget& target, std::span<const DrawCall> calls);
-    void trace_bytes(const Program& program, std::span<const Binding> bindings, std::span<const std::byte> push,
-                     vk::Extent2D rays);
     void begin_commands();
     void begin_label();
     void add_step(std::function<bool()> step);

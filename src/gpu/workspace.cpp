@@ -25,14 +25,6 @@ const Program& Workspace::graphics(const Program::Graphics& state) {
     return found->second;
 }
 
-const Program& Workspace::ray_tracing(const Program::RayTracing& shaders) {
-    auto found = programs_.find(shaders.raygen.name);
-    if (found == programs_.end()) {
-        found = programs_.emplace(shaders.raygen.name, Program::ray_tracing(device_, shaders)).first;
-    }
-    return found->second;
-}
-
 const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::Extent2D extent, std::uint32_t layers) {
     auto found = images_.find(name);
     if (found != images_.end()) {

@@ -37,6 +37,9 @@ constexpr std::uint32_t kSummariseTexels[] = {
 constexpr std::uint32_t kReduceTexels[] = {
 #include "reduce_texels.comp.inc"
 };
+constexpr std::uint32_t kPlaceTriangles[] = {
+#include "place_triangles.comp.inc"
+};
 
 /// Twin of kNoRange in surface_map.glsl.
 constexpr std::uint32_t kNoRange = 0x0000ffff;
@@ -44,6 +47,18 @@ constexpr std::uint32_t kNoRange = 0x0000ffff;
 constexpr std::uint32_t kGroup = 64;  // of the shaders that go through triangles
 
 std::uint32_t log2_ceil(std::uint32_t size) { return std::uint32_t(std::bit_width(size - 1)); }
+
+/// Invocations in a row of a dispatch over `count` triangles, and rows.
+std::array<std::uint32_t, 2> rows_of(const Device& device, std::uint32_t count) {
+    const std::uint32_t groups = (count + kGroup - 1) / kGroup;
+    const std::uint32_t rows = groups / device.limits().maxComputeWorkGroupCount[0] + 1;
+    return {(groups + rows - 1) / rows * kGroup, rows};
+}
+
+const Buffer& triangle_buffer(const Frame& frame, const char* name) {
+    const std::uint64_t triangles = std::max<std::uint64_t>(frame.scene.triangle_count, 1);
+    return frame.workspace.buffer(name, triangles * kMapTriangleSize, false, kMapFormat);
+}
 
 const Buffer& counts_on_host(const Frame& frame) {
     return frame.workspace.buffer("map counts", sizeof(MapCount), true);
@@ -98,9 +113,7 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     recorder.fill(*map.texels, record.first_head * kMapTexelSize, texels * kMapTexelSize, 0);
     recorder.fill(*map.ranges, build.first_record * kMapRangeSize, build.records * kMapRangeSize, kNoRange);
     const std::uint32_t row_groups = workspace.device().limits().maxComputeWorkGroupCount[0];
-    const std::uint32_t all_groups = (build.triangle_count + kGroup - 1) / kGroup;
-    const std::uint32_t rows = all_groups / row_groups + 1;
-    const std::uint32_t row = (all_groups + rows - 1) / rows * kGroup;
+    const auto [row, rows] = rows_of(workspace.device(), build.triangle_count);
     struct Push {
         std::uint32_t triangle_count, record_capacity, tile_capacity, map_index, row;
     };
@@ -147,6 +160,20 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     }
 }
 
+SurfaceMap place_triangles(Recorder& recorder, const Frame& frame) {
+    const GpuScene& scene = frame.scene;
+    const Buffer& triangles = triangle_buffer(frame, "map triangles");
+    const Buffer& normals = triangle_buffer(frame, "map normals");
+    const auto count = std::uint32_t(scene.triangle_count);
+    const auto [row, rows] = rows_of(frame.workspace.device(), count);
+    recorder.compute(
+        frame.workspace.compute({"place_triangles.comp", kPlaceTriangles}),
+        {reads("Frame", frame.constants), reads("Objects", scene.objects), reads("Indices", scene.indices),
+         reads("Vertices", scene.vertices), writes("MapTriangles", triangles), writes("MapNormals", normals)},
+        std::array{count, row}, {row, rows});
+    return of_triangles(triangles, normals);
+}
+
 SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
                                      const MapProjection& projection) {
     Workspace& workspace = frame.workspace;
@@ -163,10 +190,9 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     const auto buffer = [&](const char* name, vk::DeviceSize size, vk::Format format) {
         return &workspace.buffer(name, size, false, format);
     };
-    const std::uint64_t triangles = std::max<std::uint64_t>(frame.scene.triangle_count, 1);
     const SurfaceMap map{&maps,
-                         buffer("map triangles", triangles * kMapTriangleSize, kMapFormat),
-                         buffer("map normals", triangles * kMapTriangleSize, kMapFormat),
+                         &triangle_buffer(frame, "map triangles"),
+                         &triangle_buffer(frame, "map normals"),
                          buffer("map texels", texels * kMapTexelSize, kMapPairFormat),
                          buffer("map ranges", map_pool_.records * kMapRangeSize, kMapFormat),
                          buffer("map records", map_pool_.records * kMapRecordSize, kMapPairFormat),

@@ -22,6 +22,13 @@ constexpr std::uint32_t kFollowPaths[] = {
 constexpr std::uint32_t kEndPaths[] = {
 #include "end_paths.comp.inc"
 };
+// The same with PELLUCID_RAY_QUERY.
+constexpr std::uint32_t kBeginTracedAtEye[] = {
+#include "begin_traced_at_eye.comp.inc"
+};
+constexpr std::uint32_t kFollowTracedPaths[] = {
+#include "follow_traced_paths.comp.inc"
+};
 
 /// That there is time for beyond those of the longest path, for each branch: most branches leave soon.
 constexpr std::uint32_t kSurfacesPerBranch = 4;
@@ -45,9 +52,11 @@ enum class Ways { kTransmitted, kTree, kStochastic };
 class Paths {
 public:
     Paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
-          const ParameterValues& parameters, const PathVolumes* volumes, const HostFinder* finder)
+          const ParameterValues& parameters, const PathVolumes* volumes, const HostFinder* finder,
+          const AccelerationStructure* hierarchy)
         : recorder_(recorder), frame_(frame), layers_(layers), map_(map), volumes_(volumes), finder_(finder),
-          topology_(*frame.scene.topology), refraction_(clear_refraction(recorder, frame, true)) {
+          hierarchy_(hierarchy), topology_(*frame.scene.topology),
+          refraction_(clear_refraction(recorder, frame, true)) {
         const double given = parameters["branches"];
         const bool many = frame.samples > 1;
         push_.max_events = parameters.whole("events");
@@ -136,6 +145,31 @@ private:
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 
+    std::vector<Binding> walk_bindings() const {
+        const GpuScene& scene = frame_.scene;
+        std::vector<Binding> bindings = {reads("Slots", topology_.slots),
+                                         reads("Maps", *map_.maps),
+                                         reads("map_triangles", *map_.triangles),
+                                         reads("map_normals", *map_.normals),
+                                         reads("texels", *map_.texels),
+                                         reads("ranges", *map_.ranges),
+                                         reads("records", *map_.records),
+                                         reads("pyramid", *map_.pyramid),
+                                         reads("Traits", topology_.traits),
+                                         reads("Indices", scene.indices),
+                                         reads("Appearance", scene.appearance),
+                                         reads("Textures", scene.textures),
+                                         reads("texture_pages", scene.texture_pages)};
+        if (hierarchy_ != nullptr)
+            bindings.insert(bindings.end(),
+                            {reads("hierarchy", *hierarchy_), reads("ShellTraits", topology_.shell_traits)});
+        else
+            bindings.insert(bindings.end(),
+                            {reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
+                             reads("candidate_lists", *map_.texels), reads("candidates", *map_.records)});
+        return bindings;
+    }
+
     PathPass pass() const {
         const GpuScene& scene = frame_.scene;
         return {
@@ -146,13 +180,7 @@ private:
             {reads("Frame", frame_.constants), reads("Objects", scene.objects), reads("Materials", scene.materials)},
             {updates("PathPlaces", places_), updates("PathWays", ways_buffer_), updates("PathWeights", weights_),
              updates("PathMedia", media_), updates("Waiting", waiting_), updates("Branches", *branches_)},
-            {reads("Slots", topology_.slots), reads("Maps", *map_.maps), reads("map_triangles", *map_.triangles),
-             reads("map_normals", *map_.normals), reads("texels", *map_.texels), reads("ranges", *map_.ranges),
-             reads("records", *map_.records), reads("pyramid", *map_.pyramid), reads("Traits", topology_.traits),
-             reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
-             reads("Indices", scene.indices), reads("Appearance", scene.appearance), reads("Textures", scene.textures),
-             reads("texture_pages", scene.texture_pages), reads("candidate_lists", *map_.texels),
-             reads("candidates", *map_.records)},
+            walk_bindings(),
             {updates("path_radiance", *refraction_.radiance), updates("reflected_radiance", reflected_)},
             push_};
     }
@@ -207,8 +235,9 @@ private:
             pass(), {reads("layer_triangle", layers_.triangle), reads("opaque_depth", layers_.opaque.depth),
                      reads("Volumes", volume_records()), reads("EyeMedia", topology_.eye), updates("NextList", *next_),
                      writes("path_radiance", *refraction_.radiance), writes("reflected_radiance", reflected_)});
-        recorder_.compute(program({"begin_at_eye.comp", kBeginAtEye}), std::span<const Binding>(bindings), push_,
-                          frame_.extent);
+        const ShaderCode shader = hierarchy_ != nullptr ? ShaderCode{"begin_traced_at_eye.comp", kBeginTracedAtEye}
+                                                        : ShaderCode{"begin_at_eye.comp", kBeginAtEye};
+        recorder_.compute(program(shader), std::span<const Binding>(bindings), push_, frame_.extent);
     }
 
     /// Before paths go on: the host finds what those of the list may meet. Where there are none any more, nothing is left to
@@ -246,7 +275,8 @@ private:
             walking(this->pass(), {reads("PixelList", list), updates("NextList", *next_), updates("EndedList", *ended_),
                                    reads("Boxes", topology_.boxes), reads("Volumes", volume_records()),
                                    updates("EnteringList", entering)});
-        ShaderCode shader{"follow_paths.comp", kFollowPaths};
+        ShaderCode shader = hierarchy_ != nullptr ? ShaderCode{"follow_traced_paths.comp", kFollowTracedPaths}
+                                                  : ShaderCode{"follow_paths.comp", kFollowPaths};
         if (const auto held = volumes_ != nullptr ? volumes_->held_follow() : std::nullopt) {
             shader = held->shader;
             bindings.insert(bindings.end(), held->bindings.begin(), held->bindings.end());
@@ -297,6 +327,7 @@ private:
     const SurfaceMap& map_;
     const PathVolumes* volumes_;
     const HostFinder* finder_;
+    const AccelerationStructure* hierarchy_;  ///< in which the device traces rays; null: it does not
     const SceneTopology& topology_;
     Refraction refraction_;
     Ways ways_ = Ways::kTransmitted;
@@ -334,7 +365,7 @@ void prepare_paths(const Preparation& preparation, const ParameterValues&) {
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
                         const ParameterValues& parameters, const PathVolumes* volumes) {
     const Recorder::Scope scope(recorder, "trace");
-    return Paths(recorder, frame, layers, map, parameters, volumes, nullptr).follow();
+    return Paths(recorder, frame, layers, map, parameters, volumes, nullptr, nullptr).follow();
 }
 
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const HostFinder& finder,
@@ -346,11 +377,17 @@ Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& la
         frame.workspace.buffer("candidate lists", pixels * sizeof(CandidateList), true, kMapPairFormat);
     const Buffer& candidates =
         frame.workspace.buffer("candidates", std::uint64_t(room) * sizeof(Candidate), true, kMapPairFormat);
-    // What takes the place of a map has its triangles alone; what else shaders declare is bound, and not looked at.
-    const Buffer& triangles = finder.triangles();
-    const SurfaceMap map{&triangles, &triangles,  &finder.normals(), &lists,
-                         &triangles, &candidates, &triangles,        nullptr};
-    return Paths(recorder, frame, layers, map, parameters, nullptr, &finder).follow();
+    SurfaceMap map = of_triangles(finder.triangles(), finder.normals());
+    map.texels = &lists;
+    map.records = &candidates;
+    return Paths(recorder, frame, layers, map, parameters, nullptr, &finder, nullptr).follow();
+}
+
+Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SceneHierarchy& hierarchy,
+                        const ParameterValues& parameters) {
+    const Recorder::Scope scope(recorder, "trace");
+    const SurfaceMap map = place_triangles(recorder, frame);
+    return Paths(recorder, frame, layers, map, parameters, nullptr, nullptr, &hierarchy.top()).follow();
 }
 
 constexpr Technique kVisibilityLayers{
