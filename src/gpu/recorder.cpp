@@ -1,7 +1,5 @@
 #include "gpu/recorder.h"
 
-#include <pellucid/error.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
