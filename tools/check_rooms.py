@@ -19,7 +19,7 @@ import re
 import sys
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.MULTILINE)
-CODE = (".h", ".hpp", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".geom", ".rgen", ".rchit", ".rmiss")
+CODE = (".h", ".hpp", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".geom")
 ALL_HEADERS = "pellucid.h"
 PROGRAMS = ("apps", "examples")
 

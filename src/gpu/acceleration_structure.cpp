@@ -47,8 +47,8 @@ AccelerationStructure::AccelerationStructure(const Device& device, std::string n
                                                                  .maxVertex = std::max(triangles.vertex_count, 1u) - 1,
                                                                  .indexType = vk::IndexType::eUint32,
                                                                  .indexData = triangles.indices};
-    geometry_ = vk::AccelerationStructureGeometryKHR{
-        .geometryType = vk::GeometryTypeKHR::eTriangles, .geometry = data, .flags = vk::GeometryFlagBitsKHR::eOpaque};
+    // Not opaque: shaders decide which triangles count.
+    geometry_ = vk::AccelerationStructureGeometryKHR{.geometryType = vk::GeometryTypeKHR::eTriangles, .geometry = data};
     create(device, std::move(name), Type::eBottomLevel, use);
 }
 

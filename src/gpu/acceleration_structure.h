@@ -9,7 +9,7 @@ namespace pellucid {
 
 /// What an acceleration structure is made for.
 enum class StructureUse {
-    kStatic,   ///< built once, traced often: a good tree
+    kStatic,   ///< built once, traced often: a good tree over triangles that stay
     kRefit,    ///< the same tree, its boxes fitted again to triangles that have moved
     kRebuild,  ///< built anew in every frame: fast
 };

@@ -38,7 +38,6 @@ vk::PipelineStageFlags2 stages_of(const BindingSlot& slot) {
     if (slot.stages & vk::ShaderStageFlagBits::eCompute) stages |= vk::PipelineStageFlagBits2::eComputeShader;
     if (slot.stages & vk::ShaderStageFlagBits::eVertex) stages |= vk::PipelineStageFlagBits2::eVertexShader;
     if (slot.stages & vk::ShaderStageFlagBits::eFragment) stages |= vk::PipelineStageFlagBits2::eFragmentShader;
-    if (slot.stages & kRayTracingStages) stages |= vk::PipelineStageFlagBits2::eRayTracingShaderKHR;
     return stages;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 constexpr std::array kRayTracingExtensions = {
-    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
+    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
     VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,  // the first needs it; nothing is deferred here
 };
 
@@ -75,27 +75,22 @@ bool has_ray_tracing(const vk::raii::PhysicalDevice& physical) {
             });
         });
     if (!extensions) return false;  // the features below may not even be asked for
-    const auto chain = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
-                                             vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
-                                             vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>();
+    const auto chain =
+        physical
+            .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                          vk::PhysicalDeviceAccelerationStructureFeaturesKHR, vk::PhysicalDeviceRayQueryFeaturesKHR>();
     return chain.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress &&
            chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure &&
-           chain.get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>().rayTracingPipeline;
+           chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery;
 }
 
 RayTracingLimits ray_tracing_limits(const vk::raii::PhysicalDevice& physical) {
     const auto chain =
-        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceAccelerationStructurePropertiesKHR,
-                                vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();
+        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
     const auto& structure = chain.get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
-    const auto& pipeline = chain.get<vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();
-    return {.group_handle_size = pipeline.shaderGroupHandleSize,
-            .group_handle_alignment = pipeline.shaderGroupHandleAlignment,
-            .group_base_alignment = pipeline.shaderGroupBaseAlignment,
-            .scratch_alignment = structure.minAccelerationStructureScratchOffsetAlignment,
+    return {.scratch_alignment = structure.minAccelerationStructureScratchOffsetAlignment,
             .max_triangles = structure.maxPrimitiveCount,
-            .max_instances = structure.maxInstanceCount,
-            .max_rays = pipeline.maxRayDispatchInvocationCount};
+            .max_instances = structure.maxInstanceCount};
 }
 
 DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
@@ -251,8 +246,8 @@ void Device::create_device(const vk::raii::PhysicalDevice& physical) {
     const std::uint32_t timestamp_bits = physical.getQueueFamilyProperties()[queue_family_].timestampValidBits;
     timestamp_period_ns_ = timestamp_bits > 0 ? double(limits_.timestampPeriod) : 0.0;
 
-    vk::PhysicalDeviceRayTracingPipelineFeaturesKHR pipelines{.rayTracingPipeline = true};
-    vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures{.pNext = &pipelines, .accelerationStructure = true};
+    vk::PhysicalDeviceRayQueryFeaturesKHR queries{.rayQuery = true};
+    vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures{.pNext = &queries, .accelerationStructure = true};
     const bool traces = has_ray_tracing(physical);
     long_atomics_ = has_long_atomics(physical);
     vk::PhysicalDeviceVulkan12Features features12{.pNext = traces ? &structures : nullptr,

@@ -12,15 +12,11 @@
 
 namespace pellucid {
 
-/// What a device with ray-tracing pipelines asks of those who use them.
+/// Limits of a device's acceleration structures.
 struct RayTracingLimits {
-    std::uint32_t group_handle_size;       ///< bytes of a shader group in the shader binding table,
-    std::uint32_t group_handle_alignment;  ///< of each of them,
-    std::uint32_t group_base_alignment;    ///< and of the first of a kind
-    std::uint32_t scratch_alignment;       ///< bytes, of the address of a build's scratch memory
-    std::uint64_t max_triangles;           ///< in one acceleration structure
+    std::uint32_t scratch_alignment;  ///< bytes, of the address of a build's scratch memory
+    std::uint64_t max_triangles;      ///< in one acceleration structure
     std::uint64_t max_instances;
-    std::uint64_t max_rays;  ///< launched at once
 };
 
 /// A Vulkan 1.3 device with one queue that does graphics and compute. Needs no surface.
@@ -48,7 +44,7 @@ public:
     bool float_blending() const { return float_blending_; }
     /// 64-bit integers in shaders and atomics on them in storage buffers, which light in volumes needs.
     bool long_atomics() const { return long_atomics_; }
-    /// Ray-tracing pipelines and acceleration structures; nothing where the device has none.
+    /// Ray queries and acceleration structures; nothing where the device has none.
     const std::optional<RayTracingLimits>& ray_tracing() const { return ray_tracing_; }
     /// Nanoseconds per timestamp tick; 0 where the queue has no timestamps.
     double timestamp_period_ns() const { return timestamp_period_ns_; }

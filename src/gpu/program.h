@@ -51,12 +51,8 @@ std::string lacking_limit(ShaderCode compute, const vk::PhysicalDeviceLimits& li
 /// alpha.
 enum class Blend { kReplace, kMultiply, kAdd, kMaxAddAlpha };
 
-/// Shader stages of a ray-tracing program.
-inline constexpr vk::ShaderStageFlags kRayTracingStages =
-    vk::ShaderStageFlagBits::eRaygenKHR | vk::ShaderStageFlagBits::eMissKHR | vk::ShaderStageFlagBits::eClosestHitKHR;
-
-/// A compute, graphics or ray-tracing pipeline with the bindings its shaders declare. Making one throws DeviceError, naming
-/// the limit, if the device has fewer.
+/// A compute or graphics pipeline with the bindings its shaders declare. Making one throws DeviceError, naming the limit,
+/// if the device has fewer.
 class Program {
 public:
     /// Workgroup size is the shader's own. Every specialization constant of the shader has to be in `constants`, where
@@ -73,20 +69,6 @@ public:
     };
     static Program graphics(const Device& device, const Graphics& state);
 
-    /// One shader of each kind; rays are launched by the first alone (no recursion). Needs Device::ray_tracing().
-    struct RayTracing {
-        ShaderCode raygen;
-        ShaderCode miss;
-        ShaderCode closest_hit;
-    };
-    static Program ray_tracing(const Device& device, const RayTracing& shaders);
-
-    /// Where in device memory a ray-tracing program's shaders stand.
-    struct ShaderTable {
-        vk::StridedDeviceAddressRegionKHR raygen, miss, hit;
-    };
-    const ShaderTable& shader_table() const { return shader_table_; }
-
     const std::string& name() const { return name_; }
     const std::vector<BindingSlot>& slots() const { return interface_.slots; }
     std::uint32_t push_size() const { return interface_.push_size; }
@@ -99,7 +81,6 @@ public:
 
 private:
     void make_layouts(const Device& device);
-    void make_shader_table(const Device& device);
 
     std::string name_;
     ProgramInterface interface_;
@@ -107,8 +88,6 @@ private:
     vk::raii::DescriptorSetLayout set_layout_ = nullptr;
     vk::raii::PipelineLayout layout_ = nullptr;
     vk::raii::Pipeline pipeline_ = nullptr;
-    Buffer shader_table_buffer_;
-    ShaderTable shader_table_;
 };
 
 }  // namespace pellucid

@@ -1,7 +1,5 @@
 #include "gpu/recorder.h"
 
-#include <pellucid/error.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -225,20 +223,6 @@ void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<c
         commands_.draw(call.corner_count, 1, call.first_corner, 0);
     }
     commands_.endRendering();
-}
-
-void Recorder::trace_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
-                           vk::Extent2D rays) {
-    const std::uint64_t limit = device_.ray_tracing()->max_rays;
-    if (std::uint64_t(rays.width) * rays.height > limit) {
-        throw TooLarge(fmt::format("{}x{} pixels: {} traces {} rays at once", rays.width, rays.height,
-                                   device_.info().name, limit));
-    }
-    std::vector<Use> uses;
-    bind(program, bindings, push, uses);
-    synchronise(uses);
-    const Program::ShaderTable& table = program.shader_table();
-    commands_.traceRaysKHR(table.raygen, table.miss, table.hit, {}, rays.width, rays.height, 1);
 }
 
 // A structure that others are placed in stands for them: whoever waits for its build waits for theirs, since

@@ -93,12 +93,6 @@ public:
         draw_bytes(program, bindings, {}, target, calls);
     }
 
-    /// Launches one ray generation per pixel of `rays`. Throws Error if that is more than the device launches.
-    template <class Push>
-    void trace(const Program& program, Bindings bindings, const Push& push, vk::Extent2D rays) {
-        trace_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), rays);
-    }
-
     /// Builds a structure, or refits it, from `inputs`: the buffers or structures that it is made of.
     void build(const AccelerationStructure& structure, vk::BuildAccelerationStructureModeKHR mode,
                std::span<const ResourceId> inputs, const BuildScratch& scratch);
@@ -158,7 +152,6 @@ private:
                                 const Buffer& arguments);
     void draw_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                     const RenderTarget& target, std::span<const DrawCall> calls);
-    void trace_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push, vk::Extent2D rays);
     const std::byte* read_bytes(const Buffer& source, vk::DeviceSize offset, vk::DeviceSize bytes);
     void begin_commands();
     void begin_label();

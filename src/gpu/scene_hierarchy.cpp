@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <span>
-#include <utility>
 
 namespace pellucid {
 namespace {
@@ -27,32 +25,27 @@ vk::TransformMatrixKHR transform_rows(const glm::mat4& m) {
 }  // namespace
 
 SceneHierarchy::SceneHierarchy(const Device& device, const GpuScene& scene, StructureUse use)
-    : use_(use), vertices_(scene.vertices.id()), moves_(scene.moves) {
+    : use_(use), vertices_(scene.vertices.id()) {
     if (scene.object_count > kMaxCustomIndex) {
         throw Error(fmt::format("{} objects: ray tracing numbers at most {}", scene.object_count, kMaxCustomIndex));
     }
-    std::map<std::pair<std::uint32_t, std::uint32_t>, vk::DeviceAddress> known;  // mesh by its triangles -> structure
+    for (const GpuMesh& mesh : scene.meshes) {
+        const AccelerationStructure::Triangles triangles{
+            .vertices = scene.vertices.address(),
+            .stride = kVertexStride,
+            .vertex_count = scene.vertex_count,
+            .indices = scene.indices.address() + vk::DeviceSize(mesh.first_corner) * sizeof(std::uint32_t),
+            .corner_count = 3 * mesh.triangle_count};
+        meshes_.emplace_back(device, "a mesh's acceleration structure", triangles, use);
+    }
     std::vector<vk::AccelerationStructureInstanceKHR> instances;
-    for (const DrawCall& object : scene.refractive) {
-        const auto [mesh, is_new] = known.try_emplace({object.first_corner, object.corner_count}, 0);
-        if (is_new) {
-            const AccelerationStructure::Triangles triangles{
-                .vertices = scene.vertices.address(),
-                .stride = kVertexStride,
-                .vertex_count = scene.vertex_count,
-                .indices = scene.indices.address() + vk::DeviceSize(object.first_corner) * sizeof(std::uint32_t),
-                .corner_count = object.corner_count};
-            meshes_.emplace_back(device, "a mesh's acceleration structure", triangles, use);
-            mesh->second = meshes_.back().address();
-        }
-        // Without flags the front is where triangles run counter-clockwise in a right-handed frame. That is
-        // decided in the mesh's own frame, so a mirroring transform changes nothing.
-        instances.push_back({.transform = transform_rows(scene.world_from_object[object.object]),
-                             .instanceCustomIndex = object.object,
+    for (std::uint32_t object = 0; object < scene.object_count; ++object) {
+        instances.push_back({.transform = transform_rows(scene.world_from_object[object]),
+                             .instanceCustomIndex = object,
                              .mask = 0xff,
                              .instanceShaderBindingTableRecordOffset = 0,
                              .flags = 0,
-                             .accelerationStructureReference = mesh->second});
+                             .accelerationStructureReference = meshes_[scene.mesh_of_object[object]].address()});
     }
     instances_ = Buffer(device, "instances of acceleration structures", instances.size() * sizeof(instances[0]),
                         vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR |
@@ -67,27 +60,29 @@ SceneHierarchy::SceneHierarchy(const Device& device, const GpuScene& scene, Stru
 }
 
 bool SceneHierarchy::is_of(const GpuScene& scene, StructureUse use) const {
-    const bool follows = use_ != StructureUse::kStatic || moves_ == scene.moves;
-    return scene.vertices.id() == vertices_ && use == use_ && follows;
+    return scene.vertices.id() == vertices_ && use == use_;
 }
 
-void SceneHierarchy::update(Recorder& recorder) {
-    if (built_ && use_ == StructureUse::kStatic) return;
+void SceneHierarchy::update(Recorder& recorder, const GpuScene& scene, bool always) {
+    if (built_ && !always && scene.moves == moves_) return;
     const bool refit = built_ && use_ == StructureUse::kRefit;
+    std::vector<bool> changed;
+    for (const GpuMesh& mesh : scene.meshes) changed.push_back(!built_ || always || mesh.moves > moves_);
     const Recorder::Scope scope(recorder, refit ? "refit" : "build");
-    record(recorder, refit ? Mode::eUpdate : Mode::eBuild);
-    recorder.when_done([this] {
+    record(recorder, refit ? Mode::eUpdate : Mode::eBuild, changed);
+    recorder.when_done([this, moves = scene.moves] {
         built_ = true;
+        moves_ = moves;
         if (use_ == StructureUse::kStatic) scratch_.reset();
     });
 }
 
 // One after the other: they share the scratch memory, which for a large mesh is as large as the mesh.
-void SceneHierarchy::record(Recorder& recorder, Mode mode) const {
+void SceneHierarchy::record(Recorder& recorder, Mode mode, const std::vector<bool>& meshes) const {
     std::vector<ResourceId> parts = {instances_.id()};
-    for (const AccelerationStructure& mesh : meshes_) {
-        recorder.build(mesh, mode, std::span(&vertices_, 1), *scratch_);
-        parts.push_back(mesh.id());
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+        if (meshes[i]) recorder.build(meshes_[i], mode, std::span(&vertices_, 1), *scratch_);
+        parts.push_back(meshes_[i].id());
     }
     recorder.build(*top_, mode, parts, *scratch_);
 }

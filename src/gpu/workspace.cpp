@@ -19,11 +19,6 @@ const Program& Workspace::graphics(const Program::Graphics& state) {
     return program(std::move(key), [&] { return Program::graphics(device_, state); });
 }
 
-const Program& Workspace::ray_tracing(const Program::RayTracing& shaders) {
-    return program(fmt::format("{} {} {}", shaders.raygen.name, shaders.miss.name, shaders.closest_hit.name),
-                   [&] { return Program::ray_tracing(device_, shaders); });
-}
-
 const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::Extent2D extent, std::uint32_t layers) {
     auto found = images_.find(name);
     if (found != images_.end()) {

@@ -28,7 +28,6 @@ public:
         return compute(shader, std::span(constants));
     }
     const Program& graphics(const Program::Graphics& state);
-    const Program& ray_tracing(const Program::RayTracing& shaders);
 
     /// Contents are undefined until written in this frame.
     const GpuImage& image(std::string_view name, vk::Format format, vk::Extent2D extent, std::uint32_t layers = 1);

@@ -18,6 +18,11 @@ constexpr std::uint32_t kNoRange = 0x0000ffff;
 
 std::uint32_t log2_ceil(std::uint32_t size) { return std::uint32_t(std::bit_width(size - 1)); }
 
+const Buffer& triangle_buffer(const Frame& frame, const char* name) {
+    const std::uint64_t triangles = std::max<std::uint64_t>(frame.scene.triangle_count, 1);
+    return frame.workspace.buffer(name, triangles * kMapTriangleSize, false, kMapFormat);
+}
+
 }  // namespace
 
 MapRecord record_of(const MapProjection& projection) {
@@ -90,6 +95,17 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     }
 }
 
+SurfaceMap place_triangles(Recorder& recorder, const Frame& frame) {
+    const Buffer& triangles = triangle_buffer(frame, "map triangles");
+    const Buffer& normals = triangle_buffer(frame, "map normals");
+    const auto count = std::uint32_t(frame.scene.triangle_count);
+    const vk::Extent2D threads = threads_for(frame.workspace.device(), count);
+    recorder.compute(frame.workspace.compute(shaders::place_triangles_comp),
+                     {frame.bindings(), writes("MapTriangles", triangles), writes("MapNormals", normals)},
+                     std::array{count, threads.width}, threads);
+    return of_triangles(triangles, normals);
+}
+
 SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
                                      const MapProjection& projection) {
     Workspace& workspace = frame.workspace;
@@ -102,10 +118,9 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     const auto buffer = [&](const char* name, vk::DeviceSize size, vk::Format format) {
         return &workspace.buffer(name, size, false, format);
     };
-    const std::uint64_t triangles = std::max<std::uint64_t>(frame.scene.triangle_count, 1);
     const SurfaceMap map{&maps,
-                         buffer("map triangles", triangles * kMapTriangleSize, kMapFormat),
-                         buffer("map normals", triangles * kMapTriangleSize, kMapFormat),
+                         &triangle_buffer(frame, "map triangles"),
+                         &triangle_buffer(frame, "map normals"),
                          buffer("map texels", texels * kMapTexelSize, kMapPairFormat),
                          buffer("map ranges", whole_range_blocks(found.capacity()) * kMapRangeSize, kMapFormat),
                          buffer("map records", found.capacity() * kMapRecordSize, kMapPairFormat),

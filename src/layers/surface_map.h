@@ -35,4 +35,12 @@ struct SurfaceMap {
         objects;  ///< where there are maps of every mesh: MappedObject[], see object_walk.glsl; otherwise null
 };
 
+/// What takes the place of a map where none is walked: triangles alone. Everything else that shaders declare is bound to
+/// them, and not looked at.
+inline SurfaceMap of_triangles(const Buffer& triangles, const Buffer& normals) {
+    return {&triangles, &triangles, &normals, &triangles, &triangles, &triangles, &triangles, nullptr};
+}
+/// The triangles of all objects, placed in the world.
+SurfaceMap place_triangles(Recorder& recorder, const Frame& frame);
+
 }  // namespace pellucid

@@ -21,8 +21,8 @@ struct Preset {
 const std::array<Preset, 3>& all_presets() {
     static const ParameterMap kToTheLast = {{"events", 64.0}, {"branches", 64.0}, {"threshold", 0.001}};
     static const std::array<Preset, 3> kPresets{{
-        {{"fast", "for pictures that move: the glass alone, before the environment"},
-         {{&find_technique("ray-tracing"), {}}, {&find_technique("wang-2014"), {}}}},
+        {{"fast", "for pictures that move: one way through the glass per pixel"},
+         {{&find_technique("ray-tracing"), {{"branches", 0.0}}}, {&find_technique("wang-2014"), {}}}},
         {{"balanced", "whole scenes: every interface, and what it reflects while that is a hundredth of the light"},
          {{&find_technique("ray-tracing-cpu"), {}}, {&find_technique("visibility-layers"), {}}}},
         {{"exact", "the same to the last reflection that can be seen: 64 interfaces, a thousandth of the light"},

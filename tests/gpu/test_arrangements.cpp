@@ -6,43 +6,32 @@ namespace pellucid::test {
 namespace {
 
 /// Each technique learns from one arrangement how much room paths need, so one renderer draws them all.
-class Arrangements : public RendererTest {
-protected:
-    TraceArrangement with(const std::string& technique, const ParameterMap& parameters = {}) {
-        const std::string lacking = renderer().lacking(find_technique(technique));
-        if (!lacking.empty()) return {};
-        return [this, technique, parameters](const Scene& scene, const Camera& camera, std::uint32_t size) {
-            renderer().set_scene(scene);
-            renderer().set_camera(camera);
-            RenderSettings settings;
-            settings.width = settings.height = size;
-            settings.technique = technique;
-            settings.parameters = parameters;
-            settings.paths = true;
-            return renderer().render(settings).paths;
-        };
-    }
-};
-
-TEST_F(Arrangements, VisibilityLayersAgreesWithClosedForms) { expect_agreement(with("visibility-layers"), 64); }
-TEST_F(Arrangements, VisibilityCubeAgreesWithClosedForms) { expect_agreement(with("visibility-cube"), 64); }
-TEST_F(Arrangements, RayTracingCpuAgreesWithClosedForms) {
-    const TraceArrangement trace = with("ray-tracing-cpu");
-    if (!trace) GTEST_SKIP() << "the device is no CPU";
-    expect_agreement(trace, 64);
+TraceArrangement tracing_with(Renderer& renderer, const char* technique, const ParameterMap& parameters = {}) {
+    return [&renderer, technique, parameters](const Scene& scene, const Camera& camera, std::uint32_t size) {
+        renderer.set_scene(scene);
+        renderer.set_camera(camera);
+        RenderSettings settings;
+        settings.width = settings.height = size;
+        settings.technique = technique;
+        settings.parameters = parameters;
+        settings.paths = true;
+        return renderer.render(settings).paths;
+    };
 }
+
+class Arrangements : public TechniqueTest {};
+INSTANTIATE_TEST_SUITE_P(All, Arrangements,
+                         testing::Values("visibility-layers", "visibility-cube", "ray-tracing", "ray-tracing-cpu"),
+                         technique_test_name);
+
+TEST_P(Arrangements, AgreesWithClosedForms) { expect_agreement(tracing_with(renderer(), GetParam()), 64); }
+TEST_P(Arrangements, AgreesOnEveryKind) { expect_agreement_on_kinds(tracing_with(renderer(), GetParam()), 64); }
+
+class ArrangementsOfVolumes : public RendererTest {};
 
 // As surfaces: voxels have neither of a scene's details.
-TEST_F(Arrangements, IhrkeAgreesWithClosedForms) {
-    expect_agreement(with("ihrke-2007", {{"voxelize", 0}}), 64, Transmittance::kIsFree);
-}
-
-TEST_F(Arrangements, VisibilityLayersAgreesOnEveryKind) { expect_agreement_on_kinds(with("visibility-layers"), 64); }
-TEST_F(Arrangements, VisibilityCubeAgreesOnEveryKind) { expect_agreement_on_kinds(with("visibility-cube"), 64); }
-TEST_F(Arrangements, RayTracingCpuAgreesOnEveryKind) {
-    const TraceArrangement trace = with("ray-tracing-cpu");
-    if (!trace) GTEST_SKIP() << "the device is no CPU";
-    expect_agreement_on_kinds(trace, 64);
+TEST_F(ArrangementsOfVolumes, AgreesWithClosedForms) {
+    expect_agreement(tracing_with(renderer(), "ihrke-2007", {{"voxelize", 0}}), 64, Transmittance::kIsFree);
 }
 
 }  // namespace

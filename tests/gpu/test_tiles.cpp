@@ -120,8 +120,8 @@ TEST_P(TiledBitForBit, TilesOfOnePixelAndOfThinRows) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tiles, TiledBitForBit,
-                         ::testing::Values("ray-tracing-cpu", "visibility-cube", "ihrke-2007", "one-interface",
-                                           "reference", "path"),
+                         ::testing::Values("ray-tracing", "ray-tracing-cpu", "visibility-cube", "ihrke-2007",
+                                           "one-interface", "reference", "path"),
                          technique_test_name);
 
 class Tiled : public RendererTest {};

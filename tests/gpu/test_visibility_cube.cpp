@@ -48,7 +48,8 @@ class VisibilityCube : public FinderTests<RendererTest> {};
 
 /// What holds of all that look beyond the view.
 class Finders : public FinderTests<TechniqueTest> {};
-INSTANTIATE_TEST_SUITE_P(All, Finders, testing::Values("visibility-cube", "ray-tracing-cpu"), technique_test_name);
+INSTANTIATE_TEST_SUITE_P(All, Finders, testing::Values("visibility-cube", "ray-tracing", "ray-tracing-cpu"),
+                         technique_test_name);
 
 Camera view_of(const Scene& scene, float azimuth_deg = 20.0f, float share_of_height = 0.8f) {
     return orbit_camera(scene_bounds(scene), azimuth_deg, 15.0f, framing_distance(0.5236f, share_of_height), 0.5236f);
@@ -243,7 +244,7 @@ TEST_P(Finders, DeformedMeshesAreFoundAnew) {
     }
 }
 
-// Whoever finds a surface, a path intersects it by the same formulas: pictures of visibility-layers and of Embree part only
+// Whoever finds a surface, a path intersects it by the same formulas: pictures of visibility-layers, of Embree and of the device's ray tracing part only
 // by rounding, which compilers place differently in different programs and long paths amplify (to 1e-3 of the light here),
 // and where a ray passes within rounding of an edge.
 TEST_P(Finders, PicturesAreTheSameToRounding) {

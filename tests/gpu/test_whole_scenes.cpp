@@ -189,7 +189,7 @@ class WholeScenes : public WholeScenesOf<RendererTest> {};
 /// What holds whoever finds the surfaces of paths.
 class EveryFinder : public WholeScenesOf<TechniqueTest> {};
 INSTANTIATE_TEST_SUITE_P(WholeScenes, EveryFinder,
-                         testing::Values("visibility-layers", "visibility-cube", "ray-tracing-cpu"),
+                         testing::Values("visibility-layers", "visibility-cube", "ray-tracing", "ray-tracing-cpu"),
                          technique_test_name);
 
 struct Case {

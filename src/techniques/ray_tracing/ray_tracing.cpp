@@ -1,66 +1,63 @@
+// The paths of visibility-layers, whose surfaces the device's ray tracing finds.
 #include "techniques/ray_tracing/ray_tracing.h"
 #include "techniques/shaders.h"
 
+#include "techniques/visibility_layers/visibility_layers.h"
+
+#include <algorithm>
 #include <array>
 
 namespace pellucid {
 namespace {
 
-constexpr std::array kParameters = {
-    ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed"},
-    ParameterInfo{"rebuild", "", 0, 0, 2, true, "hierarchy: 0 kept, 1 refitted in every frame, 2 built in every frame"},
-};
+constexpr ParameterInfo kRebuild{"rebuild",
+                                 "",
+                                 0,
+                                 0,
+                                 2,
+                                 true,
+                                 "hierarchy: 0 kept, and refitted where vertices have moved; to measure that, 1 "
+                                 "refitted and 2 built in every frame"};
 
-/// Twin of Push in surface_hit.glsl.
-struct Push {
-    std::array<std::uint32_t, 2> vertices;  // low word, high word
-    std::array<std::uint32_t, 2> indices;
-    std::uint32_t max_events;
-};
+constexpr auto kParameters = [] {
+    std::array<ParameterInfo, kPathParameters.size() + 1> all{};
+    std::copy(kPathParameters.begin(), kPathParameters.end(), all.begin());
+    all.back() = kRebuild;
+    return all;
+}();
 
-std::array<std::uint32_t, 2> words_of(vk::DeviceAddress address) {
-    return {std::uint32_t(address), std::uint32_t(address >> 32)};
-}
-
-StructureUse structure_use(std::uint32_t rebuild) {
-    return std::array{StructureUse::kStatic, StructureUse::kRefit, StructureUse::kRebuild}.at(rebuild);
+/// Vertices that have moved once are likely to move again.
+StructureUse structure_use(std::uint32_t rebuild, bool moved) {
+    if (rebuild == 2) return StructureUse::kRebuild;
+    return rebuild == 1 || moved ? StructureUse::kRefit : StructureUse::kStatic;
 }
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
-    SceneHierarchy& hierarchy = frame.workspace.hierarchy(frame.scene, structure_use(parameters.whole("rebuild")));
-    hierarchy.update(recorder);
-
-    const Recorder::Scope scope(recorder, "trace");
-    Refraction refraction = allocate_refraction(frame);
-    refraction.everywhere = true;
-    const Push push{words_of(frame.scene.vertices.address()), words_of(frame.scene.indices.address()),
-                    parameters.whole("events")};
-    recorder.trace(
-        frame.workspace.ray_tracing({.raygen = shaders::ray_tracing_rgen,
-                                     .miss = shaders::ray_tracing_rmiss,
-                                     .closest_hit = shaders::ray_tracing_rchit}),
-        {reads("Frame", frame.constants), reads("Objects", frame.scene.objects),
-         reads("Materials", frame.scene.materials), reads("layer_depth", layers.depth),
-         reads("layer_triangle", layers.triangle), reads("layer_normal", layers.normal),
-         writes("exit_direction", refraction.exit_direction), writes("exit_position", refraction.exit_position),
-         writes("transmittance", refraction.transmittance), writes("path_events", refraction.events),
-         reads("solids", hierarchy.top())},
-        push, frame.extent);
-    return refraction;
+    const std::uint32_t rebuild = parameters.whole("rebuild");
+    SceneHierarchy& hierarchy = frame.workspace.hierarchy(frame.scene, structure_use(rebuild, frame.scene.moves > 0));
+    hierarchy.update(recorder, frame.scene, rebuild != 0);
+    return follow_paths(recorder, frame, layers, hierarchy, parameters);
 }
+
+constexpr std::initializer_list<const ShaderCode*> kPrograms = {
+    &shaders::begin_paths_comp, &shaders::begin_traced_at_eye_comp, &shaders::follow_traced_paths_comp,
+    &shaders::end_paths_comp};
 
 }  // namespace
 
 constexpr Technique kRayTracing{
     .info = {.name = "ray-tracing",
-             .summary = "every interface by ray-tracing pipelines, on devices that have them",
+             .summary = "every interface, found by the device's ray tracing, on devices with ray queries",
              .source = {},
              .parameters = kParameters,
-             .many_media = true},
+             .many_media = true,
+             .whole_scene = true},
+    .programs = kPrograms,
     .lacking = [](const Device& device) -> std::string {
-        return device.ray_tracing() ? "" : "VK_KHR_ray_tracing_pipeline and VK_KHR_acceleration_structure";
+        return device.ray_tracing() ? "" : "VK_KHR_ray_query and VK_KHR_acceleration_structure";
     },
-    .layer_count = [](const ParameterValues&) { return 1u; },
+    .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers"); },
+    .prepare = prepare_paths,
     .record = record,
 };
 

@@ -4,7 +4,6 @@
 
 namespace pellucid {
 
-/// Every interface by tracing rays against the triangles, on devices with ray-tracing pipelines.
 extern const Technique kRayTracing;
 
 }  // namespace pellucid

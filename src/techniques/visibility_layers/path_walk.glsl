@@ -1,7 +1,8 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_PATH_WALK_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_PATH_WALK_GLSL
 
-// The surfaces that paths meet: the maps that are walked, and which of the surfaces in them a path can meet.
+// The surfaces that paths meet: who finds them, and which of them a path can meet. Programs that define PELLUCID_RAY_QUERY
+// walk no maps: the device's ray tracing finds surfaces.
 // Needs: visibility_bindings.glsl.
 #include "layers/surface_map.glsl"
 #include "gpu/object_traits.glsl"
@@ -67,8 +68,12 @@ bool can_meet(Search search, uint traits, bool leaving, uint triangle) {
 // Whether what fills the place is drawn by a volume.
 bool in_replaced(uint body) { return kVolumes && body != kAir && (slots[body].material & kReplacedSolid) != 0u; }
 
+#ifdef PELLUCID_RAY_QUERY
+#include "layers/trace_surface.glsl"
+#else
 #include "layers/object_walk.glsl"
 #include "layers/candidates.glsl"
+#endif
 
 void begin_search(Media media, uint standing, uint pixel, out Search search) {
     copy_media(media, search.media);
@@ -92,9 +97,13 @@ const float kApart = 16.0;  // coincidences along a ray, which may graze
 // The nearest surface beyond `t_min`, m; `t_end`: where what is known of the scene ends on the way.
 SurfaceHit find_next(vec3 origin, vec3 direction, float t_min, inout Search search, out float t_end) {
     t_end = kFarthest;
+#ifdef PELLUCID_RAY_QUERY
+    return trace_surface(origin, direction, t_min, kApart * coincidence, search);
+#else
     if (kFoundOnHost) return find_candidate(origin, direction, t_min, search);
     if (kMapPerMesh) return find_surface_among_objects(origin, direction, t_min, search);
     return find_surface(maps[0], origin, direction, t_min, search, t_end);
+#endif
 }
 
 // Counts all surfaces of a shell that crosses itself which are on a ray: what it winds around the start.

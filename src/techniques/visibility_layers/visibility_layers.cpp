@@ -33,9 +33,11 @@ enum class Ways { kTransmitted, kTree, kStochastic };
 class Paths {
 public:
     Paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
-          const ParameterValues& parameters, const PathVolumes* volumes, const HostFinder* finder)
+          const ParameterValues& parameters, const PathVolumes* volumes, const HostFinder* finder,
+          const AccelerationStructure* hierarchy)
         : recorder_(recorder), frame_(frame), layers_(layers), map_(map), volumes_(volumes), finder_(finder),
-          topology_(*frame.scene.topology), refraction_(clear_refraction(recorder, frame, true)) {
+          hierarchy_(hierarchy), topology_(*frame.scene.topology),
+          refraction_(clear_refraction(recorder, frame, true)) {
         const double given = parameters["branches"];
         const bool many = frame.samples > 1;
         push_.max_events = parameters.whole("events");
@@ -126,31 +128,37 @@ private:
 
     /// By the names of visibility_bindings.glsl, path_state.glsl, path_walk.glsl and path_light.glsl.
     std::vector<Binding> path_bindings() const {
-        return {updates("PathPlaces", places_),
-                updates("PathWays", ways_buffer_),
-                updates("PathWeights", weights_),
-                updates("PathMedia", media_),
-                updates("Waiting", waiting_),
-                updates("Branches", *branches_),
-                reads("Slots", topology_.slots),
-                reads("Traits", topology_.traits),
-                reads("ShellTraits", topology_.shell_traits),
-                reads("Boxes", topology_.boxes),
-                reads("EyeMedia", topology_.eye),
-                reads("Maps", *map_.maps),
-                reads("map_triangles", *map_.triangles),
-                reads("map_normals", *map_.normals),
-                reads("texels", *map_.texels),
-                reads("ranges", *map_.ranges),
-                reads("records", *map_.records),
-                reads("pyramid", *map_.pyramid),
-                reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
-                reads("candidate_lists", *map_.texels),
-                reads("candidates", *map_.records),
-                layers_.bindings(),
-                refraction_.bindings(),
-                updates("path_radiance", *refraction_.radiance),
-                updates("reflected_radiance", reflected_)};
+        std::vector<Binding> bindings = {updates("PathPlaces", places_),
+                                         updates("PathWays", ways_buffer_),
+                                         updates("PathWeights", weights_),
+                                         updates("PathMedia", media_),
+                                         updates("Waiting", waiting_),
+                                         updates("Branches", *branches_),
+                                         reads("Slots", topology_.slots),
+                                         reads("Traits", topology_.traits),
+                                         reads("ShellTraits", topology_.shell_traits),
+                                         reads("Boxes", topology_.boxes),
+                                         reads("EyeMedia", topology_.eye),
+                                         reads("Maps", *map_.maps),
+                                         reads("map_triangles", *map_.triangles),
+                                         reads("map_normals", *map_.normals),
+                                         reads("texels", *map_.texels),
+                                         reads("ranges", *map_.ranges),
+                                         reads("records", *map_.records),
+                                         reads("pyramid", *map_.pyramid),
+                                         reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
+                                         reads("candidate_lists", *map_.texels),
+                                         reads("candidates", *map_.records),
+                                         layers_.bindings(),
+                                         refraction_.bindings(),
+                                         updates("path_radiance", *refraction_.radiance),
+                                         updates("reflected_radiance", reflected_)};
+        if (hierarchy_ != nullptr) bindings.push_back(reads("hierarchy", *hierarchy_));
+        return bindings;
+    }
+    ShaderCode follow_shader() const {
+        if (volumes_ != nullptr) return volumes_->follow_shader();
+        return hierarchy_ != nullptr ? shaders::follow_traced_paths_comp : shaders::follow_paths_comp;
     }
 
     CountedBuffer& branches() {
@@ -176,9 +184,10 @@ private:
     }
 
     void begin_at_eye() {
-        recorder_.compute(program(shaders::begin_at_eye_comp),
-                          {frame_.bindings(), all_of(group_), all_of(volume_group_), updates("NextList", *next_)},
-                          push_, frame_.extent);
+        recorder_.compute(
+            program(hierarchy_ != nullptr ? shaders::begin_traced_at_eye_comp : shaders::begin_at_eye_comp),
+            {frame_.bindings(), all_of(group_), all_of(volume_group_), updates("NextList", *next_)}, push_,
+            frame_.extent);
     }
 
     /// Before paths go on: the host finds what those of the list may meet. Where there are none any more, nothing is left to
@@ -212,7 +221,7 @@ private:
         const Buffer& list = *next_;
         next_ = &start_pixel_list(recorder_, frame_, kListNames[1 - pass % 2]);
         recorder_.compute_indirect(
-            program(volumes_ != nullptr ? volumes_->follow_shader() : shaders::follow_paths_comp),
+            program(follow_shader()),
             {frame_.bindings(), all_of(group_), all_of(volume_group_), reads("PixelList", list),
              updates("NextList", *next_), updates("EndedList", *ended_), updates("EnteringList", entering)},
             push_, list);
@@ -233,6 +242,7 @@ private:
     const SurfaceMap& map_;
     const PathVolumes* volumes_;
     const HostFinder* finder_;
+    const AccelerationStructure* hierarchy_;  ///< in which the device traces rays; null: it does not
     const SceneTopology& topology_;
     Refraction refraction_;
     Ways ways_ = Ways::kTransmitted;
@@ -271,7 +281,7 @@ void prepare_paths(const Preparation& preparation, const ParameterValues&) {
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
                         const ParameterValues& parameters, const PathVolumes* volumes) {
     const Recorder::Scope scope(recorder, "trace");
-    return Paths(recorder, frame, layers, map, parameters, volumes, nullptr).follow();
+    return Paths(recorder, frame, layers, map, parameters, volumes, nullptr, nullptr).follow();
 }
 
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const HostFinder& finder,
@@ -282,13 +292,19 @@ Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& la
     const Buffer& candidates = counted.begin(recorder, frame.workspace, pixels + pixels / 4 + 1024);
     const Buffer& lists =
         frame.workspace.buffer("candidate lists", pixels * sizeof(CandidateList), true, kMapPairFormat);
-    // What takes the place of a map has its triangles alone; what else shaders declare is bound, and not looked at.
-    const Buffer& triangles = finder.triangles();
-    const SurfaceMap map{&triangles, &triangles,  &finder.normals(), &lists,
-                         &triangles, &candidates, &triangles,        nullptr};
-    const Refraction refraction = Paths(recorder, frame, layers, map, parameters, nullptr, &finder).follow();
+    SurfaceMap map = of_triangles(finder.triangles(), finder.normals());
+    map.texels = &lists;
+    map.records = &candidates;
+    const Refraction refraction = Paths(recorder, frame, layers, map, parameters, nullptr, &finder, nullptr).follow();
     counted.end(recorder);
     return refraction;
+}
+
+Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SceneHierarchy& hierarchy,
+                        const ParameterValues& parameters) {
+    const Recorder::Scope scope(recorder, "trace");
+    const SurfaceMap map = place_triangles(recorder, frame);
+    return Paths(recorder, frame, layers, map, parameters, nullptr, nullptr, &hierarchy.top()).follow();
 }
 
 constexpr Technique kVisibilityLayers{

@@ -80,5 +80,8 @@ Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& la
 /// The same where `finder`, which is up to date, finds the surfaces. Needs a device whose memory is the host's.
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const HostFinder& finder,
                         const ParameterValues& parameters);
+/// The same where the device traces rays through `hierarchy`, which is up to date. Needs Device::ray_tracing().
+Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SceneHierarchy& hierarchy,
+                        const ParameterValues& parameters);
 
 }  // namespace pellucid
