@@ -54,6 +54,7 @@ void check_parameters(const std::vector<NamedTechnique>& techniques, const Param
 void add_technique(nlohmann::ordered_json& run, const NamedTechnique& technique) {
     run["technique"] = technique.name;
     if (technique.name != technique.info().name) run["stands_for"] = technique.info().name;
+    if (!technique.choice.reason.empty()) run["because"] = technique.choice.reason;
 }
 
 nlohmann::ordered_json describe_parameters(const TechniqueInfo& technique, const ParameterMap& given) {

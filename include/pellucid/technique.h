@@ -66,8 +66,8 @@ PELLUCID_API const TechniqueInfo& find_technique(std::string_view name);
 /// Parameters given by name; what is not named keeps its default.
 using ParameterMap = std::map<std::string, double, std::less<>>;
 
-/// A name to give for a technique: it stands for the one, and for parameters of it, that measurement has chosen for the
-/// kind of device (docs/techniques.md).
+/// A name to give for a technique: it stands for the fastest of those that it may stand for on the device
+/// (docs/techniques.md), and for parameters of it.
 struct PresetInfo {
     std::string_view name;
     std::string_view summary;  ///< one line
@@ -82,6 +82,8 @@ PELLUCID_API void check_technique_name(std::string_view name);
 struct TechniqueChoice {
     const TechniqueInfo* technique;
     ParameterMap parameters;  ///< of the preset; others have their defaults
+    /// Why a preset stands for it, for the user: what was measured on this device. Empty where there was nothing to choose.
+    std::string reason = {};
 };
 
 }  // namespace pellucid

@@ -9,6 +9,7 @@
 #include "render/cpu_tracing.h"
 #include "render/display.h"
 #include "render/frame.h"
+#include "render/measured_techniques.h"
 #include "render/solid_lighting.h"
 #include "render/tiles.h"
 #include "scene/check_scene.h"
@@ -65,15 +66,15 @@ bool draws_picture(const FrameSettings& chosen) {
 }  // namespace
 
 struct Renderer::Impl {
-    explicit Impl(const DeviceOptions& options)
-        : device(options), workspace(device), recorder(device), cpu(options.threads), threads(options.threads),
+    explicit Impl(const DeviceOptions& given)
+        : device(given), workspace(device), recorder(device), cpu(given.threads), options(given),
           solid_lighting(device), adaptation(device) {}
 
     Device device;
     Workspace workspace;
     Recorder recorder;
     CpuTracing cpu;
-    std::uint32_t threads;
+    const DeviceOptions options;
     bake::BakeCache bake_cache;
     SolidLighting solid_lighting;
     Adaptation adaptation;
@@ -95,6 +96,10 @@ struct Renderer::Impl {
         bool cut = false;                     ///< glass lies in several tiles, or beside opaque surfaces of others
     };
 
+    TechniqueChoice choose(std::string_view name) const {
+        const auto times = [&](auto techniques) { return measured_times(device.info(), options, techniques); };
+        return choose_technique(name, device, !cpu.scene().volume_objects.empty(), times);
+    }
     FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
     /// Lets the technique compute what it wants of the scene; ParameterValues of `chosen` say what.
     void prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
@@ -133,8 +138,8 @@ struct Renderer::Impl {
     void light_solids(const ThicknessSettings& settings, const std::vector<std::uint32_t>& lights,
                       const Progress& progress, std::vector<std::string>& warnings) {
         bake::BakeCache passing{std::filesystem::path()};  // as in prepare()
-        solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache, threads,
-                             progress, warnings);
+        solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache,
+                             options.threads, progress, warnings);
     }
     gpu::FrameConstants current_constants() const {
         gpu::FrameConstants values{};
@@ -162,7 +167,7 @@ Camera Renderer::Impl::camera_for(const RenderSettings& settings) const {
 }
 
 FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const {
-    TechniqueChoice choice = choose_technique(settings.technique, device, !cpu.scene().volume_objects.empty());
+    TechniqueChoice choice = choose(settings.technique);
     const TechniqueInfo& info = *choice.technique;
     if (const std::string lacking = lacking_for(device, info); !lacking.empty()) {
         throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
@@ -208,7 +213,8 @@ void Renderer::Impl::prepare(const FrameSettings& chosen, const Camera& view, co
     // Shapes that a deforming mesh passes through are not worth a file each.
     bake::BakeCache passing{std::filesystem::path()};
     bake::BakeCache& cache = scene->moves > 0 ? passing : bake_cache;
-    chosen.technique->prepare({device, cpu.scene(), *scene, cache, threads, progress, warnings}, chosen.parameters);
+    chosen.technique->prepare({device, cpu.scene(), *scene, cache, options.threads, progress, warnings},
+                              chosen.parameters);
     if (scene->topology) scene->topology->look_from(device, cpu.scene(), view);
 }
 
@@ -529,9 +535,7 @@ void Renderer::check(const RenderSettings& settings) const {
     impl_->frame_settings(settings, warnings);
 }
 const DeviceInfo& Renderer::device() const { return impl_->device.info(); }
-TechniqueChoice Renderer::choose(std::string_view name) const {
-    return choose_technique(name, impl_->device, !impl_->cpu.scene().volume_objects.empty());
-}
+TechniqueChoice Renderer::choose(std::string_view name) const { return impl_->choose(name); }
 
 std::string Renderer::lacking(const TechniqueInfo& technique) const {
     return lacking_for(impl_->device, find_technique(technique.name));

@@ -106,7 +106,9 @@ const Technique* technique_of(const TechniqueInfo& info);
 /// What the device lacks for it, in words that follow "needs"; empty: nothing.
 std::string lacking_for(const Device& device, const TechniqueInfo& info);
 /// See Renderer::choose().
-/// `volumes`: the scene has some, and presets stand for what draws them.
-TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes = false);
+/// `volumes`: the scene has some, and presets stand for what draws them. `times`: milliseconds per frame of techniques on
+/// this device, asked for where a preset may stand for several.
+using MeasuredTimes = std::function<std::vector<double>(std::span<const std::string_view> techniques)>;
+TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes, const MeasuredTimes& times);
 
 }  // namespace pellucid

@@ -1,4 +1,5 @@
 """The devices of this machine, and a machine without any."""
+import json
 import os
 
 import cli
@@ -16,6 +17,44 @@ class Devices(CliTest):
 
     def test_unknown(self):
         self.refuses(["999", "found: 0 ("], "--device", "999")
+
+
+class MeasuredPresets(CliTest):
+    """A preset stands for the fastest of its techniques, as was measured once on the device."""
+
+    def drawn(self):
+        environment = {**os.environ, "PELLUCID_CACHE_DIR": self.path("cache")}
+        self.assert_rendered(self.render("shape:sphere", "--technique", "balanced", "--json", "out.json", env=environment))
+        return json.loads(self.read("out.json"))
+
+    def kept(self):
+        return json.loads(self.read("cache/presets.json"))
+
+    def test_the_fastest_is_taken(self):
+        drawn = self.drawn()
+        if "because" not in drawn:
+            self.skipTest("the device offers one technique for the preset")
+        (device, times), = self.kept().items()
+        self.assertIn(drawn["device"], device)
+        self.assertEqual(min(times, key=times.get), drawn["stands_for"])
+        slowest = max(times, key=times.get)
+        self.assertIn(slowest, drawn["because"])
+        # What is kept is believed, and not measured again.
+        self.write("cache/presets.json", json.dumps({device: times | {slowest: 0.001}, "another": 1}))
+        self.assertEqual(self.drawn()["stands_for"], slowest)
+        self.assertEqual(self.kept()["another"], 1)
+
+    def test_damaged_files_are_written_anew(self):
+        drawn = self.drawn()
+        if "because" not in drawn:
+            self.skipTest("the device offers one technique for the preset")
+        (device, times), = self.kept().items()
+        for damaged in ("{", "[]", "", json.dumps({device: 3}), json.dumps({device: {name: "fast" for name in times}})):
+            self.write("cache/presets.json", damaged)
+            with self.subTest(damaged):
+                self.drawn()
+                self.assertEqual(set(self.kept()[device]), set(times))
+                self.assertTrue(all(time > 0 for time in self.kept()[device].values()))
 
 
 class NoDevice(CliTest):
