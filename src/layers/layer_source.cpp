@@ -29,6 +29,8 @@ bool LayerSource::must_repeat(const Frame& frame) {
     bool repeat = mesh_maps_.must_repeat();
     repeat = must_peel_more() || repeat;
     for (auto& [name, buffer] : counted_) repeat = buffer.grow() || repeat;
+    repeat = (paths_lost_ && !finishes_paths_) || repeat;
+    finishes_paths_ = paths_lost_;
     cut_bands(frame);
     return repeat;
 }

@@ -106,6 +106,10 @@ public:
     SurfaceMap map_meshes(Recorder& recorder, const Frame& frame, std::uint32_t resolution) {
         return mesh_maps_.bring_up_to_date(recorder, frame, resolution);
     }
+    /// Paths that the view's map has lost: once there are some, maps of the meshes are to finish them, in the frame that is
+    /// then recorded again and in those that follow.
+    void note_lost_paths(std::uint32_t count) { paths_lost_ = paths_lost_ || count > 0; }
+    bool finishes_paths() const { return finishes_paths_; }
     /// Forgets what it has learnt of pictures of one size, and keeps what holds for all.
     void forget_size();
     /// After the frame has run: true if something did not fit. What build() does next will, and the frame must be
@@ -130,6 +134,7 @@ private:
     DualPeeling dual_;
     std::map<std::string, CountedBuffer> counted_;
     MeshMaps mesh_maps_;
+    bool paths_lost_ = false, finishes_paths_ = false;
 };
 
 }  // namespace pellucid

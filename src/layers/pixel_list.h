@@ -17,6 +17,9 @@ const Buffer& list_pixels(Recorder& recorder, const Frame& frame, const GpuImage
                           std::string_view name, std::uint32_t first_row, std::uint32_t row_end,
                           const std::optional<WantedSamples>& wanted = std::nullopt);
 
+/// Where in a list its length stands, as a word; bytes.
+inline constexpr vk::DeviceSize kListLengthOffset = 12;
+
 /// An empty list for a shader to append to (PELLUCID_APPENDED_LIST).
 const Buffer& start_pixel_list(Recorder& recorder, const Frame& frame, std::string_view name);
 

@@ -1,29 +1,16 @@
-#include <pellucid/renderer.h>
-
-#include "gpu/environment_images.h"
-#include "render/adaptive_sampling.h"
-#include "render/aovs.h"
 #include "render/approximations.h"
 #include "render/camera_constants.h"
 #include "render/check_settings.h"
-#include "render/cpu_tracing.h"
-#include "render/display.h"
-#include "render/frame.h"
-#include "render/measured_techniques.h"
-#include "render/solid_lighting.h"
-#include "render/tiles.h"
+#include "render/renderer_impl.h"
 #include "scene/check_scene.h"
 
 #include <pellucid/error.h>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <numeric>
-#include <optional>
 #include <utility>
 
 namespace pellucid {
@@ -33,123 +20,7 @@ double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Adds what an earlier attempt at the frame did and this one need not do again, as building a hierarchy.
-std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std::vector<PassTime>& earlier) {
-    for (const PassTime& pass : earlier) {
-        const bool repeated =
-            std::any_of(times.begin(), times.end(), [&](const PassTime& time) { return time.name == pass.name; });
-        if (!repeated) times.push_back(pass);
-    }
-    return times;
-}
-
-constexpr double kPilotShare = 0.1;  ///< of the progress that is shown
-
-Image image_of(const std::vector<std::uint32_t>& counts, vk::Extent2D extent) {
-    Image image(int(extent.width), int(extent.height), 1);
-    std::transform(counts.begin(), counts.end(), image.pixels.begin(),
-                   [](std::uint32_t count) { return float(count); });
-    return image;
-}
-
-const GpuImage& upload_counts(const Frame& frame, const std::vector<std::uint32_t>& counts) {
-    const GpuImage& image = frame.workspace.image("wanted samples", vk::Format::eR32Uint, frame.extent);
-    upload(frame.workspace.device(), image, 0, std::as_bytes(std::span(counts)));
-    return image;
-}
-
-/// Whether frames make the image, or a truth traces its own.
-bool draws_picture(const FrameSettings& chosen) {
-    return chosen.truth == nullptr || chosen.truth->trace_image == nullptr || chosen.view == View::kAnalysis;
-}
-
 }  // namespace
-
-struct Renderer::Impl {
-    explicit Impl(const DeviceOptions& given)
-        : device(given), workspace(device), recorder(device), cpu(given.threads), options(given),
-          solid_lighting(device), adaptation(device) {}
-
-    Device device;
-    Workspace workspace;
-    Recorder recorder;
-    CpuTracing cpu;
-    const DeviceOptions options;
-    bake::BakeCache bake_cache;
-    SolidLighting solid_lighting;
-    Adaptation adaptation;
-    LayerSource layer_source;
-    vk::Extent2D layer_extent;  // the size that `layer_source` has learnt from
-    std::optional<GpuScene> scene;
-    Environment environment;
-    std::optional<GpuImage> environment_map;
-    std::optional<GpuImage> filtered_environment;     // of `environment`; made once a scene needs it
-    std::optional<GpuImage> no_filtered_environment;  // for scenes that do not
-    std::optional<Buffer> constants;
-    std::optional<Camera> camera;        // set by the caller
-    std::optional<Camera> scene_camera;  // the scene's first
-    gpu::FrameConstants environment_constants{};
-
-    struct Drawn {
-        std::vector<Tile> tiles;
-        const GpuImage* on_device = nullptr;  ///< radiance of the only tile
-        bool cut = false;                     ///< glass lies in several tiles, or beside opaque surfaces of others
-    };
-
-    TechniqueChoice choose(std::string_view name) const {
-        const auto times = [&](auto techniques) { return measured_times(device.info(), options, techniques); };
-        return choose_technique(name, device, !cpu.scene().volume_objects.empty(), times);
-    }
-    FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
-    /// Lets the technique compute what it wants of the scene; ParameterValues of `chosen` say what.
-    void prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
-                 std::vector<std::string>& warnings);
-    /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
-    /// the pass times. `progress` is of this sample.
-    /// `sample`: none for the frame through the centres of the pixels.
-    std::vector<PassTime> run_frame(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
-                                    std::optional<std::uint32_t> sample, const Progress& progress,
-                                    std::optional<FrameImages>& images);
-    /// Draws a sample of every pixel, of those that want one; counts and times go to `part`. Returns its radiance.
-    const GpuImage& draw_sample(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
-                                std::uint32_t sample, const Progress& progress, RenderResult& part);
-    /// Draws samples of a tile that tell how many each of its pixels needs.
-    std::vector<std::uint32_t> samples_for(const Frame& frame, const FrameSettings& chosen,
-                                           const RenderSettings& settings, const Progress& progress,
-                                           RenderResult& part);
-    /// Draws the samples of a tile; fills the radiance (the sum of the samples), AOVs, paths, counts and times of `part`.
-    /// Returns the radiance on the device; null where a truth traces the image.
-    const GpuImage* render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
-                                   RenderResult& part);
-    /// Draws all tiles; they are smaller in the end than at first where one did not fit the device.
-    Drawn draw_tiles(Frame frame, const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
-    TracedView traced_view(const RenderSettings& settings, glm::vec2 jitter_px, const Progress& progress);
-    /// The image that a truth traces itself.
-    void trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
-    Frame frame_of(const RenderSettings& settings);
-    /// Takes back what a frame that failed has left. Rooms for what frames need are learnt anew.
-    void forget_frame();
-    std::vector<std::uint32_t> all_lights() const {
-        std::vector<std::uint32_t> numbers(cpu.scene().lights.size());
-        std::iota(numbers.begin(), numbers.end(), 0u);
-        return numbers;
-    }
-    /// For pictures that `lights` shine through translucent objects of.
-    void light_solids(const ThicknessSettings& settings, const std::vector<std::uint32_t>& lights,
-                      const Progress& progress, std::vector<std::string>& warnings) {
-        bake::BakeCache passing{std::filesystem::path()};  // as in prepare()
-        solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache,
-                             options.threads, progress, warnings);
-    }
-    gpu::FrameConstants current_constants() const {
-        gpu::FrameConstants values{};
-        std::memcpy(&values, constants->mapped(), sizeof(values));
-        return values;
-    }
-    void set_constants(const Frame& frame, const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample);
-    Camera camera_for(const RenderSettings& settings) const;
-    const GpuImage& filtered_environment_for_scene();
-};
 
 const GpuImage& Renderer::Impl::filtered_environment_for_scene() {
     if (filtered_environment) return *filtered_environment;
@@ -227,152 +98,6 @@ void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& set
     values.object_count = scene->object_count;
     values.sample_index = sample;
     std::memcpy(constants->mapped(), &values, sizeof(values));
-}
-
-std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameSettings& chosen,
-                                                const RenderSettings& settings, std::optional<std::uint32_t> sample,
-                                                const Progress& progress, std::optional<FrameImages>& images) {
-    const glm::vec2 jitter = sample ? sample_jitter(*sample) : glm::vec2(0.0f);
-    set_constants(frame, settings, jitter, sample.value_or(0));
-    std::optional<TracedView> traced;
-    if (chosen.truth) traced.emplace(traced_view(settings, jitter, progress));
-    std::vector<PassTime> times;
-    for (;;) {
-        TransmittedLight& transmitted = solid_lighting.transmitted();
-        images.emplace(record_frame(recorder, frame, chosen, layer_source, transmitted, traced ? &*traced : nullptr));
-        times = with_missing_passes(recorder.submit_and_wait(), times);
-        const bool light_again = transmitted.must_repeat(frame);
-        if (!layer_source.must_repeat(frame) && !light_again) return times;
-    }
-}
-
-const GpuImage& Renderer::Impl::draw_sample(const Frame& frame, const FrameSettings& chosen,
-                                            const RenderSettings& settings, std::uint32_t sample,
-                                            const Progress& progress, RenderResult& part) {
-    std::optional<FrameImages> images;
-    part.frames.push_back(run_frame(frame, chosen, settings, sample, progress, images));
-    part.layer_passes = layer_source.geometry_passes();
-    return images->radiance;
-}
-
-std::vector<std::uint32_t> Renderer::Impl::samples_for(const Frame& frame, const FrameSettings& chosen,
-                                                       const RenderSettings& settings, const Progress& progress,
-                                                       RenderResult& part) {
-    PixelNoise noise;
-    for (std::uint32_t i = 0; i < kPilotSamples; ++i) {
-        // Numbers that no sample of the picture has.
-        const Progress of_sample = part_of(progress, double(i) / kPilotSamples, double(i + 1) / kPilotSamples);
-        noise.add(
-            download_rgb(device, draw_sample(frame, chosen, settings, settings.most_samples + i, of_sample, part)));
-    }
-    return noise.samples_for(settings.error, settings.exposure_ev, settings.most_samples);
-}
-
-const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSettings& chosen,
-                                               const RenderSettings& settings, RenderResult& part) {
-    const bool draws = draws_picture(chosen);
-    // The frame through pixel centres gives the AOVs and counts; alone, it is the picture too.
-    std::optional<FrameImages> images;
-    const bool adaptive = settings.error > 0.0f;
-    const bool alone = draws && settings.samples == 1 && !adaptive;
-    std::vector<PassTime> times =
-        run_frame(frame, chosen, settings, std::nullopt, alone ? settings.progress : Progress(), images);
-    read_back(device, *images, current_constants(), scene->first_triangles, settings, part);
-    part.layer_passes = layer_source.geometry_passes();
-    part.cut_rays = solid_lighting.transmitted().cut_rays();
-    if (!draws) return nullptr;
-    const GpuImage* sum = &images->radiance;
-    if (alone) {
-        part.frames.push_back(std::move(times));
-        part.radiance = download_rgb(device, *sum);
-        return sum;
-    }
-    Frame sampled = frame;
-    if (settings.still) sampled.samples = adaptive ? settings.most_samples : settings.samples;
-    std::uint32_t samples = settings.samples;
-    const GpuImage* wanted = nullptr;
-    const double before = adaptive ? kPilotShare : 0.0;
-    if (adaptive) {
-        const auto counts = samples_for(sampled, chosen, settings, part_of(settings.progress, 0.0, before), part);
-        samples = *std::max_element(counts.begin(), counts.end());
-        part.sample_counts = image_of(counts, frame.extent);
-        wanted = &upload_counts(frame, counts);
-    }
-    for (std::uint32_t sample = 0; sample < samples; ++sample) {
-        const auto share = [&](std::uint32_t done) { return before + (1.0 - before) * done / samples; };
-        const Progress progress = part_of(settings.progress, share(sample), share(sample + 1));
-        if (wanted != nullptr && (chosen.truth || !chosen.technique->searches_layers))
-            sampled.wanted_samples.emplace(WantedSamples{*wanted, sample});
-        const GpuImage& radiance = draw_sample(sampled, chosen, settings, sample, progress, part);
-        // Submitted apart: a frame that overflowed was drawn twice, and counts once.
-        sum = &accumulate(recorder, frame, radiance, sample, wanted);
-        for (PassTime& time : recorder.submit_and_wait()) part.frames.back().push_back(std::move(time));
-        if (progress) progress(1.0);
-    }
-    part.radiance = download_rgb(device, *sum);
-    return sum;
-}
-
-Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSettings& chosen,
-                                                 const RenderSettings& settings, RenderResult& result) {
-    const glm::uvec2 size(settings.width, settings.height);
-    // Paths have 16 bytes per pixel in one buffer; other techniques list the pixels with glass.
-    std::uint64_t most = most_tile_pixels(device, chosen.info.whole_scene ? 16 : 4);
-    if (settings.tile_pixels > 0) most = std::min<std::uint64_t>(most, settings.tile_pixels);
-    set_constants(frame, settings, glm::vec2(0.0f), 0);
-    const std::optional<Tile> glass = tile_of_glass(current_constants(), scene->refractive_corners);
-    std::vector<Tile> left = tiles_of(size, glass, most, device);
-    TileProgress progress(settings.progress, size);
-    Drawn drawn;
-    while (!left.empty()) {
-        const Tile tile = left.back();
-        frame.first = tile.first;
-        frame.extent = tile.extent();
-        RenderSettings of_tile = settings;
-        if (progress && draws_picture(chosen)) of_tile.progress = [&](double done) { progress.show(tile, done); };
-        RenderResult part;
-        try {
-            drawn.on_device = render_samples(frame, chosen, of_tile, part);
-        } catch (const TooLarge&) {
-            if (!halve(left)) throw;
-            forget_frame();
-            continue;
-        }
-        left.pop_back();
-        add_tile(result, std::move(part), tile, size);
-        drawn.tiles.push_back(tile);
-        if (draws_picture(chosen) && tile.size != size) progress.show(tile, 1.0);
-        progress.finish(tile);
-    }
-    if (drawn.tiles.size() == 1) return drawn;
-    drawn.on_device = nullptr;
-    drawn.cut = !glass || !scene->opaque.empty() ||
-                std::none_of(drawn.tiles.begin(), drawn.tiles.end(), [&](const Tile& t) { return t.holds(*glass); });
-    return drawn;
-}
-
-TracedView Renderer::Impl::traced_view(const RenderSettings& settings, glm::vec2 jitter_px, const Progress& progress) {
-    return {cpu.tracer(), camera_for(settings), {settings.width, settings.height}, jitter_px, progress};
-}
-
-void Renderer::Impl::trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result) {
-    const auto trace = [&](const PictureSamples& samples, const Progress& progress) {
-        return chosen.truth->trace_image(traced_view(settings, glm::vec2(0.0f), progress), environment, samples,
-                                         chosen.parameters);
-    };
-    PictureSamples samples{.count = settings.samples};
-    const double before = settings.error > 0.0f ? kPilotShare : 0.0;
-    if (settings.error > 0.0f) {
-        const PathTracedImage pilot =
-            trace({.count = kPilotSamples, .first = settings.most_samples}, part_of(settings.progress, 0.0, before));
-        samples.of_pixels = PixelNoise(pilot.radiance, pilot.standard_error, kPilotSamples)
-                                .samples_for(settings.error, settings.exposure_ev, settings.most_samples);
-        result.sample_counts = image_of(samples.of_pixels, {settings.width, settings.height});
-    }
-    PathTracedImage traced = trace(samples, part_of(settings.progress, before, 1.0));
-    result.radiance = std::move(traced.radiance);
-    result.standard_error = std::move(traced.standard_error);
-    result.cut_paths = traced.cut_paths;
 }
 
 Frame Renderer::Impl::frame_of(const RenderSettings& settings) {

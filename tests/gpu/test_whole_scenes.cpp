@@ -234,7 +234,7 @@ TEST_F(WholeScenes, PathsThatLeaveThePictureSaySo) {
     add_picture(scene, fields(4, 4), at({0, 0, -4.0f}, glm::vec3(12.0f)));
     set(scene, uniform_environment());
     const auto exact = trace();
-    const auto layers = draw("visibility-layers").paths, cube = draw("visibility-cube").paths;
+    const auto layers = draw("visibility-layers", 1, {{"finish", 0.0}}).paths, cube = draw("visibility-cube").paths;
     int left = 0, glass = 0, hidden = 0, lost = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
         if (exact[i].events == 0) continue;
@@ -246,6 +246,27 @@ TEST_F(WholeScenes, PathsThatLeaveThePictureSaySo) {
     EXPECT_GT(left, glass / 100);
     EXPECT_LE(hidden, glass / 200);  // chaos, as above
     EXPECT_LE(lost, glass / 200);
+}
+
+// What the view's map loses, reflected ways included, maps of the meshes finish: the picture is theirs.
+TEST_F(WholeScenes, PathsThatLeaveThePictureAreFinished) {
+    Scene scene = two_balls();
+    add_picture(scene, fields(4, 4), at({0, 0, -4.0f}, glm::vec3(12.0f)));
+    set(scene, uniform_environment());
+    const ParameterMap branches = {{"branches", 8.0}};
+    ParameterMap unfinished = branches;
+    unfinished["finish"] = 0.0;
+    const RenderResult layers = draw("visibility-layers", 1, branches), cube = draw("visibility-cube", 1, branches);
+    const RenderResult lost = draw("visibility-layers", 1, unfinished);
+    EXPECT_EQ(layers.status[std::size_t(Status::kLeftScreen)], 0u);
+    int differ = 0, lost_differ = 0;
+    for (std::size_t i = 0; i < cube.radiance.pixels.size(); ++i) {
+        const float value = cube.radiance.pixels[i];
+        differ += std::abs(layers.radiance.pixels[i] - value) > 0.01f * (0.1f + value) ? 1 : 0;
+        lost_differ += std::abs(lost.radiance.pixels[i] - value) > 0.01f * (0.1f + value) ? 1 : 0;
+    }
+    EXPECT_LE(differ, int(layers.covered) / 200);  // chaos, as above
+    EXPECT_GT(lost_differ, 10 * differ);
 }
 
 // A path that comes to a lattice ends on it or, through a hole, on what is behind: never on a hole.

@@ -19,7 +19,8 @@ PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, 
 
 #include "volume/volume_record.glsl"
 layout(std430, set = 0, binding = 30) readonly buffer Volumes { VolumeRecord volumes[]; };
-PELLUCID_APPENDED_LIST(EnteringList, 31, entering_groups, entering_length, entering_pixels, append_entering)
+// Paths that enter volumes, or are to be finished by another map; never both.
+PELLUCID_APPENDED_LIST(SetAside, 31, aside_groups, aside_length, aside_pixels, append_set_aside)
 #include "volume/volume_boxes.glsl"
 
 #ifdef PELLUCID_HELD_VOLUMES
@@ -49,6 +50,7 @@ vec3 iors_at(uint body, vec3 place) { return filling_iors(body); }
 
 layout(constant_id = 10) const uint kSurfacesPerPass = 1u;
 layout(constant_id = 7) const bool kOpaqueObjects = false;  // there are some
+layout(constant_id = 28) const bool kFinished = false;  // paths that the map loses are finished by another
 
 // A pane that bends no light: its two faces and the reflections between them are one factor.
 void pass_pane(inout Path path, Surface surface) {
@@ -215,7 +217,9 @@ bool go_on(inout PathState state) {
         return false;
     }
     if (hit.t == kFarthest) {
-        state.path.status = status_of_end(state.path, body != kAir, search.gave_up, t_end);
+        uint status = status_of_end(state.path, body != kAir, search.gave_up, t_end);
+        if (kFinished && (status == kStatusLeftScreen || status == kStatusStepLimit)) state.mark |= kLost;
+        else state.path.status = status;
         return false;
     }
     MetSurface met = met_surface(hit, state.path.position, state.path.direction);
@@ -256,11 +260,13 @@ void main() {
     uint i = uint(texel.y) * frame.width + uint(texel.x);
     PathState state;
     load_path(i, sample_seed(texel), state);
+    state.mark &= ~kLost;
     bool goes_on = true;
     for (uint k = 0u; k < kSurfacesPerPass && goes_on; ++k) goes_on = go_on(state);
     save_path(state);
     if (goes_on) append_next(texel);
-    else if (kVolumes && has_mark(state, kEntersVolume)) append_entering(texel);
+    else if (kVolumes && has_mark(state, kEntersVolume)) append_set_aside(texel);
+    else if (kFinished && has_mark(state, kLost)) append_set_aside(texel);
     else append_ended(texel);
 }
 

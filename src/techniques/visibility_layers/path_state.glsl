@@ -52,6 +52,7 @@ const uint kMetOpaque = 16u;    // it has ended on the opaque triangle on which 
 const uint kBounced = 32u;      // scattered by an opaque surface: it looks for what hides or lights that surface
 const uint kEntersVolume = 64u; // it stands at the box of a volume
 const uint kCrossedVolume = 128u;
+const uint kLost = 256u;        // the map cannot say what it meets: another will
 
 bool has_mark(PathState state, uint bits) { return (state.mark & bits) != 0u; }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 
 namespace pellucid {
@@ -28,15 +29,18 @@ constexpr std::array<const char*, 2> kListNames = {"paths 0", "paths 1"};
 /// Words of PathMedia per path.
 std::uint32_t words_of(const SceneTopology& topology) { return std::max((topology.slot_count + 31) / 32, 1u); }
 
+/// What becomes of paths that the map loses: they end there, or are set aside for another.
+enum class Lost { kEnd, kSetAside };
+
 enum class Ways { kTransmitted, kTree, kStochastic };
 
 class Paths {
 public:
     Paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,
           const ParameterValues& parameters, const PathVolumes* volumes, const HostFinder* finder,
-          const AccelerationStructure* hierarchy)
-        : recorder_(recorder), frame_(frame), layers_(layers), map_(map), volumes_(volumes), finder_(finder),
-          hierarchy_(hierarchy), topology_(*frame.scene.topology),
+          const AccelerationStructure* hierarchy, Lost lost = Lost::kEnd, const SurfaceMap* finishing = nullptr)
+        : recorder_(recorder), frame_(frame), layers_(layers), map_(&map), lost_(lost), finishing_(finishing),
+          volumes_(volumes), finder_(finder), hierarchy_(hierarchy), topology_(*frame.scene.topology),
           refraction_(clear_refraction(recorder, frame, true)) {
         const double given = parameters["branches"];
         const bool many = frame.samples > 1;
@@ -63,36 +67,19 @@ public:
         begin_branches();
         group_ = path_bindings();
         // Something has to be bound where there are no volumes.
-        volume_group_ = volumes_ != nullptr ? volumes_->bindings() : std::vector{reads("Volumes", *map_.maps)};
+        volume_group_ = volumes_ != nullptr ? volumes_->bindings() : std::vector{reads("Volumes", *map_->maps)};
         for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = &start_pixel_list(recorder_, frame_, kListNames[i]);
         next_ = lists_[0];
         if (push_.whole_picture != 0 || !topology_.all_alone)
             begin_at_eye();
         else
             begin();
-        const auto in_passes = [&](std::uint32_t surfaces) {
-            return (surfaces + surfaces_per_pass_ - 1) / surfaces_per_pass_;
-        };
-        const std::uint32_t surfaces = (push_.max_events + 1) * (topology_.all_alone ? 1 : kSurfacesPerEvent);
-        std::uint32_t passes =
-            in_passes(surfaces) + push_.most_branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1);
-        // A pass takes a path through one volume at most.
-        if (volumes_ != nullptr)
-            passes = std::max(in_passes(surfaces), push_.max_events + kVolumesPerPath) +
-                     push_.most_branches * kSurfacesPerBranch;
         // Ends that lead to nothing else are done all at once.
         const bool at_once = ways_ != Ways::kTree && frame_.scene.opaque.empty() && volumes_ == nullptr;
-        for (std::uint32_t pass = 0; pass < passes; ++pass) {
-            if (pass == 0 || !at_once) ended_ = &start_pixel_list(recorder_, frame_, "ended paths");
-            const Buffer& entering = start_entering();
-            if (finder_ != nullptr) find_on_host(pass == 0);
-            follow(pass, entering);
-            if (volumes_ != nullptr) volumes_->march(this->pass(), entering, *next_, *ended_);
-            if (!at_once) end(*ended_, false);
-        }
-        if (finder_ != nullptr) recorder_.end_of_steps();
+        if (at_once) ended_ = &start_pixel_list(recorder_, frame_, "ended paths");
+        walk(at_once);
+        if (lost_ == Lost::kSetAside) finish_lost(at_once);
         if (at_once) end(*ended_, false);
-        end(*next_, true);
         if (ways_ == Ways::kTree) branches().end(recorder_);
         Refraction refraction = refraction_;
         if (ways_ != Ways::kTransmitted || push_.whole_picture != 0) refraction.reflected = &reflected_;
@@ -101,6 +88,46 @@ public:
     }
 
 private:
+    /// Takes the paths that the map has lost to their ends, if there is another map; says how many they are.
+    void finish_lost(bool at_once) {
+        LayerSource& source = layers_.source;
+        recorder_.read<std::uint32_t>(*aside_, kListLengthOffset,
+                                      [&source](std::uint32_t count) { source.note_lost_paths(count); });
+        if (finishing_ == nullptr) return;
+        lost_ = Lost::kEnd;
+        map_ = finishing_;
+        group_ = path_bindings();
+        next_ = aside_;
+        walk(at_once);
+    }
+
+    /// Takes the paths of `next_` from surface to surface until all have ended, or the map has lost them.
+    void walk(bool at_once) {
+        if (lost_ == Lost::kSetAside) aside_ = &start_pixel_list(recorder_, frame_, "lost paths");
+        for (std::uint32_t pass = 0; pass < pass_count(); ++pass) {
+            if (!at_once) ended_ = &start_pixel_list(recorder_, frame_, "ended paths");
+            const Buffer& aside = lost_ == Lost::kSetAside ? *aside_ : start_entering();
+            if (finder_ != nullptr) find_on_host(pass == 0);
+            follow(pass, aside);
+            if (volumes_ != nullptr) volumes_->march(this->pass(), aside, *next_, *ended_);
+            if (!at_once) end(*ended_, false);
+        }
+        if (finder_ != nullptr) recorder_.end_of_steps();
+        end(*next_, true);
+    }
+
+    std::uint32_t pass_count() const {
+        const auto in_passes = [&](std::uint32_t surfaces) {
+            return (surfaces + surfaces_per_pass_ - 1) / surfaces_per_pass_;
+        };
+        const std::uint32_t surfaces = (push_.max_events + 1) * (topology_.all_alone ? 1 : kSurfacesPerEvent);
+        // A pass takes a path through one volume at most.
+        if (volumes_ != nullptr)
+            return std::max(in_passes(surfaces), push_.max_events + kVolumesPerPath) +
+                   push_.most_branches * kSurfacesPerBranch;
+        return in_passes(surfaces) + push_.most_branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1);
+    }
+
     std::uint64_t pixels() const { return std::uint64_t(frame_.extent.width) * frame_.extent.height; }
 
     std::vector<Constant> constants() const {
@@ -113,7 +140,8 @@ private:
                 {"kRough", scene.rough_glass},
                 {"kEnvironmentKind", frame_.environment_kind},
                 {"kOpaqueObjects", !scene.opaque.empty()},
-                {"kMapPerMesh", map_.objects != nullptr},
+                {"kMapPerMesh", map_->objects != nullptr},
+                {"kFinished", lost_ == Lost::kSetAside},
                 {"kTouching", !topology_.all_alone},
                 {"kSurfacesPerPass", surfaces_per_pass_},
                 {"kVolumes", volumes_ != nullptr},
@@ -128,31 +156,32 @@ private:
 
     /// By the names of visibility_bindings.glsl, path_state.glsl, path_walk.glsl and path_light.glsl.
     std::vector<Binding> path_bindings() const {
-        std::vector<Binding> bindings = {updates("PathPlaces", places_),
-                                         updates("PathWays", ways_buffer_),
-                                         updates("PathWeights", weights_),
-                                         updates("PathMedia", media_),
-                                         updates("Waiting", waiting_),
-                                         updates("Branches", *branches_),
-                                         reads("Slots", topology_.slots),
-                                         reads("Traits", topology_.traits),
-                                         reads("ShellTraits", topology_.shell_traits),
-                                         reads("Boxes", topology_.boxes),
-                                         reads("EyeMedia", topology_.eye),
-                                         reads("Maps", *map_.maps),
-                                         reads("map_triangles", *map_.triangles),
-                                         reads("map_normals", *map_.normals),
-                                         reads("texels", *map_.texels),
-                                         reads("ranges", *map_.ranges),
-                                         reads("records", *map_.records),
-                                         reads("pyramid", *map_.pyramid),
-                                         reads("MappedObjects", map_.objects != nullptr ? *map_.objects : *map_.maps),
-                                         reads("candidate_lists", *map_.texels),
-                                         reads("candidates", *map_.records),
-                                         layers_.bindings(),
-                                         refraction_.bindings(),
-                                         updates("path_radiance", *refraction_.radiance),
-                                         updates("reflected_radiance", reflected_)};
+        std::vector<Binding> bindings = {
+            updates("PathPlaces", places_),
+            updates("PathWays", ways_buffer_),
+            updates("PathWeights", weights_),
+            updates("PathMedia", media_),
+            updates("Waiting", waiting_),
+            updates("Branches", *branches_),
+            reads("Slots", topology_.slots),
+            reads("Traits", topology_.traits),
+            reads("ShellTraits", topology_.shell_traits),
+            reads("Boxes", topology_.boxes),
+            reads("EyeMedia", topology_.eye),
+            reads("Maps", *map_->maps),
+            reads("map_triangles", *map_->triangles),
+            reads("map_normals", *map_->normals),
+            reads("texels", *map_->texels),
+            reads("ranges", *map_->ranges),
+            reads("records", *map_->records),
+            reads("pyramid", *map_->pyramid),
+            reads("MappedObjects", map_->objects != nullptr ? *map_->objects : *map_->maps),
+            reads("candidate_lists", *map_->texels),
+            reads("candidates", *map_->records),
+            layers_.bindings(),
+            refraction_.bindings(),
+            updates("path_radiance", *refraction_.radiance),
+            updates("reflected_radiance", reflected_)};
         if (hierarchy_ != nullptr) bindings.push_back(reads("hierarchy", *hierarchy_));
         return bindings;
     }
@@ -202,8 +231,8 @@ private:
                                 .coincidence = push_.coincidence,
                                 .touching = !topology_.all_alone};
         const CandidatesOnHost candidates{
-            reinterpret_cast<CandidateList*>(map_.texels->mapped()),
-            {reinterpret_cast<Candidate*>(map_.records->mapped()), map_.records->size() / sizeof(Candidate)}};
+            reinterpret_cast<CandidateList*>(map_->texels->mapped()),
+            {reinterpret_cast<Candidate*>(map_->records->mapped()), map_->records->size() / sizeof(Candidate)}};
         const bool each_begins = first && topology_.eye_differs;
         recorder_.on_host([=, finder = finder_, ended = PixelListOnHost(*ended_), all = lists_] {
             if (paths.list.pixels().empty()) {
@@ -217,13 +246,13 @@ private:
         });
     }
 
-    void follow(std::uint32_t pass, const Buffer& entering) {
+    void follow(std::uint32_t pass, const Buffer& aside) {
         const Buffer& list = *next_;
         next_ = &start_pixel_list(recorder_, frame_, kListNames[1 - pass % 2]);
         recorder_.compute_indirect(
             program(follow_shader()),
             {frame_.bindings(), all_of(group_), all_of(volume_group_), reads("PixelList", list),
-             updates("NextList", *next_), updates("EndedList", *ended_), updates("EnteringList", entering)},
+             updates("NextList", *next_), updates("EndedList", *ended_), updates("SetAside", aside)},
             push_, list);
     }
 
@@ -239,7 +268,9 @@ private:
     Recorder& recorder_;
     const Frame& frame_;
     const Layers& layers_;
-    const SurfaceMap& map_;
+    const SurfaceMap* map_;
+    Lost lost_;
+    const SurfaceMap* finishing_;  ///< for paths that `map_` has lost
     const PathVolumes* volumes_;
     const HostFinder* finder_;
     const AccelerationStructure* hierarchy_;  ///< in which the device traces rays; null: it does not
@@ -261,16 +292,37 @@ private:
     std::array<const Buffer*, 2> lists_{};  ///< of paths, which take turns
     const Buffer* next_ = nullptr;          ///< one of them
     const Buffer* ended_ = nullptr;
+    const Buffer* aside_ = nullptr;              ///< paths that the map has lost
     std::vector<Binding> group_, volume_group_;  ///< of all passes
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
+    const auto map_meshes = [&] { return layers.source.map_meshes(recorder, frame, kMeshMapResolution); };
     // Paths in glass that lies partly beside the view, or around the eye, would leave a map of the view.
-    const SurfaceMap map = LayerSource::view_holds_glass(frame)
-                               ? layers.source.map_view(recorder, frame)
-                               : layers.source.map_meshes(recorder, frame, kMeshMapResolution);
-    return follow_paths(recorder, frame, layers, map, parameters);
+    if (!LayerSource::view_holds_glass(frame)) return follow_paths(recorder, frame, layers, map_meshes(), parameters);
+    const SurfaceMap map = layers.source.map_view(recorder, frame);
+    if (parameters["finish"] == 0.0) return follow_paths(recorder, frame, layers, map, parameters);
+    std::optional<SurfaceMap> meshes;
+    if (layers.source.finishes_paths()) meshes = map_meshes();
+    const Recorder::Scope scope(recorder, "trace");
+    return Paths(recorder, frame, layers, map, parameters, nullptr, nullptr, nullptr, Lost::kSetAside,
+                 meshes ? &*meshes : nullptr)
+        .follow();
 }
+
+constexpr auto kParameters = [] {
+    std::array<ParameterInfo, kPathParameters.size() + 1> all{};
+    std::copy(kPathParameters.begin(), kPathParameters.end(), all.begin());
+    all.back() = {
+        "finish",
+        "",
+        1,
+        0,
+        1,
+        true,
+        "1: paths that the view's map loses, as beyond the edge of the view, are finished by maps of the meshes"};
+    return all;
+}();
 
 }  // namespace
 
@@ -311,7 +363,7 @@ constexpr Technique kVisibilityLayers{
     .info = {.name = "visibility-layers",
              .summary = "every interface, found in lists of triangles per texel that are made anew in every frame",
              .source = {},
-             .parameters = kPathParameters,
+             .parameters = kParameters,
              .many_media = true,
              .whole_scene = true},
     .programs = kPathPrograms,

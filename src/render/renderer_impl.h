@@ -1,0 +1,111 @@
+#pragma once
+
+// What a Renderer holds, and how it draws a picture: tile by tile, sample by sample, frame by frame.
+#include "gpu/environment_images.h"
+#include "render/aovs.h"
+#include "render/cpu_tracing.h"
+#include "render/display.h"
+#include "render/frame.h"
+#include "render/measured_techniques.h"
+#include "render/solid_lighting.h"
+#include "render/tiles.h"
+
+#include <pellucid/renderer.h>
+
+#include <numeric>
+#include <optional>
+
+namespace pellucid {
+
+/// Whether frames make the image, or a truth traces its own.
+inline bool draws_picture(const FrameSettings& chosen) {
+    return chosen.truth == nullptr || chosen.truth->trace_image == nullptr || chosen.view == View::kAnalysis;
+}
+
+struct Renderer::Impl {
+    explicit Impl(const DeviceOptions& given)
+        : device(given), workspace(device), recorder(device), cpu(given.threads), options(given),
+          solid_lighting(device), adaptation(device) {}
+
+    Device device;
+    Workspace workspace;
+    Recorder recorder;
+    CpuTracing cpu;
+    const DeviceOptions options;
+    bake::BakeCache bake_cache;
+    SolidLighting solid_lighting;
+    Adaptation adaptation;
+    LayerSource layer_source;
+    vk::Extent2D layer_extent;  // the size that `layer_source` has learnt from
+    std::optional<GpuScene> scene;
+    Environment environment;
+    std::optional<GpuImage> environment_map;
+    std::optional<GpuImage> filtered_environment;     // of `environment`; made once a scene needs it
+    std::optional<GpuImage> no_filtered_environment;  // for scenes that do not
+    std::optional<Buffer> constants;
+    std::optional<Camera> camera;        // set by the caller
+    std::optional<Camera> scene_camera;  // the scene's first
+    gpu::FrameConstants environment_constants{};
+
+    struct Drawn {
+        std::vector<Tile> tiles;
+        const GpuImage* on_device = nullptr;  ///< radiance of the only tile
+        bool cut = false;                     ///< glass lies in several tiles, or beside opaque surfaces of others
+    };
+
+    TechniqueChoice choose(std::string_view name) const {
+        const auto times = [&](auto techniques) { return measured_times(device.info(), options, techniques); };
+        return choose_technique(name, device, !cpu.scene().volume_objects.empty(), times);
+    }
+    FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
+    /// Lets the technique compute what it wants of the scene; ParameterValues of `chosen` say what.
+    void prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
+                 std::vector<std::string>& warnings);
+    /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
+    /// the pass times. `progress` is of this sample.
+    /// `sample`: none for the frame through the centres of the pixels.
+    std::vector<PassTime> run_frame(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                                    std::optional<std::uint32_t> sample, const Progress& progress,
+                                    std::optional<FrameImages>& images);
+    /// Draws a sample of every pixel, of those that want one; counts and times go to `part`. Returns its radiance.
+    const GpuImage& draw_sample(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                                std::uint32_t sample, const Progress& progress, RenderResult& part);
+    /// Draws samples of a tile that tell how many each of its pixels needs.
+    std::vector<std::uint32_t> samples_for(const Frame& frame, const FrameSettings& chosen,
+                                           const RenderSettings& settings, const Progress& progress,
+                                           RenderResult& part);
+    /// Draws the samples of a tile; fills the radiance (the sum of the samples), AOVs, paths, counts and times of `part`.
+    /// Returns the radiance on the device; null where a truth traces the image.
+    const GpuImage* render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                                   RenderResult& part);
+    /// Draws all tiles; they are smaller in the end than at first where one did not fit the device.
+    Drawn draw_tiles(Frame frame, const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
+    TracedView traced_view(const RenderSettings& settings, glm::vec2 jitter_px, const Progress& progress);
+    /// The image that a truth traces itself.
+    void trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
+    Frame frame_of(const RenderSettings& settings);
+    /// Takes back what a frame that failed has left. Rooms for what frames need are learnt anew.
+    void forget_frame();
+    std::vector<std::uint32_t> all_lights() const {
+        std::vector<std::uint32_t> numbers(cpu.scene().lights.size());
+        std::iota(numbers.begin(), numbers.end(), 0u);
+        return numbers;
+    }
+    /// For pictures that `lights` shine through translucent objects of.
+    void light_solids(const ThicknessSettings& settings, const std::vector<std::uint32_t>& lights,
+                      const Progress& progress, std::vector<std::string>& warnings) {
+        bake::BakeCache passing{std::filesystem::path()};  // as in prepare()
+        solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache,
+                             options.threads, progress, warnings);
+    }
+    gpu::FrameConstants current_constants() const {
+        gpu::FrameConstants values{};
+        std::memcpy(&values, constants->mapped(), sizeof(values));
+        return values;
+    }
+    void set_constants(const Frame& frame, const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample);
+    Camera camera_for(const RenderSettings& settings) const;
+    const GpuImage& filtered_environment_for_scene();
+};
+
+}  // namespace pellucid
