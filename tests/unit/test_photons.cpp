@@ -265,5 +265,112 @@ TEST(Photons, ABallLensFocusesAsACountOfRaysSays) {
     }
 }
 
+PathTraceSettings settings_of(std::uint32_t size, std::uint32_t samples, std::uint32_t photons) {
+    return {.width = size, .height = size, .samples = samples, .photons = photons};
+}
+
+TEST(Photons, AFloorShowsTheCausticOfABallLens) {
+    Scene scene = load_scene("shape:sphere,segments=128");
+    const double radius = double(scene_bounds(scene).half_size.x);
+    scene.lights = {sun({0, -1, 0}, 1.0f)};
+    add(scene, floor_at(float(-1.6 * radius)), matt(0.1f));
+    const auto rings = rings_below_ball(double(scene.materials[0].ior), 1.6, 0.01, 60);
+    for (const std::size_t ring : {15u, 30u, 45u}) {
+        const double rho = (double(ring) + 0.5) * 0.01;
+        double flux = 0.0;
+        for (const std::size_t i : {ring - 1, ring, ring + 1}) flux += rings[i];
+        const double irradiance = flux / (pi * 6 * rho * 0.01);
+        const glm::vec3 target(0.0f, float(-1.6 * radius), float(rho * radius));
+        const Camera camera =
+            parallel_camera(target, glm::normalize(glm::vec3(-1, -0.1f, 0)), 1e-4f, float(3 * radius));
+        const PathTracedImage image = Tracer(scene).path_trace(camera, uniform(0.0f), settings_of(1, 100, 20000));
+        const double expected = 0.1 / pi * irradiance, error = double(image.standard_error.pixels[0]);
+        EXPECT_NEAR(double(image.radiance.pixels[0]), expected, 4 * error + 0.02 * expected)
+            << "at " << rho << " radii";
+        EXPECT_LT(error, 0.1 * expected);
+    }
+}
+
+TEST(Photons, MeansConvergeToTheLightThatArrives) {
+    // A window of the floor below a plate: a kernel spreads light, but neither loses nor adds any.
+    Scene scene = scene_of(with_flat_normals(cube(1.0f, {0, 3, 0})), glass());
+    scene.lights = {sun({0, -1, 0}, 1.0f)};
+    add(scene, floor_at(0.0f), matt(0.02f));
+    const Camera camera = parallel_camera(glm::vec3(0), {0, -1, 0}, 1.5f, 1.0f);
+    const double expected = 0.02 / pi * (1.5 * 1.5 - 1 + 2 * 1.5 / (1.5 * 1.5 + 1)) / (1.5 * 1.5);
+    std::vector<double> errors;
+    for (const std::uint32_t samples : {1u, 16u, 256u}) {
+        const PathTracedImage image = Tracer(scene).path_trace(camera, uniform(0.0f), settings_of(16, samples, 2000));
+        double mean = 0.0;
+        for (const float value : image.radiance.pixels) mean += double(value) / double(image.radiance.pixels.size());
+        errors.push_back(std::abs(mean / expected - 1));
+    }
+    EXPECT_LT(errors[0], 0.2);
+    EXPECT_LT(errors[1], 0.03);
+    EXPECT_LT(errors[2], 0.005);
+}
+
+TEST(Photons, LightStraightThroughPanesCountsOnce) {
+    Material pane = glass();
+    pane.thickness = 0.0f;
+    Scene scene = scene_of(floor_at(0.0f), matt(0.5f));
+    add(scene, floor_at(1.0f, 2.0f), pane);
+    scene.lights = {lamp({0, 2, 0}), sun({0.1f, -1, 0})};
+    const Camera camera = parallel_camera(glm::vec3(0), {0, -1, 0}, 1.0f, 0.5f);
+    const auto trace_with = [&](std::uint32_t photons) {
+        return Tracer(scene).path_trace(camera, uniform(0.0f), settings_of(8, 4, photons)).radiance.pixels;
+    };
+    EXPECT_EQ(trace_with(5000), trace_with(0));
+    EXPECT_TRUE(photons_of(scene, 5000).empty());
+}
+
+TEST(Photons, APaneMirrorsALampOntoTheFloor) {
+    Material pane = glass();
+    pane.thickness = 0.0f;
+    Scene scene = scene_of(floor_at(0.0f), matt(0.02f));
+    add(scene, square(), pane,
+        glm::translate(glm::mat4(1.0f), glm::vec3(0, 1.01f, 0)) *
+            glm::rotate(glm::mat4(1.0f), 1.5707963f, glm::vec3(0, 1, 0)));
+    scene.lights = {lamp({2, 2, 0})};
+    const Camera camera = parallel_camera({1, 0, 0}, {0, -1, 0}, 0.01f);
+    const PathTracedImage image = Tracer(scene).path_trace(camera, uniform(0.0f), settings_of(1, 2000, 4000));
+    const double cosine = 3 / std::sqrt(13.0), f = incidence({0, 0, -cosine}, {0, 0, 1}, 1.0, 1.5).reflectance;
+    const auto irradiance = [](double distance2) { return 3.0 / distance2 * 2 / std::sqrt(distance2); };
+    const double direct = 0.02 / pi * irradiance(5), mirrored = 0.02 / pi * irradiance(13) * 2 * f / (1 + f);
+    const double error = double(image.standard_error.pixels[0]);
+    EXPECT_NEAR(double(image.radiance.pixels[0]) - direct, mirrored, 4 * error + 0.01 * mirrored);
+    EXPECT_LT(error, 0.15 * mirrored);
+}
+
+TEST(Photons, WhatLiesInGlassShowsTheLightThatComesIn) {
+    // Radiance falls by n^2 on its way out, where the base colour tints it: not on the way in, too.
+    Scene scene = scene_of(floor_at(0.0f, 0.4f), matt(0.002f));
+    add(scene, with_flat_normals(cube()), glass());
+    scene.materials[1].base_color = {0.5f, 0.5f, 0.5f, 1.0f};
+    scene.lights = {sun({0, -1, 0})};
+    const Camera camera = parallel_camera({0.1f, 0, 0.1f}, {0, -1, 0}, 1e-3f);
+    const PathTracedImage image = Tracer(scene).path_trace(camera, uniform(0.0f), settings_of(1, 1000, 1000));
+    const double expected = 0.5 * 0.002 / pi * 3 * 0.96 * 0.96 / 2.25, error = double(image.standard_error.pixels[0]);
+    EXPECT_NEAR(double(image.radiance.pixels[0]), expected, 4 * error + 0.005 * expected);
+    EXPECT_LT(error, 0.05 * expected);
+}
+
+TEST(Photons, PicturesDependOnNeitherThreadsNorPortions) {
+    Scene scene = load_scene("shape:sphere,segments=16");
+    add(scene, floor_at(-1.5f, 2.0f), matt(0.5f));
+    scene.lights = {sun({0.2f, -1, 0}), lamp({1, 3, 0})};
+    const auto trace_on = [&](std::uint32_t threads, std::uint32_t first, std::uint32_t samples) {
+        PathTraceSettings settings = settings_of(20, samples, 60000);
+        settings.first_sample = first;
+        return Tracer(scene, {.threads = threads})
+            .path_trace(view_of(scene, 10), uniform(0.1f), settings)
+            .radiance.pixels;
+    };
+    const std::vector<float> whole = trace_on(1, 0, 2), first = trace_on(2, 0, 1), second = trace_on(2, 1, 1);
+    EXPECT_EQ(whole, trace_on(2, 0, 2));
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        EXPECT_NEAR(whole[i], 0.5f * (first[i] + second[i]), 1e-5f * (1.0f + whole[i]));
+}
+
 }  // namespace
 }  // namespace pellucid::reference
