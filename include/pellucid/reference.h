@@ -48,6 +48,8 @@ struct PathTraceSettings {
     std::uint32_t first_sample = 0;  ///< pictures with the same seed and other samples are independent
     std::uint32_t seed = 1;
     std::uint32_t max_vertices = 256;  ///< a path that is longer is cut and counted
+    /// Photons per sample, for light of scene lights that mirrors and refracts before it meets something else; 0: none.
+    std::uint32_t photons = 0;
 };
 
 /// A path-traced picture. It depends on the scene, the settings and nothing else: not on threads.
@@ -89,8 +91,9 @@ public:
     void trace_fast(const Camera& camera, const ExactSettings& settings, std::span<glm::vec3> directions) const;
 
     /// Unidirectional path tracing with next-event estimation (Kajiya 1986; Veach 1997, chapters 9
-    /// and 10). Light of point, spot and directional lights does not come through refracting glass:
-    /// a path can only meet such a light by aiming at it. From the first boundary of dispersive glass on a path
+    /// and 10). Paths only meet point, spot and directional lights by aiming at them, so without photons
+    /// the light of these does not come through refracting glass or from mirrors. With them it does, by progressive
+    /// photon mapping (Hachisuka & Jensen 2009; Knaus & Zwicker 2011). From the first boundary of dispersive glass on a path
     /// follows one colour channel.
     PathTracedImage path_trace(const Camera& camera, const Environment& environment, const PathTraceSettings& settings,
                                const Progress& progress = {}) const;

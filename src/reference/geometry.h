@@ -104,6 +104,10 @@ public:
     std::uint32_t solid_of(std::uint32_t shell) const { return shells_[shell].solid; }
     std::uint32_t object_count() const { return std::uint32_t(objects_.size()); }
     const Material& material(std::uint32_t object) const;
+    struct Box {
+        glm::dvec3 low, high;  ///< world, m
+    };
+    Box box(std::uint32_t object) const { return {objects_[object].low, objects_[object].high}; }
     const Mesh& mesh(std::uint32_t object) const;
 
     /// Sense in which `direction` crosses a triangle.

@@ -3,6 +3,7 @@
 #include "reference/camera_rays.h"
 #include "reference/environment_sampler.h"
 #include "reference/path_walk.h"
+#include "reference/photon_emission.h"
 #include "reference/random.h"
 #include "reference/start_media.h"
 #include "scene/check_scene.h"
@@ -17,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
+#include <vector>
 
 namespace pellucid::reference {
 namespace {
@@ -62,16 +65,28 @@ class Painter {
 public:
     Painter(const PathWorld& world, const CameraRays& rays, const PathTraceSettings& settings)
         : world_(world), rays_(rays), settings_(settings),
-          media_(world.geometry, rays, {settings.width, settings.height}) {}
+          media_(world.geometry, rays, {settings.width, settings.height}) {
+        if (world.photons) means_.resize(std::size_t(settings.width) * settings.height);
+    }
 
-    /// Traces one pixel; returns how many paths were cut.
-    std::uint64_t paint(glm::uvec2 pixel, PathWalk& walk, PathTracedImage& image) const {
+    /// Rounds that a picture takes: one per sample if each has photons of its own.
+    std::uint32_t rounds() const {
+        if (!world_.photons) return 1;
+        const auto& of_pixels = settings_.samples_of_pixels;
+        return of_pixels.empty() ? settings_.samples : *std::max_element(of_pixels.begin(), of_pixels.end());
+    }
+
+    /// Traces a round's samples of one pixel; returns how many paths were cut.
+    std::uint64_t paint(glm::uvec2 pixel, std::uint32_t round, PathWalk& walk, PathTracedImage& image) {
         const std::uint64_t index = std::uint64_t(pixel.y) * settings_.width + pixel.x;
-        RunningMean mean;
+        RunningMean of_one_round;
+        RunningMean& mean = means_.empty() ? of_one_round : means_[index];
         std::uint64_t cut = 0;
         const bool alike = settings_.samples_of_pixels.empty();
         const std::uint32_t samples = alike ? settings_.samples : settings_.samples_of_pixels[index];
-        for (std::uint32_t sample = 0; sample < samples; ++sample) {
+        const std::uint32_t first = world_.photons ? round : 0;
+        const std::uint32_t end = world_.photons ? std::min(round + 1, samples) : samples;
+        for (std::uint32_t sample = first; sample < end; ++sample) {
             Random random(settings_.seed, index, std::uint64_t(settings_.first_sample) + sample);
             const CameraRay ray = rays_.at(glm::dvec2(pixel) + random.next2());
             const PathWalk::Result result = walk.walk(ray, media_.around(ray), random);
@@ -83,12 +98,12 @@ public:
         return cut;
     }
 
-    std::uint64_t paint_tile(glm::uvec2 first, PathTracedImage& image) const {
+    std::uint64_t paint_tile(glm::uvec2 first, std::uint32_t round, PathTracedImage& image) {
         PathWalk walk(world_);
         const glm::uvec2 end = glm::min(first + kTile, glm::uvec2(settings_.width, settings_.height));
         std::uint64_t cut = 0;
         for (std::uint32_t y = first.y; y < end.y; ++y) {
-            for (std::uint32_t x = first.x; x < end.x; ++x) cut += paint({x, y}, walk, image);
+            for (std::uint32_t x = first.x; x < end.x; ++x) cut += paint({x, y}, round, walk, image);
         }
         return cut;
     }
@@ -98,6 +113,31 @@ private:
     const CameraRays& rays_;
     const PathTraceSettings& settings_;
     StartMedia media_;
+    std::vector<RunningMean> means_;  ///< per pixel, over the rounds; empty: there is one round
+};
+
+/// One round of photons after another, each for one sample of every pixel.
+class PhotonRounds {
+public:
+    PhotonRounds(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene,
+                 const PathTraceSettings& settings)
+        : settings_(settings) {
+        if (settings.photons > 0) emitter_.emplace(geometry, volumes, scene);
+    }
+    /// Null: none are wanted, or no light shines on anything smooth.
+    const PhotonMap* map() const { return emitter_ && !emitter_->dark() ? &map_ : nullptr; }
+
+    void shoot(const PathWorld& world, std::uint32_t round) {
+        if (!map()) return;
+        const std::uint32_t of_all = settings_.first_sample + round;
+        const double radius = photon_radius(emitter_->first_radius(settings_.photons), of_all);
+        map_ = shoot_photons(world, *emitter_, settings_.photons, settings_.seed, of_all, radius);
+    }
+
+private:
+    const PathTraceSettings& settings_;
+    std::optional<PhotonEmitter> emitter_;
+    PhotonMap map_;
 };
 
 bool has_panes(const Geometry& geometry) {
@@ -121,21 +161,29 @@ PathTracedImage trace_paths(const Geometry& geometry, const CurvedVolumes& volum
     image.standard_error = image.radiance;
 
     const EnvironmentSampler sampler(environment);
-    const PathWorld world{geometry, volumes, scene, environment, sampler, settings.max_vertices, has_panes(geometry)};
+    PhotonRounds photons(geometry, volumes, scene, settings);
+    const PathWorld world{
+        geometry, volumes, scene, environment, sampler, settings.max_vertices, has_panes(geometry), photons.map()};
     const CameraRays rays(camera, settings.width, settings.height);
-    const Painter painter(world, rays, settings);
+    Painter painter(world, rays, settings);
+    const std::uint32_t rounds = painter.rounds();
     const std::uint32_t columns = (settings.width + kTile - 1) / kTile;
     const std::uint32_t tiles = columns * ((settings.height + kTile - 1) / kTile);
     std::mutex mutex;
-    std::uint32_t done = 0;
-    const auto paint_tile = [&](std::uint32_t tile) {
-        const std::uint64_t cut = painter.paint_tile(kTile * glm::uvec2(tile % columns, tile / columns), image);
+    std::uint64_t done = 0;
+    const auto paint_tile = [&](std::uint32_t tile, std::uint32_t round) {
+        const std::uint64_t cut = painter.paint_tile(kTile * glm::uvec2(tile % columns, tile / columns), round, image);
         const std::lock_guard lock(mutex);
         image.cut_paths += cut;
-        if (progress) progress(double(++done) / double(tiles));
+        if (progress) progress(double(++done) / (double(tiles) * rounds));
     };
     tbb::task_arena arena(threads > 0 ? int(threads) : tbb::task_arena::automatic);
-    arena.execute([&] { tbb::parallel_for(0u, tiles, paint_tile); });
+    arena.execute([&] {
+        for (std::uint32_t round = 0; round < rounds; ++round) {
+            photons.shoot(world, round);
+            tbb::parallel_for(0u, tiles, [&](std::uint32_t tile) { paint_tile(tile, round); });
+        }
+    });
     return image;
 }
 

@@ -12,9 +12,6 @@
 namespace pellucid::reference {
 namespace {
 
-/// Paths are ended at random from this surface on (Russian roulette).
-constexpr std::uint32_t kRouletteFrom = 4;
-
 /// Weight of a direction chosen with density `pdf` that `other` might have chosen, too (Veach 1997,
 /// section 9.2.4, exponent 2).
 double power_heuristic(double pdf, double other) {
@@ -22,8 +19,8 @@ double power_heuristic(double pdf, double other) {
     return 1.0 / (1.0 + ratio * ratio);
 }
 
-/// Rotation that takes the z axis to the unit vector n: Duff et al., "Building an orthonormal basis,
-/// revisited", 2017, listing 3.
+}  // namespace
+
 glm::dmat3 world_from_local(const glm::dvec3& n) {
     const double sign = std::copysign(1.0, n.z);
     const double a = -1.0 / (sign + n.z);
@@ -31,8 +28,6 @@ glm::dmat3 world_from_local(const glm::dvec3& n) {
     return {glm::dvec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), glm::dvec3(b, sign + n.y * n.y * a, -n.y),
             n};
 }
-
-}  // namespace
 
 PathWalk::Result PathWalk::walk(const CameraRay& ray, const MediumStack& inside, Random& random) {
     start(ray, inside);
@@ -63,6 +58,7 @@ void PathWalk::start(const CameraRay& ray, const MediumStack& inside) {
     radiance_ = glm::dvec3(0.0);
     channel_.reset();
     pdf_ = 0.0;
+    length_ = 0.0;
 }
 
 /// `caught`: a volume has kept the path.
@@ -94,6 +90,7 @@ Hit PathWalk::next_surface(Random& random, bool& caught) {
 /// Goes straight on to what was met.
 void PathWalk::travel(const Hit& hit) {
     if (inside_.solid() != kAir && !in_held_volume_) throughput_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
+    length_ += hit.t;
     ray_.origin = hit.position;
     ray_.t_max = std::numeric_limits<double>::infinity();  // the camera's planes cut off what it sees first
     world_.geometry.step_onto(hit, standing_);
@@ -147,7 +144,9 @@ bool PathWalk::meet_opaque(const Vertex& vertex, Random& random) {
         return false;
     }
     emit(vertex);
-    return scatter(vertex, opaque_bsdf(vertex), random);
+    const OpaqueBsdf bsdf = opaque_bsdf(vertex);
+    if (photon_.stored && !bsdf.only_mirrors()) deposit(vertex);
+    return scatter(vertex, bsdf, random);
 }
 
 /// At the surface on which the path stands.
@@ -167,7 +166,7 @@ void PathWalk::emit(const Vertex& vertex) {
     radiance_ += throughput_ * emitted_share() * glm::dvec3(emission(world_.scene, vertex.material, vertex.attributes));
 }
 
-Bsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
+OpaqueBsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
     const auto [metallic, roughness] = metallic_roughness(world_.scene, vertex.material, vertex.attributes);
     // What a translucent surface sends to the other side it does not reflect. (That light is not followed.)
     const double reflected = vertex.material.translucent() ? 1.0 - double(vertex.material.diffuse_transmission) : 1.0;
@@ -196,36 +195,43 @@ bool PathWalk::meet_solid(const Hit& hit, Random& random) {
     const Vertex vertex = vertex_at(interface, ray_.direction);
     const bool entering = interface.crossing.sense == Sense::kEntering;
     if (entering) emit(vertex);
-    if (entering && !transmits(vertex, random)) return scatter(vertex, opaque_bsdf(vertex), random);
+    const bool photon = photon_.stored != nullptr;
+    if (!photon && entering && !transmits(vertex, random)) return scatter(vertex, opaque_bsdf(vertex), random);
     // A solid's base colour tints light once on its way through, where the path comes in, as does the
-    // renderer. The same goes for the opaque part: it is a coat of the outside.
-    const glm::dvec3 tint = entering ? glm::dvec3(vertex.base) : glm::dvec3(1.0);
+    // renderer. The same goes for the opaque part: it is a coat of the outside. Light goes the other way.
+    const glm::dvec3 tint = entering != photon ? glm::dvec3(vertex.base) : glm::dvec3(1.0);
     const Medium here = inside_.medium(), there = beyond_.medium();
     if (!channel_ && (here.disperses() || there.disperses())) choose_channel(random);
     const int channel = channel_.value_or(kGreen);  // without dispersion all are alike
     const InterfaceBsdf bsdf(ior(inside_, channel), ior(beyond_, channel), roughness_at(vertex), tint);
-    return scatter(vertex, bsdf, random);
+    return photon ? cross_as_photon(vertex, bsdf, random) : scatter(vertex, bsdf, random);
 }
 
 bool PathWalk::meet_pane(const Vertex& vertex, Random& random) {
+    const PaneBsdf bsdf(double(vertex.material.ior), roughness_at(vertex), glm::dvec3(vertex.base));
+    if (photon_.stored &&
+        (!bsdf.only_mirrors() || transmission(world_.scene, vertex.material, vertex.attributes) < 1.0f))
+        deposit(vertex);
     if (vertex.material.alpha_is_coverage && random.next() >= vertex.base.a) {  // past it
         turn_to(ray_.direction);
         return true;
     }
     emit(vertex);
     if (!transmits(vertex, random)) return scatter(vertex, opaque_bsdf(vertex), random);
-    return scatter(vertex, PaneBsdf(double(vertex.material.ior), roughness_at(vertex), glm::dvec3(vertex.base)),
-                   random);
+    return scatter(vertex, bsdf, random);
 }
 
 bool PathWalk::scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random) {
     const glm::dmat3 to_world = world_from_local(vertex.normal);
     const Facing facing{to_world, -ray_.direction * to_world};
-    if (!std::visit([](const auto& b) { return b.only_mirrors(); }, bsdf)) add_light(vertex, bsdf, facing, random);
+    if (!photon_.stored && !std::visit([](const auto& b) { return b.only_mirrors(); }, bsdf)) {
+        add_light(vertex, bsdf, facing, random);
+        if (world_.photons) add_photons(vertex, bsdf, facing, random);
+    }
 
     const std::optional<BsdfSample> sample =
         std::visit([&](const auto& b) { return b.sample(facing.wo, random); }, bsdf);
-    if (!sample) return false;
+    if (!sample || (photon_.stored && !sample->mirror)) return false;
     const glm::dvec3 direction = glm::normalize(to_world * sample->wi);
     // Interpolated normals can send light to the other side of the surface itself than they mean to. Out of
     // an opaque one nothing comes; at glass, the path then is where it is.
@@ -236,6 +242,7 @@ bool PathWalk::scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random) {
     if (through && std::holds_alternative<InterfaceBsdf>(bsdf)) std::swap(inside_, beyond_);
 
     throughput_ *= sample->weight;
+    if (photon_.stored) throughput_ *= adjoint_weight(vertex, -ray_.direction, direction);
     const bool straight = sample->mirror && means_to && std::holds_alternative<PaneBsdf>(bsdf);
     if (!straight) pdf_ = sample->mirror || through != means_to ? 0.0 : sample->pdf;
     turn_to(direction);
@@ -269,16 +276,18 @@ void PathWalk::see_environment() {
     radiance_ += throughput_ * light * weight;
 }
 
+BsdfValue PathWalk::value_towards(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing,
+                                  const glm::dvec3& direction, Random& random) const {
+    const glm::dvec3 wi = direction * facing.world_from_local;
+    if (crosses(vertex.hit, direction) != (wi.z < 0.0)) return {};
+    return std::visit([&](const auto& b) { return b.evaluate(facing.wo, wi, random); }, bsdf);
+}
+
 /// Light from the environment and from the scene's lights, chosen by them.
 void PathWalk::add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random) {
-    const auto value_towards = [&](const glm::dvec3& direction) {
-        const glm::dvec3 wi = direction * facing.world_from_local;
-        if (crosses(vertex.hit, direction) != (wi.z < 0.0)) return BsdfValue{};
-        return std::visit([&](const auto& b) { return b.evaluate(facing.wo, wi, random); }, bsdf);
-    };
     if (!world_.sampler.dark()) {
         const EnvironmentSampler::Sample chosen = world_.sampler.sample(random);
-        const BsdfValue bsdf_value = value_towards(chosen.direction);
+        const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, chosen.direction, random);
         if (bsdf_value.pdf > 0.0) {
             const glm::dvec3 light = radiance(world_.environment, glm::vec3(chosen.direction));
             const double weight = power_heuristic(chosen.pdf, bsdf_value.pdf) / chosen.pdf;
@@ -289,7 +298,7 @@ void PathWalk::add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& f
     for (const Light& light : world_.scene.lights) {
         const std::optional<ArrivingLight> arriving = arriving_light(light, vertex.hit.position);
         if (!arriving) continue;
-        const BsdfValue bsdf_value = value_towards(arriving->direction);
+        const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, arriving->direction, random);
         if (!(bsdf_value.pdf > 0.0)) continue;
         radiance_ += throughput_ * emitted_share() * bsdf_value.value * arriving->irradiance *
                      visibility(vertex.hit, arriving->direction, arriving->distance);

@@ -5,6 +5,7 @@
 #include "reference/curved_volumes.h"
 #include "reference/environment_sampler.h"
 #include "reference/geometry.h"
+#include "reference/photon_map.h"
 #include "reference/random.h"
 #include "reference/texture_lookup.h"
 
@@ -27,8 +28,20 @@ struct PathWorld {
     const Environment& environment;
     const EnvironmentSampler& sampler;
     std::uint32_t max_vertices = 256;
-    bool has_panes = false;  ///< the scene has thin-walled glass
+    bool has_panes = false;              ///< the scene has thin-walled glass
+    const PhotonMap* photons = nullptr;  ///< of light that next-event estimation cannot follow; null: none
 };
+
+/// A photon as its light sends it.
+struct PhotonStart {
+    CameraRay ray;
+    const Light* light = nullptr;
+    glm::dvec3 flux{0.0};  ///< W, RGB
+};
+
+/// Rotation that takes the z axis to the unit vector n: Duff et al., "Building an orthonormal basis,
+/// revisited", 2017, listing 3.
+glm::dmat3 world_from_local(const glm::dvec3& n);
 
 /// One light path at a time, from the eye backwards (Kajiya 1986), with light sources and the
 /// environment asked for at every surface that scatters (Veach, "Robust Monte Carlo methods for light
@@ -44,6 +57,10 @@ struct PathWorld {
 ///
 /// Colours part at the first boundary of a dispersive medium, or volume: the path goes on with one channel, at whose
 /// indices it is refracted from there on.
+///
+/// Photons go the same way from a light. Let x be the first surface from the light that is not smooth. Where no smooth
+/// event lies between, or light comes straight through panes, next-event estimation has it; else a photon is stored at x,
+/// and paths from the eye read it there.
 class PathWalk {
 public:
     explicit PathWalk(const PathWorld& world)
@@ -55,6 +72,8 @@ public:
     };
     /// `inside`: the solids around the ray's origin.
     Result walk(const CameraRay& ray, const MediumStack& inside, Random& random);
+    /// Appends to `stored` what next-event estimation cannot follow of a photon. `inside`: the solids around its light.
+    void follow(const PhotonStart& photon, const MediumStack& inside, Random& random, std::vector<Photon>& stored);
 
 private:
     /// A surface that the path has come to.
@@ -70,6 +89,14 @@ private:
         glm::dmat3 world_from_local;
         glm::dvec3 wo;
     };
+    /// What is followed from a light.
+    struct FromLight {
+        std::vector<Photon>* stored = nullptr;  ///< null: the path comes from the eye
+        const Light* light = nullptr;
+        double flux = 0.0;  ///< W where throughput_ is 1
+    };
+    /// Paths are ended at random from this surface on (Russian roulette).
+    static constexpr std::uint32_t kRouletteFrom = 4;
 
     void start(const CameraRay& ray, const MediumStack& inside);
     Hit next_surface(Random& random, bool& caught);
@@ -86,7 +113,7 @@ private:
     double emitted_share() const;
     double ior(const MediumStack& at, int channel) const;
     bool transmits(const Vertex& vertex, Random& random) const;
-    Bsdf opaque_bsdf(const Vertex& vertex) const;
+    OpaqueBsdf opaque_bsdf(const Vertex& vertex) const;
     double roughness_at(const Vertex& vertex) const;
     bool scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random);
     bool survives(Random& random);
@@ -94,6 +121,12 @@ private:
 
     void see_environment();
     void add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
+    void add_photons(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
+    BsdfValue value_towards(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, const glm::dvec3& direction,
+                            Random& random) const;
+    void deposit(const Vertex& vertex);
+    bool cross_as_photon(const Vertex& vertex, const InterfaceBsdf& bsdf, Random& random);
+    double adjoint_weight(const Vertex& vertex, const glm::dvec3& wi, const glm::dvec3& wo) const;
     glm::dvec3 visibility(const Hit& from, const glm::dvec3& direction, double distance);
     glm::dvec3 pane_transmittance(Query query);
 
@@ -107,8 +140,10 @@ private:
     glm::dvec3 radiance_{0.0};
     std::optional<int> channel_;  ///< the only one that the path still carries; none: all
     /// Density, per steradian, with which the last surface that scattered chose the ray's direction; 0 if
-    /// no source can choose this path.
+    /// no source can choose this path. Of a photon: 0 from its first mirror or refraction on.
     double pdf_ = 0.0;
+    FromLight photon_;
+    double length_ = 0.0;          ///< m from the start, along straight pieces
     bool in_held_volume_ = false;  ///< the last piece of the way was in the volume of a solid
     double open_ior_ = 1.0;        ///< of what is around all solids, at the ray's origin
     /// Of what is emitted there, the share that arrives where the path entered the volume.

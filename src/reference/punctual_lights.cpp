@@ -5,10 +5,7 @@
 #include <limits>
 
 namespace pellucid::reference {
-namespace {
 
-/// Share of the intensity in a direction from the light, `cos_angle` from its axis: the square of a
-/// ramp in the cosine from the outer to the inner angle.
 double cone_share(const Light& light, double cos_angle) {
     const double cos_inner = std::cos(double(light.inner_cone_angle));
     const double cos_outer = std::cos(double(light.outer_cone_angle));
@@ -18,13 +15,10 @@ double cone_share(const Light& light, double cos_angle) {
     return ramp * ramp;
 }
 
-/// Fades a light out towards its range, so that it has no edge there.
 double range_share(const Light& light, double distance) {
     const double relative = distance / double(light.range);
     return std::clamp(1.0 - relative * relative * relative * relative, 0.0, 1.0);
 }
-
-}  // namespace
 
 std::optional<ArrivingLight> arriving_light(const Light& light, const glm::dvec3& position) {
     ArrivingLight arriving;

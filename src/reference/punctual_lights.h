@@ -19,4 +19,11 @@ struct ArrivingLight {
 /// "Range Property", with their recommended falloffs. Nothing where no light arrives.
 std::optional<ArrivingLight> arriving_light(const Light& light, const glm::dvec3& position);
 
+/// Share of a spot's intensity in a direction whose cosine to its axis is `cos_angle`: the square of a ramp in the
+/// cosine from the outer to the inner angle.
+double cone_share(const Light& light, double cos_angle);
+
+/// Share that is left after `distance`, m: fades the light out towards its range, so that it has no edge there.
+double range_share(const Light& light, double distance);
+
 }  // namespace pellucid::reference

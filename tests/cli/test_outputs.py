@@ -116,7 +116,7 @@ class PathTraced(CliTest):
         self.assertLess(sum(channel["error.G"]), sum(channel["G"]))
         described = json.loads(self.read("out.json"))
         self.assertGreaterEqual(described["cut_paths"], 0)
-        self.assertEqual(described["parameters"], {"events": 16, "seed": 1, "vertices": 256})
+        self.assertEqual(described["parameters"], {"events": 16, "seed": 1, "vertices": 256, "photons": 0})
 
     def test_depends_on_the_seed_and_not_on_the_threads(self):
         first = self.trace("--threads", "1").pixels

@@ -19,6 +19,13 @@ constexpr ParameterInfo kParameters[] = {
      .maximum = 65535,
      .whole = true,
      .doc = "surfaces after which a path is cut"},
+    {.name = "photons",
+     .unit = "",
+     .default_value = 0,
+     .minimum = 0,
+     .maximum = 10000000.0,
+     .whole = true,
+     .doc = "per sample, for caustics of suns, lamps and spots; 0: none"},
 };
 
 PathTracedImage trace_image(const TracedView& view, const Environment& environment, const PictureSamples& samples,
@@ -30,7 +37,8 @@ PathTracedImage trace_image(const TracedView& view, const Environment& environme
                                    .samples_of_pixels = samples.of_pixels,
                                    .first_sample = samples.first,
                                    .seed = parameters.whole("seed"),
-                                   .max_vertices = parameters.whole("vertices")},
+                                   .max_vertices = parameters.whole("vertices"),
+                                   .photons = parameters.whole("photons")},
                                   view.progress);
 }
 

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "reference/path_walk.h"
+#include "reference/photon_map.h"
+#include "reference/random.h"
+
+#include <pellucid/scene.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pellucid::reference {
+
+/// Photons of suns, lamps and spots, aimed at the sphere around everything smooth: only there is light that next-event
+/// estimation cannot follow. Suns send them through a disc of the sphere's radius, lamps and spots into a cone.
+class PhotonEmitter {
+public:
+    /// The arguments must outlive the emitter.
+    PhotonEmitter(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene);
+
+    /// True if no light shines on anything smooth.
+    bool dark() const { return aims_.empty(); }
+    /// Radius of the first round's look-ups, m: where nothing bends light that runs across the sphere, a look-up finds
+    /// 16 of `count` photons.
+    double first_radius(std::uint32_t count) const;
+    double emitted() const { return aims_.empty() ? 0.0 : aims_.back().power_up_to; }  ///< W, brightest channel
+
+    /// One of `count` photons: its light is chosen in proportion to what that sends towards the sphere.
+    void shoot(PathWalk& walk, std::uint32_t count, Random& random, std::vector<Photon>& stored) const;
+
+private:
+    struct Sphere {
+        glm::dvec3 center{0.0};
+        double radius = 0.0;  ///< m; 0: nothing is smooth
+    };
+    /// A light and where it sends its photons.
+    struct Aim {
+        const Light* light;
+        MediumStack inside;         ///< solids around the light
+        glm::dvec3 origin;          ///< the disc's centre, or the light
+        glm::dmat3 world_from_aim;  ///< z is the axis of the disc's normal, or of the cone
+        double cos_limit = -1.0;    ///< of the cone's half angle
+        double power_up_to = 0.0;   ///< W in the brightest channel, of this light and those before it
+    };
+    static Sphere smooth_bounds(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene);
+    Aim aim_of(const Geometry& geometry, const Scene& scene, const Light& light) const;
+    double measure(const Aim& aim) const;
+    PhotonStart start(const Aim& aim, Random& random) const;
+
+    Sphere target_;
+    std::vector<Aim> aims_;
+};
+
+/// Photons of one round, the same on any number of threads. `radius`: of their look-ups, m.
+PhotonMap shoot_photons(const PathWorld& world, const PhotonEmitter& emitter, std::uint32_t count, std::uint32_t seed,
+                        std::uint32_t round, double radius);
+
+}  // namespace pellucid::reference

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pellucid::reference {
+
+/// Light of a source where it meets the first surface that is not smooth, after mirrors or refractions.
+struct Photon {
+    glm::dvec3 position{0.0};   ///< world, m
+    glm::vec3 normal{0.0f};     ///< of the triangle, outward, unit
+    glm::vec3 direction{0.0f};  ///< in which it flew, unit
+    glm::vec3 flux{0.0f};       ///< W, RGB, over n^2 of the medium it arrives in (as radiance in bsdf.h)
+};
+
+/// Photons of one round, and those near a point (Jensen, "Global illumination using photon maps", 1996). They lie in a
+/// sorted grid, so that their order depends on nothing but their positions and the order in which they were given.
+class PhotonMap {
+public:
+    PhotonMap() = default;
+    /// `radius`, m, > 0: of the disc over which for_each_near() looks.
+    PhotonMap(std::vector<Photon> photons, double radius);
+
+    const std::vector<Photon>& photons() const { return photons_; }
+    double disc_area() const;  ///< m2
+
+    /// Calls visit(photon) for the photons of a surface with that unit normal, at most one radius from `position`.
+    template <class Visit>
+    void for_each_near(const glm::dvec3& position, const glm::dvec3& normal, const Visit& visit) const {
+        const Cell low = cell_of(position - radius_), high = cell_of(position + radius_);
+        for (std::uint64_t z = low.z; z <= high.z; ++z) {
+            for (std::uint64_t y = low.y; y <= high.y; ++y) {
+                const auto first = std::lower_bound(keys_.begin(), keys_.end(), key_of({low.x, y, z}));
+                const auto end = std::upper_bound(first, keys_.end(), key_of({high.x, y, z}));
+                for (auto key = first; key != end; ++key) {
+                    const Photon& photon = photons_[std::size_t(key - keys_.begin())];
+                    if (belongs(photon, position, normal)) visit(photon);
+                }
+            }
+        }
+    }
+
+private:
+    using Cell = glm::u64vec3;
+    static constexpr int kBits = 21;  // of a cell's coordinate along each axis
+
+    Cell cell_of(const glm::dvec3& position) const {
+        return glm::clamp((position - low_) / cell_size_, 0.0, double((1 << kBits) - 1));
+    }
+    /// Cells side by side along x have keys side by side.
+    static std::uint64_t key_of(const Cell& cell) { return (cell.z << 2 * kBits) | (cell.y << kBits) | cell.x; }
+    bool belongs(const Photon& photon, const glm::dvec3& position, const glm::dvec3& normal) const {
+        const glm::dvec3 apart = photon.position - position;
+        return glm::dot(apart, apart) <= radius_ * radius_ && glm::dot(glm::dvec3(photon.normal), normal) > 0.5;
+    }
+
+    std::vector<Photon> photons_;      ///< by key
+    std::vector<std::uint64_t> keys_;  ///< of the photons' cells, ascending
+    double radius_ = 1.0, cell_size_ = 1.0;
+    glm::dvec3 low_{0.0};
+};
+
+/// Radius, m, of look-ups in round `round` (from 0): the square shrinks as Knaus & Zwicker, "Progressive photon mapping: a
+/// probabilistic approach", 2011, equation 15, has it, with alpha = 2/3. The mean over the rounds then converges to the
+/// truth, in bias and in variance.
+double photon_radius(double first_radius, std::uint32_t round);
+
+}  // namespace pellucid::reference
