@@ -1,6 +1,7 @@
 #include "lab/commands.h"
 #include "options/options.h"
 
+#include <pellucid/file.h>
 #include <pellucid/pellucid.h>
 
 #include <fmt/format.h>
@@ -19,7 +20,10 @@ struct DifferenceArguments {
     std::optional<double> exposure_ev;
 };
 
-bool is_linear(const std::string& file) { return file.ends_with(".exr") || file.ends_with(".hdr"); }
+bool is_linear(const std::string& file) {
+    const std::string extension = lower_extension(file);
+    return extension == ".exr" || extension == ".hdr";
+}
 
 /// The first three channels of a picture file: R, G, B.
 Image read_rgb(const std::string& file) {

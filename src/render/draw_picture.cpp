@@ -68,8 +68,8 @@ std::vector<std::uint32_t> Renderer::Impl::samples_for(const Frame& frame, const
                                                        RenderResult& part) {
     PixelNoise noise;
     for (std::uint32_t i = 0; i < kPilotSamples; ++i) {
-        // Numbers that no sample of the picture has.
         const Progress of_sample = part_of(progress, double(i) / kPilotSamples, double(i + 1) / kPilotSamples);
+        // Numbers that no sample of the picture has.
         noise.add(
             download_rgb(device, draw_sample(frame, chosen, settings, settings.most_samples + i, of_sample, part)));
     }

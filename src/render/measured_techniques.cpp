@@ -2,6 +2,8 @@
 
 #include "bake/bake_cache.h"
 
+#include <pellucid/error.h>
+#include <pellucid/file.h>
 #include <pellucid/renderer.h>
 
 #include <fmt/format.h>
@@ -11,7 +13,6 @@
 #include <chrono>
 #include <fstream>
 #include <mutex>
-#include <system_error>
 
 namespace pellucid {
 namespace {
@@ -56,15 +57,14 @@ nlohmann::json read_kept(const std::filesystem::path& file) {
     return kept.is_object() ? kept : nlohmann::json::object();
 }
 
-/// Complete or not at all: others may read it now. A folder that cannot be written is no error.
+/// A folder that cannot be written is no error: then others measure again.
 void write_kept(const std::filesystem::path& file, const nlohmann::json& kept) {
-    std::error_code ignored;
-    std::filesystem::create_directories(file.parent_path(), ignored);
-    std::filesystem::path part = file;
-    part += fmt::format(".part-{}", Clock::now().time_since_epoch().count());
-    if (std::ofstream stream(part); !(stream << kept.dump(1) << '\n')) return;
-    std::filesystem::rename(part, file, ignored);
-    if (ignored) std::filesystem::remove(part, ignored);
+    try {
+        std::filesystem::create_directories(file.parent_path());
+        write_text_file(file, kept.dump(1) + '\n');
+    } catch (const Error&) {
+    } catch (const std::filesystem::filesystem_error&) {
+    }
 }
 
 bool has_all(const nlohmann::json& times, std::span<const std::string_view> techniques) {

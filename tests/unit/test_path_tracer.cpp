@@ -20,25 +20,6 @@ Scene load_glass(const char* shape, float ior) {
     return load_scene(std::string("shape:") + shape, options);
 }
 
-/// A surface that scatters all light evenly: an index of 1 has no coat.
-Material matt(glm::vec3 albedo) {
-    Material material;
-    material.base_color = glm::vec4(albedo, 1.0f);
-    material.roughness = 1.0f;
-    material.ior = 1.0f;
-    return material;
-}
-
-/// A horizontal square of 2 `half` metres at height `y` that faces up.
-Mesh floor_at(float y, float half = 50.0f) {
-    Mesh mesh;
-    mesh.positions = {{-half, y, half}, {half, y, half}, {half, y, -half}, {-half, y, -half}};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    mesh.normals.assign(4, {0, 1, 0});
-    mesh.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    return mesh;
-}
-
 PathTracedImage path_trace(const Scene& scene, const Camera& camera, const Environment& environment, std::uint32_t size,
                            std::uint32_t samples, std::uint32_t seed = 1, std::uint32_t threads = 0) {
     PathTraceSettings settings;

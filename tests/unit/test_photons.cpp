@@ -17,23 +17,6 @@ namespace {
 using namespace test;
 using std::numbers::pi;
 
-Material matt(float albedo) {
-    Material material;
-    material.base_color = glm::vec4(glm::vec3(albedo), 1.0f);
-    material.roughness = 1.0f;
-    material.ior = 1.0f;
-    return material;
-}
-
-/// A horizontal square of 2 `half` metres at height `y` that faces up.
-Mesh floor_at(float y, float half = 50.0f) {
-    Mesh mesh;
-    mesh.positions = {{-half, y, half}, {half, y, half}, {half, y, -half}, {-half, y, -half}};
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    mesh.normals.assign(4, {0, 1, 0});
-    return mesh;
-}
-
 Light sun(glm::vec3 direction, float irradiance = 3.0f) {
     Light light;
     light.kind = Light::Kind::kDirectional;

@@ -83,4 +83,24 @@ inline double agreement(const std::vector<RefractedPath>& a, const std::vector<R
     return alike / covered;
 }
 
+/// A surface that scatters all light evenly: an index of 1 has no coat.
+inline Material matt(glm::vec3 albedo) {
+    Material material;
+    material.base_color = glm::vec4(albedo, 1.0f);
+    material.roughness = 1.0f;
+    material.ior = 1.0f;
+    return material;
+}
+inline Material matt(float albedo) { return matt(glm::vec3(albedo)); }
+
+/// A horizontal square of 2 `half` metres at height `y` that faces up.
+inline Mesh floor_at(float y, float half = 50.0f) {
+    Mesh mesh;
+    mesh.positions = {{-half, y, half}, {half, y, half}, {half, y, -half}, {-half, y, -half}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.normals.assign(4, {0, 1, 0});
+    mesh.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    return mesh;
+}
+
 }  // namespace pellucid::test

@@ -4,27 +4,13 @@
 
 #include "techniques/visibility_layers/visibility_layers.h"
 
-#include <algorithm>
-#include <array>
-
 namespace pellucid {
 namespace {
 
-constexpr ParameterInfo kRebuild{"rebuild",
-                                 "",
-                                 0,
-                                 0,
-                                 2,
-                                 true,
-                                 "hierarchy: 0 kept, and refitted where vertices have moved; to measure that, 1 "
-                                 "refitted and 2 built in every frame"};
-
-constexpr auto kParameters = [] {
-    std::array<ParameterInfo, kPathParameters.size() + 1> all{};
-    std::copy(kPathParameters.begin(), kPathParameters.end(), all.begin());
-    all.back() = kRebuild;
-    return all;
-}();
+constexpr auto kParameters =
+    path_parameters_and({"rebuild", "", 0, 0, 2, true,
+                         "hierarchy: 0 kept, and refitted where vertices have moved; to measure "
+                         "that, 1 refitted and 2 built in every frame"});
 
 /// Vertices that have moved once are likely to move again.
 StructureUse structure_use(std::uint32_t rebuild, bool moved) {

@@ -310,19 +310,9 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
         .follow();
 }
 
-constexpr auto kParameters = [] {
-    std::array<ParameterInfo, kPathParameters.size() + 1> all{};
-    std::copy(kPathParameters.begin(), kPathParameters.end(), all.begin());
-    all.back() = {
-        "finish",
-        "",
-        1,
-        0,
-        1,
-        true,
-        "1: paths that the view's map loses, as beyond the edge of the view, are finished by maps of the meshes"};
-    return all;
-}();
+constexpr auto kParameters = path_parameters_and(
+    {"finish", "", 1, 0, 1, true,
+     "1: paths that the view's map loses, as beyond the edge of the view, are finished by maps of the meshes"});
 
 }  // namespace
 

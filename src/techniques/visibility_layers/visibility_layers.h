@@ -5,6 +5,7 @@
 #include "techniques/shaders.h"
 #include "techniques/technique.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -25,6 +26,14 @@ inline constexpr std::array kPathParameters = {
     ParameterInfo{"layers", "", 1, 1, 64, true,
                   "surfaces along a view ray that the AOV `layers` counts at most; paths look at all that there are"},
 };
+
+/// These, and one more of the technique's own.
+constexpr auto path_parameters_and(const ParameterInfo& own) {
+    std::array<ParameterInfo, kPathParameters.size() + 1> all{};
+    std::copy(kPathParameters.begin(), kPathParameters.end(), all.begin());
+    all.back() = own;
+    return all;
+}
 
 /// Twin of Push in visibility_bindings.glsl.
 struct PathPush {
