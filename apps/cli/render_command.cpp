@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "options/arguments.h"
+#include "options/light_options.h"
 #include "options/named_technique.h"
 #include "options/options.h"
 #include "options/progress_bar.h"
@@ -41,6 +42,7 @@ struct RenderArguments {
     std::string layer_builder = "automatic";
     std::vector<std::string> aovs;
     std::optional<std::string> json;
+    LightArguments light;
     ThicknessArguments thickness;
     SceneArguments how;
     DeviceArguments device;
@@ -76,6 +78,7 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     settings.samples = arguments.samples;
     settings.error = float(arguments.error);
     settings.most_samples = arguments.most_samples;
+    settings.light = light_options(arguments.light);
     settings.thickness = thickness_settings(arguments.thickness);
     settings.tonemap = parse_tonemap(arguments.tonemap);
     settings.exposure_ev = float(arguments.exposure_ev);
@@ -117,6 +120,9 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"width", settings.width},
                                 {"height", settings.height},
                                 {"samples", settings.samples},
+                                {"light", arguments.light.transport},
+                                {"shadows", arguments.light.shadows},
+                                {"bounces", settings.light.bounces},
                                 {"objects", scene.objects.size()},
                                 {"triangles", scene.triangle_count()},
                                 {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}},
@@ -281,6 +287,7 @@ void add_render_command(CLI::App& app) {
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
+    add_light_options(*command, a.light);
     add_thickness_options(*command, a.thickness, "--thickness-method", "--thickness-layers");
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);

@@ -1,6 +1,7 @@
 #include "lab/accuracy.h"
 #include "lab/commands.h"
 #include "lab/thickness_compare.h"
+#include "options/light_options.h"
 #include "options/options.h"
 #include "options/progress_bar.h"
 
@@ -34,6 +35,7 @@ struct CompareArguments {
     bool thickness = false;
     std::optional<std::string> pictures;
     ThicknessArguments thickness_how;
+    LightArguments light;
     SceneArguments how;
     DeviceArguments device;
     ParameterArguments parameters;
@@ -243,6 +245,9 @@ RenderSettings settings_of(const CompareArguments& arguments) {
     settings.samples = arguments.samples;
     settings.tonemap = parse_tonemap(arguments.tonemap);
     settings.exposure_ev = float(arguments.exposure_ev);
+    settings.light = light_options(arguments.light);
+    // Exact paths are shaded in the light of the environment.
+    if (!find_technique(arguments.truth).all_light) settings.light.transport = LightTransport::kEnvironment;
     return settings;
 }
 
@@ -351,6 +356,7 @@ void add_compare_command(CLI::App& app, const std::string& command_line) {
     command->add_flag("--thickness", a.thickness,
                       "Compare the ways to find the thickness of what is translucent instead, against rays of Embree, "
                       "for every light: from behind, from the side and from the top");
+    add_light_options(*command, a.light);
     add_light_map_options(*command, a.thickness_how, "--thickness-layers");
     command->add_option("--pictures", a.pictures, "With --thickness: pictures of thickness and error, .png")
         ->type_name("DIR");

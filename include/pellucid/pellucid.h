@@ -11,6 +11,7 @@
 #include <pellucid/file.h>
 #include <pellucid/image.h>
 #include <pellucid/layer_builder.h>
+#include <pellucid/light_options.h>
 #include <pellucid/measure.h>
 #include <pellucid/progress.h>
 #include <pellucid/reference.h>

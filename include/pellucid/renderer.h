@@ -6,6 +6,7 @@
 #include <pellucid/environment.h>
 #include <pellucid/image.h>
 #include <pellucid/layer_builder.h>
+#include <pellucid/light_options.h>
 #include <pellucid/progress.h>
 #include <pellucid/reference.h>
 #include <pellucid/refracted_path.h>
@@ -43,6 +44,7 @@ struct RenderSettings {
     /// False: the samples stand for frames that follow each other, each drawn with what a picture of one sample would
     /// spend; for timing. A technique may do more for each sample of a still.
     bool still = true;
+    LightOptions light;
     ThicknessSettings thickness;  ///< of translucent objects that lights shine through
     ToneMap tonemap = ToneMap::kNeutral;
     float exposure_ev = 0.0f;  ///< stops; radiance is multiplied by 2^exposure_ev; kKrawczyk: on top of what adapts

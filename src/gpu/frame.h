@@ -15,6 +15,15 @@ struct WantedSamples {
     std::uint32_t sample = 0;  ///< that this frame draws, from 0: pixels that want no more need not be drawn
 };
 
+/// The light that a frame follows to opaque surfaces, beyond that of an environment which nothing hides.
+struct FrameLight {
+    std::uint32_t lights = 0;     ///< of GpuScene::lights; 0: none is followed
+    bool tinted_shadows = false;  ///< glass lets the straight ray pass, weakened, instead of blocking it
+    std::uint32_t bounces = 0;    ///< diffuse reflections along a path, 0 to 7
+
+    bool any() const { return lights > 0 || bounces > 0; }
+};
+
 /// What every pass of a frame may look at.
 struct Frame {
     Workspace& workspace;
@@ -26,6 +35,7 @@ struct Frame {
     vk::Extent2D extent;                   ///< of the tile that is drawn
     glm::uvec2 first{0};                   ///< its first pixel in the picture
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
+    FrameLight light = {};
     std::optional<WantedSamples> wanted_samples = std::nullopt;
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
 
@@ -36,6 +46,7 @@ struct Frame {
                                   reads("Vertices", scene.vertices),
                                   reads("Appearance", scene.appearance),
                                   reads("Textures", scene.textures),
+                                  reads("SceneLights", scene.lights),
                                   reads("texture_pages", scene.texture_pages),
                                   reads_layer("environment_map", environment, 0),
                                   reads_layer("filtered_environment", filtered_environment, 0)};

@@ -1,5 +1,7 @@
 #include "gpu/gpu_scene.h"
 
+#include "gpu/punctual_light.h"
+
 #include "gpu/texture_pages.h"
 
 #include <pellucid/error.h>
@@ -205,6 +207,14 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
     materials = upload_buffer(device, "the scene's materials", material_records, Usage::eStorageBuffer);
     texture_pages = texture_table.upload_pages(device);
     textures = upload_buffer(device, "the scene's textures", texture_table.records(), Usage::eStorageBuffer);
+    set_lights(device, scene.lights);
+}
+
+void GpuScene::set_lights(const Device& device, std::span<const Light> given) {
+    std::vector<PunctualLight> records(std::max<std::size_t>(given.size(), 1));  // something has to be bound
+    std::transform(given.begin(), given.end(), records.begin(), punctual_light);
+    light_count = std::uint32_t(given.size());
+    lights = upload_buffer(device, "the scene's lights", records, vk::BufferUsageFlagBits::eStorageBuffer);
 }
 
 void GpuScene::prepare_topology(const Device& device, const Scene& scene) {

@@ -41,6 +41,9 @@ struct GpuScene {
     /// be in flight.
     void move_vertices(const Device& device, const Scene& scene, std::span<const int> moved);
 
+    /// Uploads the lights from now on. No frame may be in flight.
+    void set_lights(const Device& device, std::span<const Light> given);
+
     /// Makes `topology`, or brings it up to date; `scene` as it is now.
     void prepare_topology(const Device& device, const Scene& scene);
 
@@ -51,6 +54,8 @@ struct GpuScene {
     Buffer materials;   ///< MaterialRecord[]
     Buffer textures;    ///< TextureRecord[]
     GpuImage texture_pages;
+    Buffer lights;  ///< PunctualLight[] (punctual_light.glsl)
+    std::uint32_t light_count = 0;
 
     std::uint32_t object_count = 0;
     std::uint64_t triangle_count = 0;

@@ -47,8 +47,38 @@ vec3 opaque_radiance(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
     return radiance + (at_normal * facets.x + at_grazing * facets.y) * filtered_environment_radiance(lobe, roughness);
 }
 
+// BRDF times the cosine to the light, for the two unit directions away from the surface; highlights of facets and the
+// diffuse layer under the coat, as src/reference/bsdf.h has them. A perfect mirror has none.
+vec3 opaque_reflection(OpaqueSurface surface, vec3 normal, vec3 to_viewer, vec3 to_light) {
+    const float kPi = 3.14159265, kSmooth = 1e-4;  // of alpha; below, a surface counts as a perfect mirror
+    float cos_viewer = max(dot(normal, to_viewer), 1e-4), cos_light = dot(normal, to_light);
+    if (cos_light <= 0.0) return vec3(0.0);
+    float root = (surface.ior - 1.0) / (surface.ior + 1.0), coat_at_normal = root * root;
+    float mean_coat = coat_at_normal > 0.0 ? coat_at_normal + (1.0 - coat_at_normal) / 21.0 : 0.0;
+    float passes = (1.0 - coat_reflectance(surface.ior, cos_viewer)) * (1.0 - coat_reflectance(surface.ior, cos_light)) /
+                   (1.0 - mean_coat);
+    vec3 reflected = (1.0 - surface.metallic) * surface.base_color * (passes * cos_light / kPi);
+    float alpha = surface.roughness * surface.roughness;
+    if (alpha < kSmooth) return reflected;
+    vec3 m = normalize(to_viewer + to_light);
+    float cos_m = dot(normal, m), a2 = alpha * alpha;
+    vec3 across = cross(normal, m);  // its length is the sine, without the cancellation of 1 - cos^2
+    float d = dot(across, across) + a2 * cos_m * cos_m;
+    vec2 cos2 = vec2(cos_viewer * cos_viewer, cos_light * cos_light);
+    vec2 lambda = 0.5 * (sqrt(1.0 + a2 * max(1.0 - cos2, 0.0) / cos2) - 1.0);
+    vec3 at_normal = mix(vec3(coat_at_normal), surface.base_color, surface.metallic);
+    vec3 fresnel = mix(at_normal, vec3(greaterThan(at_normal, vec3(0.0))), schlick_weight(min(dot(to_viewer, m), 1.0)));
+    return reflected + fresnel * (a2 / (kPi * d * d) / (4.0 * cos_viewer * (1.0 + lambda.x + lambda.y)));
+}
+
 vec3 emitted_radiance(MaterialRecord material, vec2 first_set, vec2 second_set) {
     return material.emission.rgb * sample_texture(material.emission_texture, first_set, second_set).rgb;
+}
+
+// Of a material at texture coordinates of two sets; `base` is its base colour with textures.
+OpaqueSurface opaque_surface(MaterialRecord material, vec3 base, vec2 first_set, vec2 second_set) {
+    vec2 factors = sample_texture(material.metallic_roughness_texture, first_set, second_set).bg;
+    return OpaqueSurface(base, material.metallic * factors.x, material.roughness * factors.y, material.ior);
 }
 
 // Radiance towards the viewer of a place on a surface with texture coordinates of two sets; `base` is its base colour
@@ -56,9 +86,8 @@ vec3 emitted_radiance(MaterialRecord material, vec2 first_set, vec2 second_set) 
 vec3 opaque_material_radiance(MaterialRecord material, vec3 base, vec2 first_set, vec2 second_set, vec3 normal,
                               vec3 to_viewer) {
     if ((material.flags & PELLUCID_MATERIAL_UNLIT) != 0u) return base;
-    vec2 factors = sample_texture(material.metallic_roughness_texture, first_set, second_set).bg;
-    OpaqueSurface surface = OpaqueSurface(base, material.metallic * factors.x, material.roughness * factors.y, material.ior);
-    return opaque_radiance(surface, normal, to_viewer) + emitted_radiance(material, first_set, second_set);
+    return opaque_radiance(opaque_surface(material, base, first_set, second_set), normal, to_viewer) +
+           emitted_radiance(material, first_set, second_set);
 }
 
 #endif

@@ -21,6 +21,7 @@ struct Opaque {
     const GpuImage& radiance;  ///< RGBA32F, scene-linear
     const GpuImage& depth;     ///< R32F, metres; PELLUCID_EMPTY_DEPTH where there is none
     const GpuImage& object;    ///< R32UI, its index; undefined where there is none
+    const GpuImage& triangle;  ///< R32UI, over all objects; PELLUCID_NO_TRIANGLE where there is none
 };
 
 class LayerSource;
@@ -45,7 +46,7 @@ struct Layers {
     std::vector<Binding> group = {reads("layer_depth", depth),          reads("layer_triangle", triangle),
                                   reads("layer_normal", normal),        reads("PixelList", covered),
                                   reads("opaque_depth", opaque.depth),  reads("opaque_radiance", opaque.radiance),
-                                  reads("opaque_object", opaque.object)};
+                                  reads("opaque_object", opaque.object), reads("opaque_triangle", opaque.triangle)};
     /// All of this by the names that shaders have for it; "PixelList" is `covered`, unless the pass has another.
     Binding bindings() const { return all_of(group); }
 };

@@ -29,9 +29,22 @@ std::vector<std::string> volumes_of_truth(const Scene& scene) {
     return lines;
 }
 
+/// What frames leave out of the light of lights. Numbers of refracting and of opaque objects.
+std::vector<std::string> light_left_out(const Scene& scene, const LightOptions& light, std::size_t refractive,
+                                        std::size_t opaque) {
+    const std::size_t translucent = translucent_objects(scene), count = scene.lights.size();
+    const bool followed = light.transport != LightTransport::kEnvironment && opaque > 0;
+    if (!followed && translucent == 0)
+        return {fmt::format("{} light{} not drawn", count, count == 1 ? " is" : "s are")};
+    if (!followed && translucent < scene.objects.size()) return {"lights light translucent objects only"};
+    if (!followed || refractive == 0) return {};
+    return {light.shadows == Shadows::kExact ? "glass casts shadows, but the light of lights that it bends is not drawn"
+                                             : "the light of lights goes straight through glass"};
+}
+
 }  // namespace
 
-std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique) {
+std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light) {
     std::vector<std::string> lines;
     if (!scene.volume_objects.empty() && !technique.volumes) {
         const std::size_t count = scene.volume_objects.size();
@@ -75,14 +88,10 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
                   "walls"
                 : "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
-    const std::size_t translucent = translucent_objects(scene);
-    if (technique.volumes) {
-        // It says itself what lights do: glass may have become a volume.
-    } else if (!scene.lights.empty() && translucent == 0) {
-        lines.push_back(
-            fmt::format("{} light{} not drawn", scene.lights.size(), scene.lights.size() == 1 ? " is" : "s are"));
-    } else if (!scene.lights.empty() && translucent < scene.objects.size()) {
-        lines.push_back("lights light translucent objects only");
+    // A technique that draws volumes says itself what lights do: glass may have become a volume.
+    if (!technique.volumes && !scene.lights.empty()) {
+        const std::vector<std::string> left_out = light_left_out(scene, light, refractive, opaque);
+        lines.insert(lines.end(), left_out.begin(), left_out.end());
     }
     return lines;
 }

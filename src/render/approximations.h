@@ -13,7 +13,7 @@
 namespace pellucid {
 
 /// What of `scene` the technique draws otherwise than it is: one line each, for the user.
-std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique);
+std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light);
 
 /// The same of solids, for techniques that do not count what a ray is inside of.
 std::vector<std::string> unknown_solids(const SceneTopology& topology, const TechniqueInfo& technique);

@@ -15,6 +15,7 @@ namespace pellucid {
 namespace {
 
 constexpr std::uint32_t kMaxSamples = 1u << 20;
+constexpr std::uint32_t kMostBounces = 7;            ///< what a path has bits for
 constexpr std::uint32_t kLongestPicture = 1u << 20;  ///< pixels; single precision tells their halves apart
 
 std::uint64_t result_bytes(const RenderSettings& settings) {
@@ -59,6 +60,8 @@ void check_settings(const RenderSettings& settings, const Device& device) {
     }
     if (!(settings.adaptation_s >= 0.0f))
         throw Error(fmt::format("time to adapt must be at least 0 s, not {}", settings.adaptation_s));
+    if (settings.light.bounces > kMostBounces)
+        throw Error(fmt::format("bounces must be 0 to {}, not {}", kMostBounces, settings.light.bounces));
     check_thickness(settings.thickness, device);
     check_aov_names(settings.aovs);
 }

@@ -1,5 +1,7 @@
 #include "render/frame.h"
 
+#include "techniques/visibility_layers/visibility_layers.h"
+
 namespace pellucid {
 FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source,
                          TransmittedLight& transmitted, const TracedView* traced) {
@@ -8,6 +10,8 @@ FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSett
     const Opaque opaque = draw_opaque(recorder, frame);
     transmitted.add(recorder, frame, opaque);
     const Layers layers = source.build(recorder, frame, opaque, {frame.scene.refractive, layer_count});
+    if (settings.technique && !settings.technique->info.whole_scene && frame.light.any())
+        light_surfaces(recorder, frame, layers);
     const Refraction refraction = settings.truth
                                       ? upload_exact_paths(frame, *traced, settings.parameters)
                                       : settings.technique->record(recorder, frame, layers, settings.parameters);

@@ -3,6 +3,7 @@
 #include "render/check_settings.h"
 #include "render/renderer_impl.h"
 #include "scene/check_scene.h"
+#include "techniques/visibility_layers/visibility_layers.h"
 
 #include <pellucid/error.h>
 
@@ -43,7 +44,7 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
     if (const std::string lacking = lacking_for(device, info); !lacking.empty()) {
         throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
     }
-    warnings = approximations(cpu.scene(), info);
+    warnings = approximations(cpu.scene(), info, settings.light);
     ParameterMap parameters = settings.parameters;
     parameters.merge(choice.parameters);  // what is there already stays
     FrameSettings chosen{.info = info,
@@ -72,20 +73,20 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
     return chosen;
 }
 
-void Renderer::Impl::prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
-                             std::vector<std::string>& warnings) {
+void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& light, const Camera& view,
+                             const Progress& progress, std::vector<std::string>& warnings) {
     if (chosen.truth) return;
     if (!chosen.info.whole_scene) {
         if (!scene->topology) scene->prepare_topology(device, cpu.scene());
         scene->topology->look_from(device, cpu.scene(), view);
         for (std::string& line : unknown_solids(*scene->topology, chosen.info)) warnings.push_back(std::move(line));
     }
-    if (chosen.technique->prepare == nullptr) return;
     // Shapes that a deforming mesh passes through are not worth a file each.
     bake::BakeCache passing{std::filesystem::path()};
     bake::BakeCache& cache = scene->moves > 0 ? passing : bake_cache;
-    chosen.technique->prepare({device, cpu.scene(), *scene, cache, options.threads, progress, warnings},
-                              chosen.parameters);
+    const Preparation preparation{device, cpu.scene(), *scene, cache, options.threads, progress, warnings};
+    if (!chosen.info.whole_scene && light.any()) prepare_light(preparation);
+    if (chosen.technique->prepare != nullptr) chosen.technique->prepare(preparation, chosen.parameters);
     if (scene->topology) scene->topology->look_from(device, cpu.scene(), view);
 }
 
@@ -100,6 +101,13 @@ void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& set
     std::memcpy(constants->mapped(), &values, sizeof(values));
 }
 
+FrameLight Renderer::Impl::frame_light(const LightOptions& wanted) const {
+    if (scene->opaque.empty() || wanted.transport == LightTransport::kEnvironment) return {};
+    return {.lights = scene->light_count,
+            .tinted_shadows = wanted.shadows == Shadows::kTinted,
+            .bounces = wanted.transport == LightTransport::kFull ? wanted.bounces : 0};
+}
+
 Frame Renderer::Impl::frame_of(const RenderSettings& settings) {
     return {workspace,
             *scene,
@@ -107,7 +115,10 @@ Frame Renderer::Impl::frame_of(const RenderSettings& settings) {
             *environment_map,
             filtered_environment_for_scene(),
             std::uint32_t(environment.kind),
-            {settings.width, settings.height}};
+            {settings.width, settings.height},
+            glm::uvec2(0),
+            1,
+            frame_light(settings.light)};
 }
 
 void Renderer::Impl::forget_frame() {
@@ -155,6 +166,7 @@ void Renderer::set_positions(const std::vector<MovedMesh>& moved) {
 void Renderer::set_lights(const std::vector<Light>& lights) {
     check_lights(lights);
     impl_->cpu.set_lights(lights);
+    impl_->scene->set_lights(impl_->device, lights);
 }
 
 void Renderer::set_environment(const Environment& environment) {
@@ -179,7 +191,8 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     check_settings(settings, impl.device);
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
-    impl.prepare(chosen, impl.camera_for(settings), settings.progress, result.warnings);
+    impl.prepare(chosen, impl.frame_light(settings.light), impl.camera_for(settings), settings.progress,
+                 result.warnings);
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
     Frame frame = impl.frame_of(settings);
     if (settings.view == View::kWavefront) frame.front_exposure = std::exp2(settings.exposure_ev);

@@ -59,7 +59,7 @@ struct Renderer::Impl {
     }
     FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
     /// Lets the technique compute what it wants of the scene; ParameterValues of `chosen` say what.
-    void prepare(const FrameSettings& chosen, const Camera& view, const Progress& progress,
+    void prepare(const FrameSettings& chosen, const FrameLight& light, const Camera& view, const Progress& progress,
                  std::vector<std::string>& warnings);
     /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
     /// the pass times. `progress` is of this sample.
@@ -84,6 +84,7 @@ struct Renderer::Impl {
     /// The image that a truth traces itself.
     void trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
     Frame frame_of(const RenderSettings& settings);
+    FrameLight frame_light(const LightOptions& wanted) const;
     /// Takes back what a frame that failed has left. Rooms for what frames need are learnt anew.
     void forget_frame();
     std::vector<std::uint32_t> all_lights() const {

@@ -41,6 +41,17 @@ LayerBuilder parse_layer_builder(std::string_view name) {
                                          {"dual-depth-peeling", LayerBuilder::kDualDepthPeeling}}});
 }
 
+LightTransport parse_light_transport(std::string_view name) {
+    return parse_name<LightTransport, 3>("light transport", name,
+                                         {{{"environment", LightTransport::kEnvironment},
+                                           {"direct", LightTransport::kDirect},
+                                           {"full", LightTransport::kFull}}});
+}
+
+Shadows parse_shadows(std::string_view name) {
+    return parse_name<Shadows, 2>("kind of shadow", name, {{{"exact", Shadows::kExact}, {"tinted", Shadows::kTinted}}});
+}
+
 ToneMap parse_tonemap(std::string_view name) {
     return parse_name<ToneMap, 5>("tone map", name,
                                   {{{"none", ToneMap::kNone},

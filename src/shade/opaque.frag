@@ -9,6 +9,7 @@ layout(set = 0, binding = 6) uniform texture2D filtered_environment;
 layout(location = 0) out vec4 out_radiance;
 layout(location = 1) out float out_depth;
 layout(location = 2) out uint out_object;
+layout(location = 3) out uint out_triangle;
 
 void main() {
     MaterialRecord material = materials[material_index];
@@ -24,5 +25,6 @@ void main() {
                                                  facing_normal(view_direction), -view_direction), 1.0);
     out_depth = depth;
     out_object = object;
+    out_triangle = triangle;
     gl_FragDepth = eye_depth() * frame.depth_scale;
 }

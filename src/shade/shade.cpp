@@ -22,24 +22,27 @@ Program::Graphics surface_program(ShaderCode fragment, std::vector<vk::Format> c
 Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     Workspace& workspace = frame.workspace;
     const Program& program = workspace.graphics(surface_program(
-        shaders::opaque_frag, {kRadianceFormat, vk::Format::eR32Sfloat, vk::Format::eR32Uint}, Blend::kReplace, true));
+        shaders::opaque_frag, {kRadianceFormat, vk::Format::eR32Sfloat, vk::Format::eR32Uint, vk::Format::eR32Uint},
+        Blend::kReplace, true));
     const GpuImage& radiance = workspace.image("opaque radiance", kRadianceFormat, frame.extent);
     const GpuImage& depth = workspace.image("opaque depth", vk::Format::eR32Sfloat, frame.extent);
     const GpuImage& object = workspace.image("opaque object", vk::Format::eR32Uint, frame.extent);
+    const GpuImage& triangle = workspace.image("opaque triangle", vk::Format::eR32Uint, frame.extent);
     const GpuImage& nearest = workspace.image("opaque depth test", vk::Format::eD32Sfloat, frame.extent);
 
     const Recorder::Scope scope(recorder, "opaque");
     if (frame.scene.opaque.empty()) {
         recorder.clear(depth, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
-        return {radiance, depth, object};
+        return {radiance, depth, object, triangle};
     }
     const RenderTarget target{.extent = frame.extent,
                               .colors = {{&radiance, 0, clear_to(0.0f)},
                                          {&depth, 0, clear_to(float(PELLUCID_EMPTY_DEPTH))},
-                                         {&object, 0, clear_to({0u, 0u, 0u, 0u})}},
+                                         {&object, 0, clear_to({0u, 0u, 0u, 0u})},
+                                         {&triangle, 0, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})}},
                               .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}};
     recorder.draw(program, {frame.bindings()}, target, frame.scene.opaque);
-    return {radiance, depth, object};
+    return {radiance, depth, object, triangle};
 }
 
 ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers) {

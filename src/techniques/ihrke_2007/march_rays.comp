@@ -44,7 +44,7 @@ void branch_from(PathState state, vec3 place, vec3 way, vec3 weight, uint mark) 
     state.path.direction = way;
     state.path.transmittance = weight;
     state.mark = mark & ~(kMainPath | kEntersVolume);
-    push_branch(state, branch_capacity);
+    push_branch(state, branch_capacity, true);
 }
 
 void leave_boundary(inout PathState state, Boundary boundary, vec3 began, vec3 x, vec3 v, VolumeRecord volume,

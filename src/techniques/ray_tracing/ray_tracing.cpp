@@ -27,7 +27,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
 
 constexpr std::initializer_list<const ShaderCode*> kPrograms = {
     &shaders::begin_paths_comp, &shaders::begin_traced_at_eye_comp, &shaders::follow_traced_paths_comp,
-    &shaders::end_paths_comp};
+    &shaders::begin_on_opaque_comp, &shaders::end_paths_comp};
 
 }  // namespace
 

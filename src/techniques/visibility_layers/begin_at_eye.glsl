@@ -40,6 +40,8 @@ void main() {
     bool begins = in_medium;
     if (first != PELLUCID_NO_TRIANGLE)
         begins = begins || !kVolumes || proxy == kSharpInterfaces || (traits[object_of(triangle_index(first))] & kReplaced) == 0u;
+    // What is opaque has been drawn without lights so far.
+    if (kLightsSurfaces && whole_picture != 0u) begins = begins || imageLoad(opaque_depth, at).r < PELLUCID_EMPTY_DEPTH;
     if (kVolumes) {
         float straight, opaque = imageLoad(opaque_depth, at).r;
         begins = begins || (light_count > 0u && opaque < PELLUCID_EMPTY_DEPTH);  // drawn without lights so far

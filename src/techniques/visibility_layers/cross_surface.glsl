@@ -108,7 +108,7 @@ void branch_off(PathState state, Crossing crossing, vec3 direction, vec3 weight,
     state.path.transmittance = weight;
     state.mark = mark;
     settle(state, crossing);
-    push_branch(state, branch_capacity);
+    push_branch(state, branch_capacity, true);
 }
 
 // How light meets a boundary: what all ways from there have in common.

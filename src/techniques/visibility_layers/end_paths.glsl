@@ -37,15 +37,18 @@ layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]
 const float kBounceRoughness = 0.5;
 vec3 bounce_light(vec3 direction) { return filtered_environment_radiance(direction, kBounceRoughness); }
 
-struct OpaqueLight {
-    vec3 radiance;  // as if the surface stood alone under the environment
-    float alpha;    // less the cutoff: below 0 where there is a hole
+// The opaque surface at which a path has ended.
+struct OpaquePoint {
+    OpaqueSurface surface;
     vec3 normal;    // unit, on the path's side
-    vec3 diffuse;   // albedo
+    vec3 emission;  // radiance; of an unlit surface its base colour, which is all that is seen of it
+    bool unlit;
+    bool translucent;
+    float alpha;    // less the cutoff: below 0 where there is a hole
+    float ior;      // of the medium on the path's side
 };
 
-// Of the opaque surface that the path stands on.
-OpaqueLight opaque_light(PathState state) {
+OpaquePoint opaque_point(PathState state) {
     Path path = state.path;
     uint standing = state.standing, object = object_of(standing);
     ObjectRecord o = objects[object];
@@ -66,42 +69,51 @@ OpaqueLight opaque_light(PathState state) {
     }
     MaterialRecord material = materials[o.material];
     vec4 base = material.base_color * color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
-    vec3 light = opaque_material_radiance(material, base.rgb, texcoords.xy, texcoords.zw,
-                                          faceforward(normal, path.direction, normal), -path.direction);
-    // Paths carry radiance over n^2: what a surface emits into a medium, and what lamps in it throw, is divided by that.
-    float ior = filling_iors(filling_body(state.media)).g;
-    if (ior != 1.0 && (material.flags & PELLUCID_MATERIAL_UNLIT) == 0u)
-        light -= (1.0 - 1.0 / (ior * ior)) * emitted_radiance(material, texcoords.xy, texcoords.zw);
-    bool unlit = (material.flags & PELLUCID_MATERIAL_UNLIT) != 0u;
-    float metallic = material.metallic *
-                     sample_texture(material.metallic_roughness_texture, texcoords.xy, texcoords.zw).b;
-    float root = (material.ior - 1.0) / (material.ior + 1.0);
-    vec3 facing = faceforward(normal, path.direction, normal);
-    vec3 diffuse = unlit ? vec3(0.0) : (1.0 - metallic) * (1.0 - root * root) * base.rgb;
-#ifdef PELLUCID_LIT
-    if (!unlit) light += diffuse / (3.14159265 * ior * ior) * irradiance_of_lights(path.position, facing);
-#endif
-    return OpaqueLight(light, base.a - material.alpha_cutoff, facing, diffuse);
+    OpaquePoint point;
+    point.surface = opaque_surface(material, base.rgb, texcoords.xy, texcoords.zw);
+    point.normal = faceforward(normal, path.direction, normal);
+    point.unlit = (material.flags & PELLUCID_MATERIAL_UNLIT) != 0u;
+    point.emission = point.unlit ? base.rgb : emitted_radiance(material, texcoords.xy, texcoords.zw);
+    point.translucent = material.translucent != 0u;
+    point.alpha = base.a - material.alpha_cutoff;
+    point.ior = filling_iors(filling_body(state.media)).g;
+    return point;
 }
+
+// Of an opaque surface, what it emits and reflects of an environment that nothing hides. Paths carry radiance over n^2: what
+// a surface emits into a medium, and what lamps in it throw, is divided by that.
+vec3 light_of(OpaquePoint point, vec3 direction) {
+    if (point.unlit) return point.emission;
+    return opaque_radiance(point.surface, point.normal, -direction) + point.emission / (point.ior * point.ior);
+}
+
+vec3 diffuse_albedo(OpaquePoint point) {
+    float root = (point.surface.ior - 1.0) / (point.surface.ior + 1.0);
+    return point.unlit ? vec3(0.0) : (1.0 - point.surface.metallic) * (1.0 - root * root) * point.surface.base_color;
+}
+
+uint bounces(PathState state) { return (state.mark & kBounceMask) >> kBounceShift; }
 
 // One direction of those from which the surface has been lit, to see what is there instead of the environment. What it
 // then finds counts, less what was assumed: surfaces that stand alone stay as they are, without noise.
-void bounce(ivec2 texel, PathState state, OpaqueLight light) {
-    vec3 weight = state.path.transmittance * light.diffuse;
-    uint branches_before = waiting[state.pixel].y;
-    if (has_mark(state, kBounced) || branches_before >= most_branches || !(max(weight.r, max(weight.g, weight.b)) > threshold)) return;
-    vec2 u = random_numbers(hash(uvec3(texel + first_pixel(), 77u + branches_before)).x, state.path.events);
+void bounce(ivec2 texel, PathState state, OpaquePoint point) {
+    vec3 weight = state.path.transmittance * diffuse_albedo(point);
+    uint branches_before = waiting[state.pixel].y, before = bounces(state);
+    if (before >= most_bounces || branches_before >= max(most_branches, most_bounces) || !(max(weight.r, max(weight.g, weight.b)) > threshold)) return;
+    vec2 u = random_numbers(hash(uvec3(texel + first_pixel(), 77u + branches_before + 256u * before)).x, state.path.events);
     float radius = sqrt(u.x), angle = 6.283185307 * u.y;
-    vec3 across = normalize(abs(light.normal.z) < 0.9 ? cross(light.normal, vec3(0.0, 0.0, 1.0))
-                                                      : cross(light.normal, vec3(1.0, 0.0, 0.0)));
-    vec3 way = radius * cos(angle) * across + radius * sin(angle) * cross(light.normal, across) +
-                    sqrt(max(1.0 - u.x, 0.0)) * light.normal;
+    vec3 across = normalize(abs(point.normal.z) < 0.9 ? cross(point.normal, vec3(0.0, 0.0, 1.0))
+                                                      : cross(point.normal, vec3(1.0, 0.0, 0.0)));
+    vec3 way = radius * cos(angle) * across + radius * sin(angle) * cross(point.normal, across) +
+                    sqrt(max(1.0 - u.x, 0.0)) * point.normal;
     uint mark = state.mark;
     state.path.direction = way;
     state.path.transmittance = weight;
-    state.mark = (mark & ~(kMainPath | kMetOpaque)) | kBounced;
-    if (push_branch(state, branch_capacity)) add_light(texel, mark, -weight * bounce_light(way));
+    state.mark = ((mark & ~(kMainPath | kMetOpaque | kBounceMask)) | kBounced | (before + 1u) << kBounceShift);
+    if (push_branch(state, branch_capacity, true)) add_light(texel, mark, -weight * bounce_light(way));
 }
+
+#include "techniques/visibility_layers/look_at_lights.glsl"
 
 // What the environment sends along a path.
 vec3 environment_light(PathState state) {
@@ -124,6 +136,49 @@ void store_result(ivec2 texel, PathState state) {
     imageStore(path_events, at, uvec4(pack_events(path)));
 }
 
+// Takes a path on from a hole in an opaque surface.
+void pass_hole(ivec2 texel, PathState state) {
+    state.mark &= ~kMetOpaque;
+    save_path(state);
+    append_next(texel);
+}
+
+// Ends a path at an opaque surface. False: there is a hole.
+bool end_at_surface(ivec2 texel, PathState state) {
+    OpaquePoint point = opaque_point(state);
+    if (point.alpha < 0.0) return false;
+    if (kLightsSurfaces && has_mark(state, kToLight)) return true;  // the surface is in the light's way
+    bool drawn = has_mark(state, kOpaquePixel) && has_mark(state, kMainPath);  // by the rasteriser
+    if (!drawn) {
+        if (has_mark(state, kMainPath)) store_result(texel, state);
+        vec3 light = light_of(point, state.path.direction);
+#ifdef PELLUCID_LIT
+        if (!point.unlit)
+            light += diffuse_albedo(point) / (3.14159265 * point.ior * point.ior) *
+                     irradiance_of_lights(state.path.position, point.normal);
+#endif
+        add_light(texel, state.mark, state.path.transmittance * light);
+    }
+    // Light that goes through translucent surfaces is drawn with them (shade/transmit_light.comp), and what they reflect.
+    if (kLightsSurfaces && !point.unlit && !(drawn && point.translucent)) look_at_lights(texel, state, point);
+    if (most_bounces > 0u) bounce(texel, state, point);
+    return true;
+}
+
+// Ends a path that has met no opaque surface.
+void end_in_the_open(ivec2 texel, PathState state) {
+    if (kLightsSurfaces && has_mark(state, kToLight)) {
+        if (closing != 0u || state.path.status == kStatusEventLimit) return;
+        float ior = filling_iors(filling_body(state.media)).g;
+        add_light(texel, state.mark, state.path.transmittance / (ior * ior));
+        return;
+    }
+    if (closing != 0u && has_mark(state, kMainPath)) state.path.status = kStatusEventLimit;
+    if (has_mark(state, kMainPath)) store_result(texel, state);
+    if (kTree || kStochastic || whole_picture != 0u || !has_mark(state, kMainPath))
+        add_light(texel, state.mark, environment_light(state));
+}
+
 void main() {
     ivec2 texel;
     if (!listed_pixel(texel)) return;
@@ -131,23 +186,15 @@ void main() {
     PathState state;
     load_path(i, 0u, state);
     if (kOpaqueObjects && closing == 0u && has_mark(state, kMetOpaque)) {
-        OpaqueLight light = opaque_light(state);
-        if (light.alpha < 0.0) {  // a hole: the path goes on
-            state.mark &= ~kMetOpaque;
-            save_path(state);
-            append_next(texel);
+        if (!end_at_surface(texel, state)) {
+            pass_hole(texel, state);
             return;
         }
-        if (has_mark(state, kMainPath)) store_result(texel, state);
-        add_light(texel, state.mark, state.path.transmittance * light.radiance);
-        if (kTree) bounce(texel, state, light);
     } else {
-        if (closing != 0u && has_mark(state, kMainPath)) state.path.status = kStatusEventLimit;
-        if (has_mark(state, kMainPath)) store_result(texel, state);
-        if (kTree || kStochastic || whole_picture != 0u) add_light(texel, state.mark, environment_light(state));
+        end_in_the_open(texel, state);
     }
     if (closing != 0u) {
-        while (pop_branch(state)) add_light(texel, state.mark, environment_light(state));
+        while (pop_branch(state)) end_in_the_open(texel, state);
     } else if (pop_branch(state)) {
         save_path(state);
         append_next(texel);

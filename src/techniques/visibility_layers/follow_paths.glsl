@@ -121,6 +121,12 @@ bool has_boundary(uint body, uint other, uint before, uint beyond) {
     return meets && (!other_meets || body > other);
 }
 
+// Whether a path starts at an opaque surface, which its triangle's neighbours continue.
+bool leaves_opaque(PathState state) {
+    return has_mark(state, kToLight | kBounced) && state.standing != PELLUCID_NO_TRIANGLE &&
+           (traits[object_of(state.standing)] & kKindMask) == kOpaqueKind;
+}
+
 // The next surface on a path.
 SurfaceHit find_ahead(PathState state, bool in_body, inout Search search, out float t_end) {
     SurfaceHit hit;
@@ -129,7 +135,8 @@ SurfaceHit find_ahead(PathState state, bool in_body, inout Search search, out fl
         hit = find_next(state.path.position, state.path.direction, t_min, search, t_end);
         // Reflected where its solid touches something opaque, which the path then has behind it. And of a shell that
         // crosses itself, neighbours of the triangle that the path stands on are that surface still.
-        bool behind = in_body && (hit.traits & kKindMask) == kOpaqueKind;
+        bool opaque = (hit.traits & kKindMask) == kOpaqueKind;
+        bool behind = opaque && (in_body || leaves_opaque(state));
         bool crossed = kCrossing && (hit.traits & kCrossesItself) != 0u && state.standing != PELLUCID_NO_TRIANGLE;
         if (hit.t > coincidence || !(behind || crossed)) break;
         t_min = coincidence;
@@ -200,6 +207,15 @@ void pass_glass(inout PathState state, MetSurface met, Media here, uint before, 
     cross_boundary(state, crossing);
 }
 
+// Takes a shadow ray straight through glass, or lets the glass block it.
+void pass_shadow(inout PathState state, MetSurface met, uint before, uint beyond) {
+    vec3 normal = met.hit.leaving ? -met.surface.normal : met.surface.normal;
+    float n_i = filling_iors(before).g, n_t = filling_iors(beyond).g;
+    float passes = tinted_shadows == 0u ? 0.0 : 1.0 - fresnel_dielectric(-dot(state.path.direction, normal), n_i / n_t);
+    state.path.transmittance *= met.hit.leaving ? vec3(passes) : passes * surface_tint(met.surface).rgb;
+    ++state.path.events;
+}
+
 // Takes a path to the next surface, and past it. False: it ends there, or nowhere, or enters a volume.
 bool go_on(inout PathState state) {
     uint body = filling_body(state.media);
@@ -210,8 +226,11 @@ bool go_on(inout PathState state) {
     Search search;
     begin_search(state.media, state.standing, state.pixel, search);
     if (kVolumes && proxy != 0u) search.replaced = kMeetEntering;
-    float t_end;
+    bool to_light = kLightsSurfaces && has_mark(state, kToLight);
+    float t_end, left = state.path.length_inside;
+    if (to_light) search.limit = left;
     SurfaceHit hit = find_ahead(state, body != kAir, search, t_end);
+    if (to_light && t_end >= left) t_end = kFarthest;
     if (kVolumes && enters_volume(state, body, hit.t)) {
         state.mark |= kEntersVolume;
         return false;
@@ -248,10 +267,12 @@ bool go_on(inout PathState state) {
     state.path.position = met.surface.position;
     state.standing = met.hit.triangle;
     bool ends = (met.hit.traits & kKindMask) == kOpaqueKind;
+    if (to_light) state.path.length_inside = left - straight;
     if (ends) state.mark |= kMetOpaque;
+    else if (meets && to_light) pass_shadow(state, met, before, beyond);
     else if (meets) pass_glass(state, met, here, before, beyond);
     else if (!refractive(met.hit.traits)) pass_pane(state.path, met.surface);
-    return !ends;
+    return !ends && !(to_light && state.path.transmittance == vec3(0.0));
 }
 
 void main() {

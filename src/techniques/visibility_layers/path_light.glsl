@@ -6,10 +6,13 @@
 layout(set = 0, binding = 7, rgba32f) uniform image2DArray path_radiance;
 layout(set = 0, binding = 8, rgba32f) uniform image2DArray reflected_radiance;
 
+layout(set = 0, binding = 47, rgba32f) uniform image2DArray surface_radiance;  // of opaque surfaces that pixels show
+
 // Of a path with this mark.
 void add_light(ivec2 texel, uint mark, vec3 light) {
     ivec3 at = ivec3(texel, 0);
-    if ((mark & kOuterBranch) != 0u) imageStore(reflected_radiance, at, imageLoad(reflected_radiance, at) + vec4(light, 0.0));
+    if ((mark & kOpaquePixel) != 0u) imageStore(surface_radiance, at, imageLoad(surface_radiance, at) + vec4(light, 0.0));
+    else if ((mark & kOuterBranch) != 0u) imageStore(reflected_radiance, at, imageLoad(reflected_radiance, at) + vec4(light, 0.0));
     else imageStore(path_radiance, at, vec4(imageLoad(path_radiance, at).rgb + light, 1.0));
 }
 

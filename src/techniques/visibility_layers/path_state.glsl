@@ -53,6 +53,9 @@ const uint kBounced = 32u;      // scattered by an opaque surface: it looks for 
 const uint kEntersVolume = 64u; // it stands at the box of a volume
 const uint kCrossedVolume = 128u;
 const uint kLost = 256u;        // the map cannot say what it meets: another will
+const uint kToLight = 512u;     // a shadow ray: it goes straight to a light, `length_inside` metres away
+const uint kOpaquePixel = 1024u;  // its light is that of the opaque surface which the pixel shows
+const uint kBounceShift = 11u, kBounceMask = 7u << kBounceShift;  // diffuse reflections so far
 
 bool has_mark(PathState state, uint bits) { return (state.mark & bits) != 0u; }
 
@@ -90,8 +93,9 @@ void save_path(PathState state) {
 
 const uint kBranchVectors = 4u + (kMediumWords + 1u) / 4u;  // the path's three, then media, mark and the next branch
 
-// Lets a path wait behind that of its pixel. False: there is no room (counted: the host makes more).
-bool push_branch(PathState state, uint capacity) {
+// Lets a path wait behind that of its pixel. False: there is no room (counted: the host makes more). `counts`: it is one of
+// the most_branches.
+bool push_branch(PathState state, uint capacity, bool counts) {
     uint number = atomicAdd(branch_count, 1u);
     if (number >= capacity) return false;
     uint at = number * kBranchVectors;
@@ -103,7 +107,7 @@ bool push_branch(PathState state, uint capacity) {
         words[(w + 2u) % 4u] = state.media.words[w];
         if ((w + 2u) % 4u == 3u || w + 1u == kMediumWords) branches[at + 3u + (w + 2u) / 4u] = words;
     }
-    waiting[state.pixel] = uvec2(number + 1u, waiting[state.pixel].y + 1u);
+    waiting[state.pixel] = uvec2(number + 1u, waiting[state.pixel].y + uint(counts));
     return true;
 }
 

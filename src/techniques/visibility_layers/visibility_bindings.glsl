@@ -18,6 +18,7 @@ layout(constant_id = 14) const bool kCrossing = false;    // some shell crosses 
 layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is one map of all the scene
 layout(constant_id = 9) const bool kTouching = false;     // surfaces of two shells may lie at one place
 layout(constant_id = 15) const bool kFoundOnHost = false; // surfaces are found by the host, in no map
+layout(constant_id = 29) const bool kLightsSurfaces = false;  // paths look from opaque surfaces to lights, and to each other
 layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend
 
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
@@ -47,6 +48,10 @@ layout(push_constant) uniform Push {
     uint eye_differs;      // 1: what the eye is inside of differs from ray to ray
     float eye_depth;       // m, of the plane on which rays start
     float largest_contact; // m, see contact_distance()
+    uint direct_lights;    // of the scene, whose light opaque surfaces reflect
+    uint tinted_shadows;   // 1: glass lets shadow rays pass, weakened; 0: it blocks them
+    uint most_bounces;     // diffuse reflections along a path
+    uint behind_glass;     // 1: opaque surfaces that pixels show behind glass are lit, too
 };
 
 const uint kSharpInterfaces = 2u;

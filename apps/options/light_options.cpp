@@ -1,0 +1,28 @@
+#include "options/light_options.h"
+
+#include "options/options.h"
+
+namespace pellucid::cli {
+
+void add_light_options(CLI::App& command, LightArguments& arguments) {
+    command
+        .add_option(
+            "--light", arguments.transport,
+            "Light that frames follow to opaque surfaces. environment: of the environment alone, unshadowed; direct: "
+            "of lights, too, with shadows; full: also reflected between surfaces, with what hides the environment")
+        ->capture_default_str()
+        ->type_name("NAME");
+    command
+        .add_option("--shadows", arguments.shadows,
+                    "Of glass. exact: it blocks the straight ray to a light; tinted: it weakens it")
+        ->capture_default_str()
+        ->type_name("NAME");
+    add_number(command, "--bounces", arguments.bounces, "Diffuse reflections along a path, 0 to 7; --light full")
+        ->capture_default_str();
+}
+
+LightOptions light_options(const LightArguments& arguments) {
+    return {parse_light_transport(arguments.transport), parse_shadows(arguments.shadows), arguments.bounces};
+}
+
+}  // namespace pellucid::cli

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <pellucid/api.h>
+
+#include <cstdint>
+#include <string_view>
+
+namespace pellucid {
+
+/// Which light the frames of a technique follow to opaque surfaces. Truths follow all of it.
+enum class LightTransport {
+    kEnvironment,  ///< the environment's, unshadowed, as if each surface stood alone; lights of the scene are left out
+    kDirect,       ///< kEnvironment and the light of suns, lamps and spots, with shadows (default)
+    kFull,         ///< kDirect, diffuse reflections between surfaces, and what hides the environment
+};
+/// The value of a name: environment, direct, full. Throws Error listing them.
+PELLUCID_API LightTransport parse_light_transport(std::string_view name);
+
+/// What refracting glass does to the straight ray from a light to a surface. Thin walls tint it in both.
+enum class Shadows {
+    kExact,   ///< glass blocks it: what passes is bent, and comes as a caustic
+    kTinted,  ///< glass lets it pass straight on, weakened by absorption, tint and Fresnel reflection
+};
+/// The value of a name: exact, tinted. Throws Error listing them.
+PELLUCID_API Shadows parse_shadows(std::string_view name);
+
+struct LightOptions {
+    LightTransport transport = LightTransport::kDirect;
+    Shadows shadows = Shadows::kExact;
+    std::uint32_t bounces = 2;  ///< diffuse reflections along a path, 0 to 7; kFull
+};
+
+}  // namespace pellucid

@@ -1,0 +1,61 @@
+#ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_LOOK_AT_LIGHTS_GLSL
+#define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_LOOK_AT_LIGHTS_GLSL
+
+// Shadow rays from an opaque surface: branches of the path (path_state.glsl) that carry what the surface reflects of a
+// light, and bring it if they reach the light.
+// Needs: end_paths.glsl as far as struct OpaquePoint.
+#include "gpu/punctual_light.glsl"
+#include "gpu/light_sample.glsl"
+
+layout(std430, set = 0, binding = 48) readonly buffer SceneLights { PunctualLight scene_lights[]; };
+
+// Shadow rays of one path end. Where there are more lights, they are chosen at random by what they contribute unshadowed.
+const uint kMostShadowRays = 4u;
+
+// Light `number`'s sample at the end of a path, and what of it goes back along the path if nothing is in between.
+vec3 unshadowed_light(uint number, ivec2 texel, PathState state, OpaquePoint point, out LightSample light) {
+    uint seed = hash(uvec3(texel + first_pixel(), 4099u + number)).x;
+    light = sample_light(scene_lights[number], state.path.position, random_numbers(seed, state.path.events));
+    if (light.irradiance == vec3(0.0)) return vec3(0.0);
+    return state.path.transmittance * light.irradiance *
+           opaque_reflection(point.surface, point.normal, -state.path.direction, light.to_light);
+}
+
+void push_shadow_ray(PathState state, LightSample light, vec3 weight) {
+    state.mark = (state.mark & ~(kMainPath | kMetOpaque)) | kToLight;
+    state.path.direction = light.to_light;
+    state.path.transmittance = weight;
+    state.path.length_inside = light.distance_;
+    state.path.events = 0u;
+    state.path.status = kStatusOk;
+    push_branch(state, branch_capacity, false);
+}
+
+void look_at_lights(ivec2 texel, PathState state, OpaquePoint point) {
+    bool chooses = direct_lights > kMostShadowRays;
+    float step_ = 0.0, next = 0.0, passed = 0.0;
+    LightSample light;
+    if (chooses) {
+        for (uint i = 0u; i < direct_lights; ++i) {
+            vec3 weight = unshadowed_light(i, texel, state, point, light);
+            step_ += (weight.r + weight.g + weight.b) / float(kMostShadowRays);
+        }
+        uint seed = hash(uvec3(texel + first_pixel(), 4098u)).x;
+        next = step_ * random_number(seed, state.path.events);
+    }
+    for (uint i = 0u; i < direct_lights; ++i) {
+        vec3 weight = unshadowed_light(i, texel, state, point, light);
+        float share = weight.r + weight.g + weight.b;
+        if (!(share > 0.0)) continue;
+        if (chooses) {
+            passed += share;
+            if (next >= passed) continue;
+            float picks = floor((passed - next) / step_) + 1.0;
+            next += picks * step_;
+            weight *= picks * step_ / share;
+        }
+        push_shadow_ray(state, light, weight);
+    }
+}
+
+#endif
