@@ -17,12 +17,14 @@ namespace {
 
 constexpr double kSunIrradiance = 3.0;  // W/m2: white that is lit head-on looks white
 
+/// The last numbers are the intensity and the size.
 struct LightKind {
     std::string_view name, parameters;
     std::size_t required, most;
 };
-constexpr std::array<LightKind, 3> kLightKinds = {
-    {{"sun", "AZ,EL[,W/m2]", 2, 3}, {"lamp", "X,Y,Z,W/sr", 4, 4}, {"spot", "X,Y,Z,TO_X,TO_Y,TO_Z,DEGREES,W/sr", 8, 8}}};
+constexpr std::array<LightKind, 3> kLightKinds = {{{"sun", "AZ,EL[,W/m2[,DEGREES]]", 2, 4},
+                                                   {"lamp", "X,Y,Z,W/sr[,M]", 4, 5},
+                                                   {"spot", "X,Y,Z,TO_X,TO_Y,TO_Z,DEGREES,W/sr[,M]", 8, 9}}};
 
 std::string light_forms() {
     std::string forms;
@@ -40,6 +42,7 @@ Light sun(const std::vector<double>& v) {
     light.direction = -glm::vec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                                  std::cos(elevation) * std::cos(azimuth));
     light.intensity = glm::vec3(float(v.size() > 2 ? v[2] : kSunIrradiance));
+    if (v.size() > 3) light.angular_diameter = glm::radians(float(v[3]));
     return light;
 }
 
@@ -55,6 +58,7 @@ Light spot(const std::vector<double>& v, const glm::dvec3& origin, const std::st
     light.outer_cone_angle = glm::radians(float(v[6]));
     light.inner_cone_angle = 0.8f * light.outer_cone_angle;
     light.intensity = glm::vec3(float(v[7]));
+    if (v.size() > 8) light.radius = float(v[8]);
     return light;
 }
 
@@ -68,14 +72,18 @@ Light parse_light(const std::string& text, const glm::dvec3& origin) {
     const std::string numbers = text.substr(colon + 1);
     const auto count = std::size_t(std::count(numbers.begin(), numbers.end(), ',')) + 1;
     const std::vector<double> v = parse_numbers("--add-light", numbers, std::clamp(count, kind->required, kind->most));
-    if (!(v.back() >= 0.0) && v.size() == kind->most)
-        throw Error(fmt::format("--add-light: '{}': the intensity is negative", text));
+    for (std::size_t i = kind->most - 2; i < v.size(); ++i) {
+        if (!(v[i] >= 0.0)) throw Error(fmt::format("--add-light: '{}': intensity and size are not negative", text));
+    }
+    if (kind->name == "sun" && v.size() > 3 && !(v[3] < 180.0))
+        throw Error(fmt::format("--add-light: '{}': a sun's diameter is 0 to 180 degrees", text));
     if (kind->name == "sun") return sun(v);
     if (kind->name == "spot") return spot(v, origin, text);
     Light light;
     light.kind = Light::Kind::kPoint;
     light.position = vec3_at(v, 0) - origin;
     light.intensity = glm::vec3(float(v[3]));
+    if (v.size() > 4) light.radius = float(v[4]);
     return light;
 }
 
@@ -87,9 +95,11 @@ void add_translucency_options(CLI::App& command, TranslucencyArguments& argument
                     "Make every mesh translucent: what is left of white light, 0 to 1, after so many metres of it")
         ->type_name("R,G,B,M");
     command
-        .add_option("--add-light", arguments.lights,
-                    "A light beside the file's, which shines through what is translucent; may be repeated: " +
-                        light_forms() + "; azimuth and elevation in degrees say where the sun stands, as for --camera")
+        .add_option(
+            "--add-light", arguments.lights,
+            "A light beside the file's, which shines through what is translucent; may be repeated: " + light_forms() +
+                "; azimuth and elevation in degrees say where the sun stands, as for --camera; last comes the size: "
+                "a sun's diameter (0.53 degrees), a lamp's or spot's radius (0 m)")
         ->type_name("KIND:NUMBERS")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

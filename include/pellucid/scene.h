@@ -114,7 +114,8 @@ struct Camera {
     float vertical_extent = 0.0f;  ///< orthographic: height of the view volume in metres
 };
 
-/// A light without extent (KHR_lights_punctual).
+/// A light of KHR_lights_punctual, with a size. Point and spot lights are spheres, directional lights are discs in the
+/// sky; a size of 0 makes them points.
 struct Light {
     enum class Kind : std::uint32_t { kDirectional, kPoint, kSpot };
 
@@ -126,6 +127,9 @@ struct Light {
     float range = std::numeric_limits<float>::infinity();  ///< m; point and spot end here
     float inner_cone_angle = 0.0f;                         ///< radians from the axis; spot: full light up to here
     float outer_cone_angle = 0.7853982f;                   ///< radians, > inner_cone_angle: none beyond
+    float radius = 0.0f;                                   ///< m, >= 0; of the sphere of point and spot lights
+    /// Radians, 0..pi without pi, of directional lights. The default is the sun's, 0.53 degrees.
+    float angular_diameter = 0.00925025f;
 };
 
 /// One placement of a volume.

@@ -10,8 +10,9 @@ struct PunctualLight {
     vec3 direction;  // unit, the way the light goes
     float inverse_range;
     vec3 intensity;
-    uint reserved;
+    float radius;  // m, of point and spot lights
     float cos_inner, cos_outer;
+    float half_angle;  // radians, of directional lights
 };
 
 struct ArrivingLight {

@@ -16,9 +16,10 @@ struct PunctualLight {
     glm::vec3 direction;
     float inverse_range;
     glm::vec3 intensity;
-    std::uint32_t reserved;
+    float radius;  // m, of point and spot lights
     float cos_inner, cos_outer;
-    float padding[2];
+    float half_angle;  // radians, of directional lights
+    float padding;
 };
 static_assert(sizeof(PunctualLight) == 64);
 
@@ -28,10 +29,11 @@ inline PunctualLight punctual_light(const Light& light) {
             glm::normalize(light.direction),
             std::isfinite(light.range) ? 1.0f / light.range : 0.0f,
             light.intensity,
-            0,
+            light.radius,
             std::cos(light.inner_cone_angle),
             std::cos(light.outer_cone_angle),
-            {}};
+            0.5f * light.angular_diameter,
+            0.0f};
 }
 
 }  // namespace pellucid

@@ -155,11 +155,17 @@ double PathWalk::ior(const MediumStack& at, int channel) const {
     return world_.volumes.index_at(at.solid(), ray_.origin, channel).value_or(at.medium().ior[channel]);
 }
 
-/// Paths carry radiance over n^2, so what is emitted into a medium is divided by that.
-double PathWalk::emitted_share() const {
-    if (inside_.solid() == kAir) return open_share_;
-    const double n = ior(inside_, channel_.value_or(kGreen));
+/// Share of light emitted into the medium `at` that a path carries: 1 / n^2, since paths carry radiance over n^2.
+/// `open_share`: the share around all solids.
+double PathWalk::emitted_share(const MediumStack& at, double open_share) const {
+    if (at.solid() == kAir) return open_share;
+    const double n = ior(at, channel_.value_or(kGreen));
     return 1.0 / (n * n);
+}
+
+/// True if `direction` leads to the other side of a boundary of glass, into the medium beyond_.
+bool PathWalk::refracts_towards(const Hit& from, const glm::dvec3& direction) const {
+    return crosses(from, direction) && world_.geometry.kind(from.crossing.object) == SurfaceKind::kRefractive;
 }
 
 void PathWalk::emit(const Vertex& vertex) {
@@ -300,7 +306,10 @@ void PathWalk::add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& f
         if (!arriving) continue;
         const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, arriving->direction, random);
         if (!(bsdf_value.pdf > 0.0)) continue;
-        radiance_ += throughput_ * emitted_share() * bsdf_value.value * arriving->irradiance *
+        // Light from beyond was emitted there. No volume is there: visibility() is 0 in volumes.
+        const double share =
+            refracts_towards(vertex.hit, arriving->direction) ? emitted_share(beyond_, 1.0) : emitted_share();
+        radiance_ += throughput_ * share * bsdf_value.value * arriving->irradiance *
                      visibility(vertex.hit, arriving->direction, arriving->distance);
     }
 }
@@ -309,9 +318,7 @@ void PathWalk::add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& f
 glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, double distance) {
     shadow_standing_ = standing_;
     for (Crossing& on : shadow_standing_) on.sense = world_.geometry.sense(on.object, on.triangle, direction);
-    const bool refracted =
-        crosses(from, direction) && world_.geometry.kind(from.crossing.object) == SurfaceKind::kRefractive;
-    const MediumStack& inside = refracted ? beyond_ : inside_;
+    const MediumStack& inside = refracts_towards(from, direction) ? beyond_ : inside_;
     Query query;
     query.origin = from.position;
     query.direction = direction;

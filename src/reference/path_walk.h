@@ -110,7 +110,9 @@ private:
     bool meet_solid(const Hit& hit, Random& random);
     bool meet_pane(const Vertex& vertex, Random& random);
     void emit(const Vertex& vertex);
-    double emitted_share() const;
+    double emitted_share() const { return emitted_share(inside_, open_share_); }
+    double emitted_share(const MediumStack& at, double open_share) const;
+    bool refracts_towards(const Hit& from, const glm::dvec3& direction) const;
     double ior(const MediumStack& at, int channel) const;
     bool transmits(const Vertex& vertex, Random& random) const;
     OpaqueBsdf opaque_bsdf(const Vertex& vertex) const;

@@ -82,6 +82,9 @@ void check_light(const Light& light, const std::string& what) {
     require(light.inner_cone_angle >= 0.0f && light.inner_cone_angle < light.outer_cone_angle &&
                 light.outer_cone_angle <= kPi,
             what, "the cone angles must be 0 <= inner < outer <= pi");
+    require(light.radius >= 0.0f && std::isfinite(light.radius), what, "the radius must be finite and not negative");
+    require(light.angular_diameter >= 0.0f && light.angular_diameter < kPi, what,
+            "the angular diameter must be 0 to pi, without pi");
 }
 
 }  // namespace

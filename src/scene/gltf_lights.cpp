@@ -48,6 +48,7 @@ public:
             light_.intensity[k] = static_cast<float>(intensity * in_range(color, 0.0, 1.0, "color"));
         }
         if (light_.kind != Light::Kind::kDirectional) read_range();
+        read_size();
         if (light_.kind == Light::Kind::kSpot) read_cone();
         return true;
     }
@@ -67,6 +68,16 @@ private:
         } else if (from_.range < 0.0) {
             warnings_.add(fmt::format("light {}: range {} is out of range, none used", light_.name, from_.range));
         }
+    }
+
+    /// The extension knows no sizes: `extras.radius`, m, and `extras.angular_diameter`, radians, have them.
+    void read_size() {
+        constexpr double kWidest = 3.14;
+        const bool sun = light_.kind == Light::Kind::kDirectional;
+        const char* name = sun ? "angular_diameter" : "radius";
+        if (!from_.extras.IsObject() || !from_.extras.Has(name) || !from_.extras.Get(name).IsNumber()) return;
+        const double size = in_range(from_.extras.Get(name).GetNumberAsDouble(), 0.0, sun ? kWidest : kFarthest, name);
+        (sun ? light_.angular_diameter : light_.radius) = static_cast<float>(size);
     }
 
     void read_cone() {

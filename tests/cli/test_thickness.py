@@ -38,6 +38,8 @@ class Thickness(CliTest):
 
     def test_what_is_wrong_is_said_in_one_line(self):
         for arguments, reason in ((["--add-light", "sun:1"], "--add-light"), (["--add-light", "moon:1,2"], "sun"),
+                                  (["--add-light", "sun:1,2,3,180"], "diameter"), (["--add-light", "sun:1,2,-3"], "intensity"),
+                                  (["--add-light", "lamp:1,2,3,4,-5"], "size"), (["--add-light", "lamp:1,2,3,4,5,6"], "--add-light"),
                                   (["--add-light", "spot:0,0,0,0,0,0,30,1"], "nowhere"), ([], "--add-light"),
                                   ([*sun(0), "--method", "guess"], "guess"), ([*sun(0), "--light", "7"], "7"),
                                   ([*sun(0), "--layers", "0"], "layers"), ([*sun(0), "--picture", "x.jpg"], ".png")):

@@ -70,6 +70,23 @@ TEST(GltfLights, Defaults) {
     expect_near(light.direction, {0, 0, -1});
 }
 
+TEST(GltfLights, SizesAreExtras) {
+    const auto light = [](const char* type, json extras) {
+        return load(with_light({{"type", type}, {"spot", json::object()}, {"extras", std::move(extras)}}));
+    };
+    EXPECT_EQ(light("point", {{"radius", 0.25}}).lights.at(0).radius, 0.25f);
+    EXPECT_EQ(light("spot", {{"radius", 2}}).lights.at(0).radius, 2.0f);
+    EXPECT_EQ(light("directional", {{"angular_diameter", 0.5}}).lights.at(0).angular_diameter, 0.5f);
+    const Scene plain = light("directional", json::object());
+    EXPECT_NEAR(plain.lights.at(0).angular_diameter, 0.53f * kPi / 180, 1e-7f) << "the sun's";
+    EXPECT_EQ(plain.lights.at(0).radius, 0.0f);
+    EXPECT_EQ(light("point", {{"radius", "wide"}}).lights.at(0).radius, 0.0f);
+    const Scene negative = light("point", {{"radius", -1}});
+    EXPECT_EQ(negative.lights.at(0).radius, 0.0f);
+    EXPECT_EQ(warnings_with(negative, "radius -1 is out of range, 0 used"), 1u);
+    EXPECT_EQ(light("directional", {{"angular_diameter", 7}}).warnings.size(), 1u);
+}
+
 TEST(GltfLights, LooksAlongItsNodesMinusZWhateverTheScale) {
     // A quarter turn about +x takes -z to +y; the parent's half turn about +z takes that to -y.
     const float h = std::sqrt(0.5f);
@@ -154,6 +171,10 @@ TEST(GltfLights, CheckedWhenBuiltByHand) {
     EXPECT_TRUE(broken([](Light& l) { l.range = 0.0f; }));
     EXPECT_TRUE(broken([](Light& l) { l.inner_cone_angle = l.outer_cone_angle; }));
     EXPECT_TRUE(broken([](Light& l) { l.outer_cone_angle = 4.0f; }));
+    EXPECT_TRUE(broken([](Light& l) { l.radius = -1.0f; }));
+    EXPECT_TRUE(broken([](Light& l) { l.radius = std::numeric_limits<float>::infinity(); }));
+    EXPECT_TRUE(broken([](Light& l) { l.angular_diameter = -0.1f; }));
+    EXPECT_TRUE(broken([](Light& l) { l.angular_diameter = kPi; }));
 }
 
 }  // namespace

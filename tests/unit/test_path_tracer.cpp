@@ -212,6 +212,45 @@ TEST(PathTracer, LampsOverAFloor) {
     floor_shows(light, glm::vec3(2 * std::tan(0.85f), 0, 0), 0.0);
 }
 
+/// Directions spread evenly over the sphere (Swinbank & Purser, "Fibonacci grids", 2006).
+std::vector<glm::vec3> spread_directions(int count) {
+    std::vector<glm::vec3> directions;
+    for (int i = 0; i < count; ++i) {
+        const double y = 1.0 - (2.0 * i + 1.0) / count, across = std::sqrt(1.0 - y * y);
+        const double angle = glm::pi<double>() * (3.0 - std::sqrt(5.0)) * i;
+        directions.emplace_back(across * std::cos(angle), y, across * std::sin(angle));
+    }
+    return directions;
+}
+
+TEST(PathTracer, RoughGlassIsInvisibleAmongSunsOnAllSides) {
+    // The suns are a furnace of radiance 1. What they send through a rough boundary comes from outside of the glass.
+    constexpr int kSuns = 150;
+    Scene scene = load_scene("shape:slab");
+    scene.materials[0].roughness = 0.7f;
+    for (const glm::vec3& direction : spread_directions(kSuns)) {
+        Light light;
+        light.kind = Light::Kind::kDirectional;
+        light.direction = direction;
+        light.intensity = glm::vec3(4.0f * kPi / float(kSuns));
+        scene.lights.push_back(light);
+    }
+    for (const glm::vec3 direction : {glm::vec3(0, 0, -1), glm::normalize(glm::vec3(1, 0.4f, -1))})
+        expect_near(look(scene, uniform(0.0f), glm::vec3(0), direction, 1500), glm::dvec3(1.0), 0.01);
+}
+
+TEST(PathTracer, ALampInARoughBallSendsOutAllItsLight) {
+    // By symmetry every direction sees the lamp's intensity, as the integral of radiance over the ball's disc.
+    Scene scene = load_scene("shape:sphere,segments=64");
+    scene.materials[0].roughness = 0.5f;
+    scene.lights.resize(1);
+    scene.lights[0].intensity = glm::vec3(3.0f);
+    const float extent = 2.2f * scene_bounds(scene).half_size.x;
+    const PathTracedImage image =
+        path_trace(scene, parallel_camera(glm::vec3(0), {0, 0, -1}, extent), uniform(0.0f), 16, 1000);
+    EXPECT_NEAR(mean(image.radiance) * double(extent * extent), 3.0, 0.03);
+}
+
 TEST(PathTracer, WhatStandsInALampsWay) {
     Light light;
     light.position = {0, 4, 0};
