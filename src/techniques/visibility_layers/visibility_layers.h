@@ -1,13 +1,11 @@
 #pragma once
 
-#include "gpu/recorder.h"
-#include "layers/host_finder.h"
 #include "techniques/shaders.h"
 #include "techniques/technique.h"
+#include "techniques/visibility_layers/paths.h"
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 namespace pellucid {
 
@@ -34,46 +32,6 @@ constexpr auto path_parameters_and(const ParameterInfo& own) {
     all.back() = own;
     return all;
 }
-
-/// Twin of Push in visibility_bindings.glsl.
-struct PathPush {
-    std::uint32_t max_events, most_branches;
-    float threshold;
-    std::uint32_t branch_capacity;
-    float coincidence;
-    std::uint32_t closing;
-    std::uint32_t volume_count;
-    std::uint32_t proxy;
-    std::uint32_t light_count;
-    std::uint32_t receiver_count;
-    std::uint32_t whole_picture;
-    std::uint32_t eye_differs;
-    float eye_depth;
-    float largest_contact;
-};
-
-/// What a pass that takes paths on is made of and binds, besides what is its own.
-struct PathPass {
-    Recorder& recorder;
-    const Frame& frame;
-    std::vector<Constant> constants;  ///< of visibility_bindings.glsl
-    Binding bindings;                 ///< of paths, the maps that they walk, and what they leave
-    PathPush push;
-};
-
-/// Volumes between surfaces, in which paths bend: what ihrke-2007 adds to paths.
-class PathVolumes {
-public:
-    virtual ~PathVolumes() = default;
-    virtual std::vector<Binding> bindings() const = 0;  ///< of volumes, and of their light
-    virtual void set(PathPush& push) const = 0;
-    /// Takes the paths of `entering` through volumes; into `next` or, where they end, `ended`.
-    virtual void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const = 0;
-    /// Ends paths, on what lights shine on where there are some.
-    virtual ShaderCode end_shader() const = 0;
-    /// Takes paths from surface to surface, where solids may hold volumes.
-    virtual ShaderCode follow_shader() const = 0;
-};
 
 /// Texels of a mesh's maps along the longest side of its box, unless a parameter says otherwise.
 inline constexpr std::uint32_t kMeshMapResolution = 512;
