@@ -31,7 +31,7 @@ layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord 
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-// Twin of Push in visibility_layers.cpp.
+// Twin of PathPush in paths.h.
 layout(push_constant) uniform Push {
     uint max_events;       // K: paths that meet one more surface end
     uint most_branches;    // that leave the paths of a pixel
