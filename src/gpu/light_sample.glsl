@@ -1,7 +1,8 @@
 #ifndef PELLUCID_GPU_LIGHT_SAMPLE_GLSL
 #define PELLUCID_GPU_LIGHT_SAMPLE_GLSL
 
-// A point of a light, as a surface sees it. Needs: gpu/punctual_light.glsl.
+// A point of a light, as a surface sees it. Suns are discs of even radiance, lamps and spots balls of even radiance.
+// Needs: gpu/punctual_light.glsl.
 
 struct LightSample {
     vec3 to_light;    // unit
@@ -10,10 +11,39 @@ struct LightSample {
 };
 const float kFarLight = 1e30;
 
+// 1 - cos, without cancellation at small angles.
+float one_minus_cos(float sin_angle) { return sin_angle * sin_angle / (1.0 + sqrt(max(1.0 - sin_angle * sin_angle, 0.0))); }
+
+// A direction of the cone around a unit axis, even over its solid angle. `height`: 1 - cos of half its angle. `sine`: of the
+// angle to the axis.
+vec3 sample_cone(vec3 axis, float height, vec2 u, out float sine) {
+    float q = u.x * height, angle = 6.283185307 * u.y;
+    sine = sqrt(max(q * (2.0 - q), 0.0));
+    vec3 across = normalize(abs(axis.z) < 0.9 ? cross(axis, vec3(0.0, 0.0, 1.0)) : cross(axis, vec3(1.0, 0.0, 0.0)));
+    return normalize((1.0 - q) * axis + sine * (cos(angle) * across + sin(angle) * cross(axis, across)));
+}
+
+// `u`: 0..1. Its irradiances have the mean that the whole light gives a surface which faces its middle.
 LightSample sample_light(PunctualLight light, vec3 position, vec2 u) {
     ArrivingLight arriving = arriving_light(light, position);
-    float distance_ = light.kind == kDirectionalLight ? kFarLight : distance(position, light.position);
-    return LightSample(-arriving.way, distance_, arriving.irradiance * light.intensity);
+    LightSample point = LightSample(-arriving.way, kFarLight, arriving.irradiance * light.intensity);
+    float sine;
+    if (light.kind == kDirectionalLight) {
+        float half_sine = sin(0.5 * light.half_angle);
+        if (light.half_angle > 0.0) point.to_light = sample_cone(point.to_light, 2.0 * half_sine * half_sine, u, sine);
+        return point;
+    }
+    point.distance_ = distance(position, light.position);
+    if (light.radius == 0.0) return point;
+    float sin_half = light.radius / point.distance_;
+    if (sin_half >= 1.0) return LightSample(point.to_light, 0.0, vec3(0.0));  // inside the ball, which sends nothing there
+    float height = one_minus_cos(sin_half);
+    point.irradiance *= 2.0 * height / (sin_half * sin_half);
+    point.to_light = sample_cone(point.to_light, height, u, sine);
+    float off = point.distance_ * sine;
+    point.distance_ *= sqrt(max(1.0 - sine * sine, 0.0));
+    point.distance_ -= sqrt(max(light.radius * light.radius - off * off, 0.0));
+    return point;
 }
 
 #endif

@@ -10,7 +10,7 @@ FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSett
     const Opaque opaque = draw_opaque(recorder, frame);
     transmitted.add(recorder, frame, opaque);
     const Layers layers = source.build(recorder, frame, opaque, {frame.scene.refractive, layer_count});
-    if (settings.technique && !settings.technique->info.whole_scene && frame.light.any())
+    if (settings.technique && !settings.technique->info.whole_scene && frame.light.any() && !frame.scene.opaque.empty())
         light_surfaces(recorder, frame, layers);
     const Refraction refraction = settings.truth
                                       ? upload_exact_paths(frame, *traced, settings.parameters)

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -19,6 +20,10 @@ namespace {
 
 double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool has_size(const Light& light) {
+    return (light.kind == Light::Kind::kDirectional ? light.angular_diameter : light.radius) > 0.0f;
 }
 
 }  // namespace
@@ -85,7 +90,7 @@ void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& ligh
     bake::BakeCache passing{std::filesystem::path()};
     bake::BakeCache& cache = scene->moves > 0 ? passing : bake_cache;
     const Preparation preparation{device, cpu.scene(), *scene, cache, options.threads, progress, warnings};
-    if (!chosen.info.whole_scene && light.any()) prepare_light(preparation);
+    if (!chosen.info.whole_scene && light.any() && !scene->opaque.empty()) prepare_light(preparation);
     if (chosen.technique->prepare != nullptr) chosen.technique->prepare(preparation, chosen.parameters);
     if (scene->topology) scene->topology->look_from(device, cpu.scene(), view);
 }
@@ -102,8 +107,10 @@ void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& set
 }
 
 FrameLight Renderer::Impl::frame_light(const LightOptions& wanted) const {
-    if (scene->opaque.empty() || wanted.transport == LightTransport::kEnvironment) return {};
+    if (wanted.transport == LightTransport::kEnvironment) return {};
+    const std::vector<Light>& lights = cpu.scene().lights;
     return {.lights = scene->light_count,
+            .visible = std::any_of(lights.begin(), lights.end(), has_size),
             .tinted_shadows = wanted.shadows == Shadows::kTinted,
             .bounces = wanted.transport == LightTransport::kFull ? wanted.bounces : 0};
 }

@@ -36,7 +36,7 @@ layout(std430, set = 0, binding = 16) readonly buffer Textures { TextureRecord t
 
 // What comes through the glass: the end of the refracted path, and what it picked up on the way.
 vec3 transmitted_radiance(ivec3 at) {
-    vec3 behind = imageLoad(transmittance, at).rgb * environment_radiance(imageLoad(exit_direction, at).xyz);
+    vec3 behind = imageLoad(transmittance, at).rgb * radiance_from_afar(imageLoad(exit_direction, at).xyz);
     if (!kPathRadiance) return behind;
     vec4 picked_up = imageLoad(path_radiance, at);
     return behind * (1.0 - picked_up.a) + picked_up.rgb;
@@ -74,7 +74,7 @@ vec3 glass_radiance(ivec3 at, vec3 view_direction, vec3 normal, uint triangle) {
     }
     float reflectance = fresnel_dielectric(-dot(view_direction, normal), 1.0 / material.ior);
     vec3 reflected = kReflected ? imageLoad(reflected_radiance, at).rgb
-                                : reflectance * environment_radiance(reflect_direction(view_direction, normal));
+                                : reflectance * radiance_from_afar(reflect_direction(view_direction, normal));
     vec3 scattered = (1.0 - reflectance) * diffuse_radiance(tint.rgb, normal);
     return reflected + mix(scattered, tint.rgb * transmitted, tint.a);
 }

@@ -82,7 +82,8 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
                                   Constant{"kOpaque", !frame.scene.opaque.empty()},
                                   Constant{"kTextured", frame.scene.textured_glass},
                                   Constant{"kPathRadiance", refraction.radiance != nullptr},
-                                  Constant{"kReflected", refraction.reflected != nullptr}};
+                                  Constant{"kReflected", refraction.reflected != nullptr},
+                                  Constant{"kVisibleLights", frame.light.visible_lights()}};
     // Something of the right kind has to be bound where paths pick up nothing.
     const GpuImage& path_radiance =
         refraction.radiance ? *refraction.radiance : workspace.image("no radiance", kRadianceFormat, {1, 1});

@@ -17,10 +17,17 @@ layout(set = 0, binding = 3, rgba16f) readonly uniform image2DArray thin_reflect
 layout(set = 0, binding = 4, rgba32f) writeonly uniform image2DArray radiance;
 
 #include "gpu/environment_lookup.glsl"
+#include "gpu/punctual_light.glsl"
+layout(constant_id = 6) const uint kVisibleLights = 0u;
+layout(std430, set = 0, binding = 17) readonly buffer SceneLights { PunctualLight scene_lights[]; };
+#include "gpu/visible_lights.glsl"
 
 vec3 world_view_direction(ivec2 texel) {
     return mat3(frame.world_from_view) * camera_ray(vec2(texel) + 0.5).direction;
 }
+
+// Of the environment and of suns.
+vec3 radiance_from_afar(vec3 direction) { return environment_radiance(direction) + suns_ahead(direction); }
 
 // Stores what is seen at a pixel behind the thin walls in front of it.
 void store_radiance(ivec2 texel, vec3 seen) {

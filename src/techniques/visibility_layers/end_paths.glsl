@@ -121,7 +121,7 @@ vec3 environment_light(PathState state) {
     float spread = kRough ? spread_of(state.mark) : 0.0;
     if (has_mark(state, kBounced)) return state.path.transmittance * bounce_light(direction);
     if (spread > 0.0) return state.path.transmittance * filtered_environment_radiance(direction, sqrt(spread));
-    return state.path.transmittance * environment_radiance(direction);
+    return state.path.transmittance * (environment_radiance(direction) + suns_ahead(direction));
 }
 
 void store_result(ivec2 texel, PathState state) {
@@ -175,6 +175,11 @@ void end_in_the_open(ivec2 texel, PathState state) {
     }
     if (closing != 0u && has_mark(state, kMainPath)) state.path.status = kStatusEventLimit;
     if (has_mark(state, kMainPath)) store_result(texel, state);
+    if (kVisibleLights > 0u && has_mark(state, kMetLamp)) {
+        float ior = filling_iors(filling_body(state.media)).g;
+        add_light(texel, state.mark, state.path.transmittance / (ior * ior));
+        return;
+    }
     if (kTree || kStochastic || whole_picture != 0u || !has_mark(state, kMainPath))
         add_light(texel, state.mark, environment_light(state));
 }

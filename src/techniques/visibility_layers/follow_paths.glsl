@@ -5,6 +5,7 @@
 // opaque one, the path ends. Programs that define PELLUCID_HELD_VOLUMES know of solids that hold volumes.
 #include "techniques/visibility_layers/visibility_bindings.glsl"
 #include "techniques/visibility_layers/path_walk.glsl"
+#include "techniques/visibility_layers/path_lights.glsl"
 
 // Twin of ObjectBox in scene_topology.cpp.
 struct ObjectBox {
@@ -216,6 +217,19 @@ void pass_shadow(inout PathState state, MetSurface met, uint before, uint beyond
     ++state.path.events;
 }
 
+// Whether a lamp of some size lies on the way to a surface at `t`, and if so ends the path there.
+bool meets_lamp(inout PathState state, uint body, float t) {
+    if (kVisibleLights == 0u || has_mark(state, kToLight | kBounced) || spread_of(state.mark) > 0.0) return false;
+    vec3 radiance;
+    float straight = lamp_ahead(state.path.position, state.path.direction, t, radiance);
+    if (straight >= t) return false;
+    if (body == kAir) state.path.position += straight * state.path.direction;
+    else travel(state.path, straight, filling_material(body).sigma_a.rgb);
+    state.path.transmittance *= radiance;
+    state.mark |= kMetLamp;
+    return true;
+}
+
 // Takes a path to the next surface, and past it. False: it ends there, or nowhere, or enters a volume.
 bool go_on(inout PathState state) {
     uint body = filling_body(state.media);
@@ -235,6 +249,7 @@ bool go_on(inout PathState state) {
         state.mark |= kEntersVolume;
         return false;
     }
+    if (meets_lamp(state, body, hit.t)) return false;
     if (hit.t == kFarthest) {
         uint status = status_of_end(state.path, body != kAir, search.gave_up, t_end);
         if (kFinished && (status == kStatusLeftScreen || status == kStatusStepLimit)) state.mark |= kLost;

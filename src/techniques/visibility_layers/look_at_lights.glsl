@@ -4,10 +4,7 @@
 // Shadow rays from an opaque surface: branches of the path (path_state.glsl) that carry what the surface reflects of a
 // light, and bring it if they reach the light.
 // Needs: end_paths.glsl as far as struct OpaquePoint.
-#include "gpu/punctual_light.glsl"
-#include "gpu/light_sample.glsl"
-
-layout(std430, set = 0, binding = 48) readonly buffer SceneLights { PunctualLight scene_lights[]; };
+#include "techniques/visibility_layers/path_lights.glsl"
 
 // Shadow rays of one path end. Where there are more lights, they are chosen at random by what they contribute unshadowed.
 const uint kMostShadowRays = 4u;

@@ -130,7 +130,8 @@ private:
                 {"kTexturedGlass", scene.textured_glass},
                 {"kCrossing", topology_.crossing},
                 {"kFoundOnHost", finder_ != nullptr},
-                {"kLightsSurfaces", task_.lights_surfaces}};
+                {"kLightsSurfaces", task_.lights_surfaces},
+                {"kVisibleLights", frame_.light.visible_lights()}};
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 

@@ -15,7 +15,7 @@ Ways ways_of(const ParameterValues& parameters, std::uint32_t most_branches, boo
 
 /// Lets opaque surfaces at which paths end look to what lights them. Technique ihrke-2007 has light of its own.
 void light_surfaces(PathTask& task, const Frame& frame) {
-    task.lights_surfaces = frame.light.any() && task.volumes == nullptr;
+    task.lights_surfaces = frame.light.any() && !frame.scene.opaque.empty() && task.volumes == nullptr;
     // Where reflections are followed, opaque surfaces behind glass are seen beside each other.
     const std::uint32_t least_bounces = task.ways == Ways::kTree ? 1 : 0;
     task.push.most_bounces = std::max(task.lights_surfaces ? frame.light.bounces : 0, least_bounces);
