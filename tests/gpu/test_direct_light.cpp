@@ -63,7 +63,7 @@ protected:
     void SetUp() override {
         TechniqueTest::SetUp();
         if (IsSkipped()) return;
-        const Scene box = load_scene("shape:box");
+        const Scene box = load_scene("shape:cube");
         scene_.meshes = box.meshes;
         box_ = scene_bounds(box);
         add(diffuse(), {{-4.0, kFloor - 0.1, -4.0}, {4.0, kFloor, 4.0}});

@@ -90,7 +90,8 @@ protected:
         const GpuImage& image = workspace().image("opaque depth", vk::Format::eR32Sfloat, extent_);
         recorder().clear(image, vk::ClearColorValue(std::array{depth, 0.0f, 0.0f, 0.0f}));
         return {workspace().image("opaque radiance", vk::Format::eR32G32B32A32Sfloat, extent_), image,
-                workspace().image("opaque object", vk::Format::eR32Uint, extent_)};
+                workspace().image("opaque object", vk::Format::eR32Uint, extent_),
+                workspace().image("opaque triangle", vk::Format::eR32Uint, extent_)};
     }
     HostLayers read(const Layers& layers) {
         HostLayers host;

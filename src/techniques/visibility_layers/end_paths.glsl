@@ -33,9 +33,9 @@ layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]
 #include "techniques/ihrke_2007/lights_on_surfaces.glsl"
 #endif
 
-// Light by which a bounced path accounts for a direction: blurred, so that a small sun does not show as noise.
+// A diffuse reflection sees the environment blurred, so that a small sun does not show as noise.
 const float kBounceRoughness = 0.5;
-vec3 bounce_light(vec3 direction) { return filtered_environment_radiance(direction, kBounceRoughness); }
+const float kSmoothAlpha = 1e-4;  // below, a surface counts as a perfect mirror
 
 // The opaque surface at which a path has ended.
 struct OpaquePoint {
@@ -94,23 +94,72 @@ vec3 diffuse_albedo(OpaquePoint point) {
 
 uint bounces(PathState state) { return (state.mark & kBounceMask) >> kBounceShift; }
 
-// One direction of those from which the surface has been lit, to see what is there instead of the environment. What it
-// then finds counts, less what was assumed: surfaces that stand alone stay as they are, without noise.
-void bounce(ivec2 texel, PathState state, OpaquePoint point) {
-    vec3 weight = state.path.transmittance * diffuse_albedo(point);
-    uint branches_before = waiting[state.pixel].y, before = bounces(state);
-    if (before >= most_bounces || branches_before >= max(most_branches, most_bounces) || !(max(weight.r, max(weight.g, weight.b)) > threshold)) return;
-    vec2 u = random_numbers(hash(uvec3(texel + first_pixel(), 77u + branches_before + 256u * before)).x, state.path.events);
+// A direction in which a surface looks to what is around it.
+struct Bounce {
+    vec3 direction;  // unit
+    vec3 weight;     // of the radiance from there
+    float alpha;     // of the lobe from which it was chosen; 0: a perfect mirror's
+};
+
+Bounce diffuse_bounce(OpaquePoint point, vec2 u) {
     float radius = sqrt(u.x), angle = 6.283185307 * u.y;
     vec3 across = normalize(abs(point.normal.z) < 0.9 ? cross(point.normal, vec3(0.0, 0.0, 1.0))
                                                       : cross(point.normal, vec3(1.0, 0.0, 0.0)));
-    vec3 way = radius * cos(angle) * across + radius * sin(angle) * cross(point.normal, across) +
+    vec3 direction = radius * cos(angle) * across + radius * sin(angle) * cross(point.normal, across) +
                     sqrt(max(1.0 - u.x, 0.0)) * point.normal;
+    return Bounce(direction, diffuse_albedo(point), kBounceRoughness * kBounceRoughness);
+}
+
+// By a facet that is visible from the path's side (Heitz 2018). The weight is 0 where the facet sends light into the surface.
+Bounce facet_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
+    float alpha = point.surface.roughness * point.surface.roughness;
+    vec3 n = point.normal;
+    vec3 across = normalize(abs(n.z) < 0.9 ? cross(n, vec3(0.0, 0.0, 1.0)) : cross(n, vec3(1.0, 0.0, 0.0)));
+    mat3 world_from_surface = mat3(across, cross(n, across), n);
+    vec3 wo = to_viewer * world_from_surface;
+    vec3 m = alpha < kSmoothAlpha ? vec3(0.0, 0.0, 1.0) : visible_normal(wo, alpha, u);
+    vec3 wi = reflect(-wo, m);
+    float root = (point.surface.ior - 1.0) / (point.surface.ior + 1.0);
+    vec3 at_normal = mix(vec3(root * root), point.surface.base_color, point.surface.metallic);
+    vec3 fresnel = mix(at_normal, vec3(greaterThan(at_normal, vec3(0.0))), schlick_weight(clamp(dot(wo, m), 0.0, 1.0)));
+    float hidden = alpha < kSmoothAlpha ? 1.0 : (1.0 + smith_lambda(wo, alpha)) /
+                                                (1.0 + smith_lambda(wo, alpha) + smith_lambda(wi, alpha));
+    return Bounce(world_from_surface * wi, wi.z > 0.0 ? fresnel * hidden : vec3(0.0), alpha < kSmoothAlpha ? 0.0 : alpha);
+}
+
+float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
+
+// One of the two, at random by their weights; facets only where all light is followed.
+Bounce choose_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, float choice) {
+    Bounce diffuse = diffuse_bounce(point, u);
+    if (full_light == 0u || point.unlit) return diffuse;
+    Bounce facet = facet_bounce(point, to_viewer, u);
+    float share = largest(facet.weight) / max(largest(facet.weight) + largest(diffuse.weight), 1e-20);
+    bool by_facet = choice < share;
+    if (by_facet) diffuse = facet;
+    diffuse.weight /= by_facet ? share : 1.0 - share;
+    return diffuse;
+}
+
+// One direction of those from which the surface has been lit, to see what is there instead of the environment. What it
+// then finds counts, less what was assumed: surfaces that stand alone stay as they are, without noise.
+void bounce(ivec2 texel, PathState state, OpaquePoint point) {
+    uint branches_before = waiting[state.pixel].y, before = bounces(state);
+    if (before >= most_bounces || branches_before >= max(most_branches, most_bounces)) return;
+    uint seed = hash(uvec3(texel + first_pixel(), 77u + branches_before + 256u * before)).x;
+    Bounce chosen = choose_bounce(point, -state.path.direction, random_numbers(seed, state.path.events),
+                                  random_number(seed, state.path.events));
+    vec3 weight = state.path.transmittance * chosen.weight;
+    if (!(largest(weight) > threshold)) return;
     uint mark = state.mark;
-    state.path.direction = way;
+    state.path.direction = chosen.direction;
     state.path.transmittance = weight;
-    state.mark = ((mark & ~(kMainPath | kMetOpaque | kBounceMask)) | kBounced | (before + 1u) << kBounceShift);
-    if (push_branch(state, branch_capacity, true)) add_light(texel, mark, -weight * bounce_light(way));
+    state.mark = (mark & 0xffffu & ~(kMainPath | kMetOpaque | kBounceMask | kBounced)) | (before + 1u) << kBounceShift;
+    // A mirror's path sees lights; others leave these to shadow rays.
+    if (chosen.alpha > 0.0) state.mark = widened(state.mark | kBounced, chosen.alpha);
+    float roughness = sqrt(spread_of(state.mark));
+    if (push_branch(state, branch_capacity, true))
+        add_light(texel, mark, -weight * filtered_environment_radiance(chosen.direction, roughness));
 }
 
 #include "techniques/visibility_layers/look_at_lights.glsl"
@@ -118,8 +167,7 @@ void bounce(ivec2 texel, PathState state, OpaquePoint point) {
 // What the environment sends along a path.
 vec3 environment_light(PathState state) {
     vec3 direction = state.path.direction;
-    float spread = kRough ? spread_of(state.mark) : 0.0;
-    if (has_mark(state, kBounced)) return state.path.transmittance * bounce_light(direction);
+    float spread = kRough || has_mark(state, kBounced) ? spread_of(state.mark) : 0.0;
     if (spread > 0.0) return state.path.transmittance * filtered_environment_radiance(direction, sqrt(spread));
     return state.path.transmittance * (environment_radiance(direction) + suns_ahead(direction));
 }

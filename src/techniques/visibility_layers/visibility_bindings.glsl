@@ -51,6 +51,7 @@ layout(push_constant) uniform Push {
     uint direct_lights;    // of the scene, whose light opaque surfaces reflect
     uint tinted_shadows;   // 1: glass lets shadow rays pass, weakened; 0: it blocks them
     uint most_bounces;     // diffuse reflections along a path
+    uint full_light;       // 1: what facets of opaque surfaces reflect is followed, too
     uint behind_glass;     // 1: opaque surfaces that pixels show behind glass are lit, too
 };
 
