@@ -29,7 +29,7 @@ struct RenderArguments {
     std::string technique = RenderSettings{}.technique;
     ParameterArguments parameters;
     std::string size = "512x512";
-    std::string environment = "studio";
+    EnvironmentArguments environment;
     std::optional<std::string> camera;
     std::optional<double> fov_deg;
     std::uint32_t samples = 1;
@@ -95,7 +95,7 @@ void check_render_outputs(const RenderArguments& arguments) {
     std::vector<std::string> outputs{arguments.output};
     for (const std::string& aov : arguments.aovs) outputs.push_back(parse_aov(aov).second);
     if (arguments.json) outputs.push_back(*arguments.json);
-    check_outputs(outputs, {arguments.scene, arguments.environment});
+    check_outputs(outputs, {arguments.scene, arguments.environment.name_or_file});
 }
 
 /// Median over the frames of each pass's time, in the order of the passes.
@@ -116,7 +116,9 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"driver", device.driver},
                                 {"version", version()},
                                 {"scene", arguments.scene},
-                                {"environment", arguments.environment},
+                                {"environment", arguments.environment.name_or_file},
+                                {"environment_rotation_deg", arguments.environment.rotation_deg},
+                                {"environment_intensity", arguments.environment.intensity},
                                 {"width", settings.width},
                                 {"height", settings.height},
                                 {"samples", settings.samples},
@@ -200,7 +202,7 @@ void render(const RenderArguments& arguments) {
     const Scene scene = load_given_scene(arguments.scene, arguments.how);
     std::vector<std::string> warnings = scene.warnings;
     std::string environment_warning;
-    const Environment environment = load_environment(arguments.environment, &environment_warning);
+    const Environment environment = load_given_environment(arguments.environment, environment_warning);
     if (!environment_warning.empty()) warnings.push_back(environment_warning);
 
     Renderer renderer(device_options(arguments.device));
@@ -239,7 +241,7 @@ void add_render_command(CLI::App& app) {
         ->capture_default_str()
         ->type_name("NAME");
     command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
-    add_environment_option(*command, a.environment);
+    add_environment_options(*command, a.environment);
     command
         ->add_option("--camera", a.camera,
                      "A camera of the file, or azimuth and elevation in degrees and distance in radii; "

@@ -24,7 +24,7 @@ struct BenchArguments {
     std::string techniques;  ///< empty: all that the device offers
     std::string size = "512x512";
     int frames = 30;
-    std::string environment = "studio";
+    EnvironmentArguments environment;
     bool deforming = false;
     std::optional<std::string> json;
     std::string command;  ///< the command line without folders, which differ from machine to machine
@@ -223,7 +223,7 @@ void check_arguments(const BenchArguments& arguments) {
 
 void check_json(const BenchArguments& arguments, const std::vector<BenchCase>& cases) {
     if (!arguments.json) return;
-    std::vector<std::string> inputs{arguments.environment};
+    std::vector<std::string> inputs{arguments.environment.name_or_file};
     for (const BenchCase& each : cases) inputs.push_back(each.source);
     check_outputs({*arguments.json}, inputs);
 }
@@ -255,7 +255,7 @@ void run_bench(const BenchArguments& arguments) {
     std::vector<BenchCase> cases = cases_of(arguments, missing);
     check_json(arguments, cases);
     std::string environment_warning;
-    const Environment environment = load_environment(arguments.environment, &environment_warning);
+    const Environment environment = load_given_environment(arguments.environment, environment_warning);
     Bench bench{.arguments = arguments,
                 .renderer = Renderer(device_options(arguments.device)),
                 .techniques = {},
@@ -276,7 +276,9 @@ void run_bench(const BenchArguments& arguments) {
                   {"cpu_threads", bench.renderer.tracer().threads()},
                   {"command", arguments.command},
                   {"suite", arguments.suite.value_or("")},
-                  {"environment", arguments.environment},
+                  {"environment", arguments.environment.name_or_file},
+                  {"environment_rotation_deg", arguments.environment.rotation_deg},
+                  {"environment_intensity", arguments.environment.intensity},
                   {"warnings", bench.warnings},
                   {"runs", nlohmann::ordered_json::array()}};
     print_head();
@@ -310,7 +312,7 @@ void add_bench_command(CLI::App& app) {
     add_number(*command, "--frames", a.frames, "Frames that are timed, after a warm-up")->capture_default_str();
     command->add_flag("--deforming", a.deforming,
                       "Time as well what ray tracing pays where every vertex moves from frame to frame");
-    add_environment_option(*command, a.environment);
+    add_environment_options(*command, a.environment);
     command->add_option("--json", a.json, "Write every measure of every run")->type_name("FILE");
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);

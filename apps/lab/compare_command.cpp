@@ -27,7 +27,7 @@ struct CompareArguments {
     std::uint32_t exact_events = ExactSettings{}.max_events;
     std::string truth = "reference";
     std::uint32_t truth_samples = 64;
-    std::string environment = "studio";
+    EnvironmentArguments environment;
     std::string tonemap = "neutral";
     double exposure_ev = 0.0;
     std::optional<std::string> json;
@@ -233,7 +233,7 @@ void check_arguments(const CompareArguments& arguments) {
     }
     if (!arguments.json) return;
     std::vector<std::string> inputs = arguments.scenes;
-    inputs.push_back(arguments.environment);
+    inputs.push_back(arguments.environment.name_or_file);
     check_outputs({*arguments.json}, inputs);
     if (arguments.html && is_in_folder(*arguments.json, *arguments.html))
         throw Error(fmt::format("{}: lies in the folder of --html, which is the report's own", *arguments.json));
@@ -270,7 +270,7 @@ void check_settings(const Comparison& comparison) {
 void compare(const CompareArguments& arguments) {
     check_arguments(arguments);
     std::string environment_warning;
-    const Environment environment = load_environment(arguments.environment, &environment_warning);
+    const Environment environment = load_given_environment(arguments.environment, environment_warning);
     Comparison comparison{.arguments = arguments,
                           .renderer = Renderer(device_options(arguments.device)),
                           .techniques = {},
@@ -289,7 +289,9 @@ void compare(const CompareArguments& arguments) {
         {"device", device.name},
         {"driver", device.driver},
         {"version", version()},
-        {"environment", arguments.environment},
+        {"environment", arguments.environment.name_or_file},
+        {"environment_rotation_deg", arguments.environment.rotation_deg},
+        {"environment_intensity", arguments.environment.intensity},
         {"exact_events", arguments.exact_events},
         {"image_truth", describe_truth(arguments)},
         {"image_truth_parameters",
@@ -343,7 +345,7 @@ void add_compare_command(CLI::App& app, const std::string& command_line) {
         ->capture_default_str()
         ->type_name("NAME");
     add_number(*command, "--truth-samples", a.truth_samples, "Paths per pixel of --truth path")->capture_default_str();
-    add_environment_option(*command, a.environment);
+    add_environment_options(*command, a.environment);
     command->add_option("--tonemap", a.tonemap, "none, reinhard, aces, neutral or krawczyk")
         ->capture_default_str()
         ->type_name("NAME");

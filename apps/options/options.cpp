@@ -142,12 +142,28 @@ ParameterMap given_parameters(const ParameterArguments& arguments) {
     return parameters;
 }
 
-void add_environment_option(CLI::App& command, std::string& name_or_file) {
+void add_environment_options(CLI::App& command, EnvironmentArguments& arguments) {
     command
-        .add_option("--environment", name_or_file,
+        .add_option("--environment", arguments.name_or_file,
                     "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
         ->capture_default_str()
         ->type_name("NAME|FILE");
+    add_number(command, "--environment-rotation", arguments.rotation_deg,
+               "Turn of the environment about +Y, degrees; 90 brings light from +X to -Z")
+        ->capture_default_str()
+        ->type_name("DEG");
+    add_number(command, "--environment-intensity", arguments.intensity, "Factor of the environment's radiance")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("X");
+}
+
+Environment load_given_environment(const EnvironmentArguments& arguments, std::string& warning) {
+    Environment environment = load_environment(arguments.name_or_file, &warning);
+    // Whole turns are taken off in double precision.
+    environment.rotation = float(glm::radians(std::remainder(arguments.rotation_deg, 360.0)));
+    environment.intensity = float(arguments.intensity);
+    return environment;
 }
 
 bool is_in_folder(const std::filesystem::path& file, const std::filesystem::path& folder) {

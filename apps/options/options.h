@@ -63,7 +63,15 @@ void add_parameter_options(CLI::App& command, ParameterArguments& arguments);
 /// Those that were given.
 ParameterMap given_parameters(const ParameterArguments& arguments);
 
-void add_environment_option(CLI::App& command, std::string& name_or_file);
+/// Light from infinitely far away, as given.
+struct EnvironmentArguments {
+    std::string name_or_file = "studio";
+    double rotation_deg = 0.0;
+    double intensity = 1.0;
+};
+void add_environment_options(CLI::App& command, EnvironmentArguments& arguments);
+/// load_environment(), turned and scaled. `warning` as there.
+Environment load_given_environment(const EnvironmentArguments& arguments, std::string& warning);
 
 /// Says before any work what could not be written after it. Throws Error for a file that cannot be written,
 /// that is one of `inputs`, or that is given for two outputs.

@@ -13,7 +13,7 @@ namespace pellucid {
 
 /// Light that arrives from infinitely far away.
 ///
-/// Orientation: direction (x, y, z), +Y up, lies in the equirectangular map at
+/// Orientation without rotation: direction (x, y, z), +Y up, lies in the equirectangular map at
 /// `u = 1/2 + atan2(z, x) / 2 pi`, `v = acos(y) / pi` from the top row: +X is the image centre,
 /// -Z is at u = 1/4.
 struct Environment {
@@ -23,6 +23,9 @@ struct Environment {
     Kind kind = Kind::kStudio;
     Image map;                         ///< kMap: 3 channels, linear radiance, finite and >= 0
     glm::vec3 uniform_radiance{1.0f};  ///< kUniform: the same from everywhere
+    /// Radians, finite: a right-handed turn about +Y. After a quarter turn light from +X arrives from -Z.
+    float rotation = 0.0f;
+    float intensity = 1.0f;  ///< factor of the radiance, finite and >= 0
 };
 
 /// `studio`, `checker`, `sky`, `uniform` (radiance 1, the furnace test), or an equirectangular
@@ -30,7 +33,7 @@ struct Environment {
 /// listing the known ones. Negative, infinite and NaN texels become 0 and are counted in `warning`.
 PELLUCID_API Environment load_environment(const std::string& name_or_file, std::string* warning = nullptr);
 
-/// Radiance from `direction` (unit, pointing away from the scene). Maps are sampled bilinearly,
+/// Radiance from `direction` (unit, world, pointing away from the scene). Maps are sampled bilinearly,
 /// wrapping in u and clamped in v.
 PELLUCID_API glm::vec3 radiance(const Environment& environment, glm::vec3 direction);
 

@@ -26,4 +26,20 @@ vec3 map_radiance(texture2D map, vec3 d) {
     return mix(upper, lower, weight.y);
 }
 
+// Where an environment stands, and how bright it is: cosine and sine of its rotation about +Y, and its intensity.
+struct EnvironmentPlacement {
+    float cosine, sine, intensity;
+};
+
+vec3 environment_from_world(EnvironmentPlacement placement, vec3 d) {
+    return vec3(placement.cosine * d.x - placement.sine * d.z, d.y, placement.sine * d.x + placement.cosine * d.z);
+}
+
+// Radiance of environment `kind` from world direction d.
+vec3 placed_radiance(uint kind, texture2D map, vec3 uniform_radiance, EnvironmentPlacement placement, vec3 d) {
+    vec3 turned = environment_from_world(placement, d);
+    vec3 full = kind == kEnvironmentMap ? map_radiance(map, turned) : procedural_radiance(kind, uniform_radiance, turned);
+    return placement.intensity * full;
+}
+
 #endif

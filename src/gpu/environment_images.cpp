@@ -4,6 +4,7 @@
 #include "gpu/structs.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pellucid {
 namespace {
@@ -27,6 +28,16 @@ std::uint32_t samples_per_side(const Environment& environment) {
 
 }  // namespace
 
+void set_environment(gpu::FrameConstants& constants, const Environment& environment) {
+    constants.environment_kind = std::uint32_t(environment.kind);
+    constants.environment_uniform = glm::vec4(environment.uniform_radiance, 0.0f);
+    constants.environment_cosine = std::cos(environment.rotation);
+    constants.environment_sine = std::sin(environment.rotation);
+    constants.environment_intensity = environment.intensity;
+    const auto coefficients = irradiance_coefficients(environment);
+    for (std::size_t i = 0; i < coefficients.size(); ++i) constants.irradiance[i] = glm::vec4(coefficients[i], 0.0f);
+}
+
 GpuImage upload_environment(const Device& device, const Environment& environment) {
     const bool map = environment.kind == Environment::Kind::kMap;
     const Image image = map ? environment.map : Image(1, 1, 3);
@@ -45,9 +56,11 @@ GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Envi
 
     struct Push {
         glm::vec4 uniform_radiance;
+        float cosine, sine, intensity;
         std::uint32_t samples;
     };
-    const Push push{glm::vec4(environment.uniform_radiance, 0.0f), samples_per_side(environment)};
+    const Push push{glm::vec4(environment.uniform_radiance, 0.0f), std::cos(environment.rotation),
+                    std::sin(environment.rotation), environment.intensity, samples_per_side(environment)};
     recorder.compute(
         workspace.compute(shaders::sample_environment_comp, {{"kEnvironmentKind", std::uint32_t(environment.kind)}}),
         {reads_layer("environment_map", map, 0), writes("pyramid", pyramid)}, push, {kPyramidSize, kPyramidSize});

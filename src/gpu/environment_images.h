@@ -1,11 +1,15 @@
 #pragma once
 
 #include "gpu/recorder.h"
+#include "gpu/structs.h"
 #include "gpu/workspace.h"
 
 #include <pellucid/environment.h>
 
 namespace pellucid {
+
+/// Fills what shaders have to know of the environment beside its map.
+void set_environment(gpu::FrameConstants& constants, const Environment& environment);
 
 /// The environment's map, or one black texel if it is a formula; bound as "environment_map".
 GpuImage upload_environment(const Device& device, const Environment& environment);

@@ -11,8 +11,10 @@
 #endif
 
 vec3 environment_radiance(vec3 direction) {
-    if (PELLUCID_ENVIRONMENT_KIND == kEnvironmentMap) return map_radiance(environment_map, direction);
-    return procedural_radiance(PELLUCID_ENVIRONMENT_KIND, frame.environment_uniform.rgb, direction);
+    EnvironmentPlacement placement =
+        EnvironmentPlacement(frame.environment_cosine, frame.environment_sine, frame.environment_intensity);
+    return placed_radiance(PELLUCID_ENVIRONMENT_KIND, environment_map, frame.environment_uniform.rgb, placement,
+                           direction);
 }
 
 #endif

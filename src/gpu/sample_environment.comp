@@ -15,12 +15,12 @@ layout(set = 0, binding = 0) uniform texture2D environment_map;
 layout(set = 0, binding = 1, rgba32f) writeonly uniform image2DArray pyramid;
 layout(push_constant) uniform Push {
     vec4 uniform_radiance;
+    EnvironmentPlacement placement;
     uint samples;  // along the side of a texel
 };
 
 vec3 radiance_from(vec3 direction) {
-    if (kEnvironmentKind == kEnvironmentMap) return map_radiance(environment_map, direction);
-    return procedural_radiance(kEnvironmentKind, uniform_radiance.rgb, direction);
+    return placed_radiance(kEnvironmentKind, environment_map, uniform_radiance.rgb, placement, direction);
 }
 
 void main() {

@@ -53,7 +53,9 @@ struct FrameConstants {
     uint sample_index;  // of the picture, 0 on
     uint first_x;  // of the tile in the picture, pixels
     uint first_y;
-    uint reserved1, reserved2, reserved3;
+    float environment_cosine;  // of its rotation about +Y
+    float environment_sine;
+    float environment_intensity;
     vec4 environment_uniform;
     vec4 irradiance[9];  // spherical harmonics, see irradiance_coefficients()
 };
@@ -70,7 +72,7 @@ struct ObjectRecord {
 struct MaterialRecord {
     vec4 base_color;
     vec4 emission;  // rgb, radiance
-    vec4 sigma_a;   // rgb, 1/m
+    vec4 sigma_a;   // rgb, 1/m; a: Material::thickness, of the mesh's own frame
     float ior;
     float transmission;
     float alpha_cutoff;

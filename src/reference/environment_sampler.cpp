@@ -40,8 +40,9 @@ Grid tabulate_map(const Image& map) {
     return grid;
 }
 
-glm::dvec3 direction_from_equirect(double u, double cos_colatitude) {
-    const double longitude = (u - 0.5) * 2.0 * pi;
+/// World direction; a right-handed turn of the environment about +Y lowers longitudes.
+glm::dvec3 direction_from_equirect(double u, double cos_colatitude, double rotation) {
+    const double longitude = (u - 0.5) * 2.0 * pi - rotation;
     const double radius = std::sqrt(std::max(1.0 - cos_colatitude * cos_colatitude, 0.0));
     return {radius * std::cos(longitude), cos_colatitude, radius * std::sin(longitude)};
 }
@@ -53,7 +54,8 @@ Grid tabulate_formula(const Environment& environment) {
     for (int y = 0; y < kHeight * kPerSide; ++y) {
         const double cos_colatitude = std::cos((y + 0.5) / (kHeight * kPerSide) * pi);
         for (int x = 0; x < kWidth * kPerSide; ++x) {
-            const glm::dvec3 d = direction_from_equirect((x + 0.5) / (kWidth * kPerSide), cos_colatitude);
+            const glm::dvec3 d =
+                direction_from_equirect((x + 0.5) / (kWidth * kPerSide), cos_colatitude, double(environment.rotation));
             grid.luminance[std::size_t(y / kPerSide) * kWidth + std::size_t(x / kPerSide)] +=
                 luminance(radiance(environment, glm::vec3(d))) / (kPerSide * kPerSide);
         }
@@ -93,6 +95,7 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment) {
         environment.kind == Environment::Kind::kMap ? tabulate_map(environment.map) : tabulate_formula(environment);
     width_ = grid.width;
     height_ = grid.height;
+    rotation_ = std::remainder(double(environment.rotation), 2.0 * pi);
     columns_.resize((width_ + 1) * height_);
     std::vector<double> row_light(height_);
     for (std::size_t y = 0; y < height_; ++y) {
@@ -101,7 +104,8 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment) {
                        accumulate_shares<float>(std::span(grid.luminance).subspan(y * width_, width_), shares);
     }
     rows_.resize(height_ + 1);
-    if (!(accumulate_shares<double>(row_light, rows_) > 0.0)) rows_.clear();
+    const double light = accumulate_shares<double>(row_light, rows_);
+    if (!(light > 0.0) || environment.intensity == 0.0f) rows_.clear();
 }
 
 double EnvironmentSampler::row_solid_angle(std::size_t row) const {
@@ -127,15 +131,18 @@ EnvironmentSampler::Sample EnvironmentSampler::sample(Random& random) const {
     const double step = pi / double(height_);
     const double top = std::cos(double(row) * step), bottom = std::cos(double(row + 1) * step);
     Sample sample;
-    sample.direction = direction_from_equirect((double(column) + across) / double(width_), top + down * (bottom - top));
+    sample.direction =
+        direction_from_equirect((double(column) + across) / double(width_), top + down * (bottom - top), rotation_);
     sample.pdf = cell_pdf(column, row);
     return sample;
 }
 
 double EnvironmentSampler::pdf(const glm::dvec3& direction) const {
     if (dark()) return 0.0;
-    const double u =
-        0.5 + (direction.x == 0.0 && direction.z == 0.0 ? 0.0 : std::atan2(direction.z, direction.x)) / (2.0 * pi);
+    const double longitude = direction.x == 0.0 && direction.z == 0.0 ? 0.0 : std::atan2(direction.z, direction.x);
+    double u = 0.5 + (longitude + rotation_) / (2.0 * pi);
+    if (u < 0.0) u += 1.0;
+    if (u > 1.0) u -= 1.0;
     const double v = std::acos(std::clamp(direction.y, -1.0, 1.0)) / pi;
     const auto index = [](double x, std::size_t count) {
         return std::min(std::size_t(x * double(count)), count - 1);  // x = 1 belongs to the last

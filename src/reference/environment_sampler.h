@@ -42,6 +42,7 @@ private:
     std::span<const float> columns(std::size_t row) const;
 
     std::size_t width_ = 0, height_ = 0;
+    double rotation_ = 0.0;       ///< Environment::rotation within half a turn; the grid's cells are those without it
     std::vector<double> rows_;    ///< cumulative share of the rows' light, height_ + 1 values from 0 to 1
     std::vector<float> columns_;  ///< likewise within each row, width_ + 1 values per row
 };

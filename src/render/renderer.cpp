@@ -181,11 +181,7 @@ void Renderer::set_environment(const Environment& environment) {
     impl_->filtered_environment.reset();
     impl_->environment_map = upload_environment(impl_->device, environment);
     impl_->environment = environment;
-    gpu::FrameConstants& values = impl_->environment_constants;
-    values.environment_kind = std::uint32_t(environment.kind);
-    values.environment_uniform = glm::vec4(environment.uniform_radiance, 0.0f);
-    const auto coefficients = irradiance_coefficients(environment);
-    for (std::size_t i = 0; i < coefficients.size(); ++i) values.irradiance[i] = glm::vec4(coefficients[i], 0.0f);
+    pellucid::set_environment(impl_->environment_constants, environment);
 }
 
 void Renderer::set_camera(const Camera& camera) {

@@ -167,6 +167,9 @@ void check_environment(const Environment& environment) {
                 "the map needs 3 channels");
     }
     require(finite(environment.uniform_radiance), "environment", "the uniform radiance is not finite");
+    require(std::isfinite(environment.rotation), "environment", "the rotation is not finite");
+    require(environment.intensity >= 0.0f && std::isfinite(environment.intensity), "environment",
+            "the intensity must be finite, at 0 or above");
 }
 
 }  // namespace pellucid

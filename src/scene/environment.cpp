@@ -98,6 +98,12 @@ glm::vec3 map_radiance(const Image& map, glm::vec3 direction) {
     return glm::mix(upper, lower, weight.y);
 }
 
+/// The direction in which the environment without rotation holds the light that arrives from world direction `d`.
+glm::vec3 environment_from_world(const Environment& environment, glm::vec3 d) {
+    const float cosine = std::cos(environment.rotation), sine = std::sin(environment.rotation);
+    return {cosine * d.x - sine * d.z, d.y, sine * d.x + cosine * d.z};
+}
+
 using Coefficients = std::array<glm::dvec3, 9>;
 
 /// The real spherical harmonics of order 0 to 2.
@@ -119,11 +125,12 @@ void add_sample(Coefficients& sum, glm::dvec3 direction, glm::dvec3 weighted_rad
 }
 
 /// Every texel of the map, weighted by its solid angle.
-Coefficients project_map(const Image& map) {
+Coefficients project_map(const Environment& environment) {
+    const Image& map = environment.map;
     constexpr double kPiDouble = std::numbers::pi;
     std::vector<glm::dvec2> cos_sin(std::size_t(map.width));
     for (int x = 0; x < map.width; ++x) {
-        const double longitude = ((x + 0.5) / map.width - 0.5) * 2.0 * kPiDouble;
+        const double longitude = ((x + 0.5) / map.width - 0.5) * 2.0 * kPiDouble - double(environment.rotation);
         cos_sin[std::size_t(x)] = {std::cos(longitude), std::sin(longitude)};
     }
     Coefficients sum{};
@@ -132,10 +139,11 @@ Coefficients project_map(const Image& map) {
         const double half_step = 0.5 * kPiDouble / map.height;
         // Between the two parallels that bound the row, shared by its texels.
         const double solid_angle = 2.0 * std::sin(colatitude) * std::sin(half_step) * (2.0 * kPiDouble / map.width);
+        const double weight = solid_angle * double(environment.intensity);
         const double height = std::cos(colatitude), radius = std::sin(colatitude);
         for (int x = 0; x < map.width; ++x) {
             const glm::dvec2 around = cos_sin[std::size_t(x)] * radius;
-            add_sample(sum, {around.x, height, around.y}, glm::dvec3(texel(map, x, y)) * solid_angle);
+            add_sample(sum, {around.x, height, around.y}, glm::dvec3(texel(map, x, y)) * weight);
         }
     }
     return sum;
@@ -177,8 +185,12 @@ Environment load_environment(const std::string& name_or_file, std::string* warni
 }
 
 glm::vec3 radiance(const Environment& environment, glm::vec3 direction) {
-    if (environment.kind == Environment::Kind::kMap) return map_radiance(environment.map, direction);
-    return formulas::procedural_radiance(glm::uint(environment.kind), environment.uniform_radiance, direction);
+    const glm::vec3 d = environment_from_world(environment, direction);
+    const bool map = environment.kind == Environment::Kind::kMap;
+    const glm::vec3 full =
+        map ? map_radiance(environment.map, d)
+            : formulas::procedural_radiance(glm::uint(environment.kind), environment.uniform_radiance, d);
+    return environment.intensity * full;
 }
 
 std::array<glm::vec3, 9> irradiance_coefficients(const Environment& environment) {
@@ -186,7 +198,7 @@ std::array<glm::vec3, 9> irradiance_coefficients(const Environment& environment)
     constexpr double kPiDouble = std::numbers::pi;
     constexpr double kCosineByOrder[] = {kPiDouble, 2.0 * kPiDouble / 3.0, kPiDouble / 4.0};
     const Coefficients sum =
-        environment.kind == Environment::Kind::kMap ? project_map(environment.map) : project_formula(environment);
+        environment.kind == Environment::Kind::kMap ? project_map(environment) : project_formula(environment);
     std::array<glm::vec3, 9> result;
     for (std::size_t i = 0; i < result.size(); ++i) {
         const std::size_t order = i == 0 ? 0 : i < 4 ? 1 : 2;

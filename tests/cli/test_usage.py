@@ -72,6 +72,21 @@ class Registry(CliTest):
         self.assert_rendered(self.render("shape:sphere", "--technique", "wang-2014", "--steps", "7", "--json", "out.json"))
         self.assertEqual(json.loads(self.read("out.json"))["parameters"]["steps"], 7)
 
+    def test_environment_is_turned_and_scaled(self):
+        def drawn(*arguments):
+            self.assert_rendered(self.render("shape:torus", "--environment", "sky", "--json", "out.json", *arguments))
+            values = json.loads(self.read("out.json"))
+            self.assertEqual(values["environment"], "sky")
+            return self.read("out.png"), values["environment_rotation_deg"], values["environment_intensity"]
+
+        plain = drawn()
+        self.assertEqual(plain[1:], (0, 1))
+        self.assertEqual(drawn("--environment-rotation", "720")[0], plain[0])
+        turned = drawn("--environment-rotation", "-90")
+        brighter = drawn("--environment-rotation", "-90", "--environment-intensity", "2")
+        self.assertEqual(brighter[1:], (-90, 2))
+        self.assertEqual(len({plain[0], turned[0], brighter[0]}), 3)
+
 
 class Names(CliTest):
     """An unknown name is refused with the known ones."""
@@ -83,6 +98,10 @@ class Names(CliTest):
         self.refuses(["filmic", "known: ", "none", "reinhard", "aces", "neutral", "krawczyk"], "--tonemap", "filmic")
         self.refuses(["guess", "known: ", "single-pass", "depth-peeling", "dual-depth-peeling"], "--layer-builder", "guess")
         self.refuses(["cave", "studio", "checker", "sky", ".hdr", ".exr"], "--environment", "cave")
+        for intensity in ("-1", "nan", "1e999", "bright", ""):
+            self.refuses("--environment-intensity", "--environment-intensity", intensity)
+        for rotation in ("inf", "left", ""):
+            self.refuses("--environment-rotation", "--environment-rotation", rotation)
         self.refuses(["Voodoo", "found: "], "--device", "Voodoo")
         self.refuses("edge", scene="shape:cube,edge=1")
         self.refuses(["teapot", "sphere", "goblet"], scene="shape:teapot")

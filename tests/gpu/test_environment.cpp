@@ -23,6 +23,12 @@ Environment noise_map(int width, int height) {
     return environment;
 }
 
+Environment placed(Environment environment, float rotation, float intensity) {
+    environment.rotation = rotation;
+    environment.intensity = intensity;
+    return environment;
+}
+
 Camera turned(float yaw, float pitch) {
     Camera camera;
     camera.vertical_fov = 1.2f;
@@ -44,12 +50,14 @@ protected:
 
 TEST_F(EnvironmentTest, BackgroundAgreesWithTheCpu) {
     constexpr int kSize = 48;
-    const std::array<std::pair<const char*, Environment>, 5> environments = {{
+    const std::array<std::pair<const char*, Environment>, 7> environments = {{
         {"studio", environment_of(Environment::Kind::kStudio)},
         {"checker", environment_of(Environment::Kind::kChecker)},
         {"sky", environment_of(Environment::Kind::kSky)},
         {"uniform", uniform_environment({0.1f, 0.2f, 0.3f})},
         {"map", noise_map(31, 17)},
+        {"turned map", placed(noise_map(31, 17), 2.0f, 0.5f)},
+        {"turned sky", placed(environment_of(Environment::Kind::kSky), -0.7f, 3.0f)},
     }};
     for (const auto& [name, environment] : environments) {
         int differing = 0, pixels = 0;
@@ -98,6 +106,72 @@ TEST_F(EnvironmentTest, IsNotMirrored) {
     EXPECT_GT(rgb(ahead, 32, 54).b, 0.9f);
     EXPECT_GT(rgb(background(oriented_map(32), turned(-kPi / 2, 0.0f), kSize), 32, 20).g, 0.9f);
     EXPECT_LT(rgb(background(oriented_map(32), turned(kPi / 2, 0.0f), kSize), 32, 20).g, 0.1f);
+}
+
+/// Glass, a matt floor and metal of several roughnesses.
+Scene still_life() {
+    Scene scene = load_scene("shape:knot");
+    const Scene ball = load_scene("shape:sphere,segments=64");
+    const auto add = [&](float metallic, float roughness, const glm::mat4& placement) {
+        Material material;
+        material.base_color = {0.8f, 0.7f, 0.6f, 1.0f};
+        material.metallic = metallic;
+        material.roughness = roughness;
+        scene.objects.push_back({"", int(scene.meshes.size()), int(scene.materials.size()), placement});
+        scene.materials.push_back(material);
+        scene.meshes.push_back(ball.meshes[0]);
+    };
+    for (int i = 0; i < 4; ++i)
+        add(i < 3 ? 1.0f : 0.0f, i < 3 ? 0.3f * float(i) : 1.0f,
+            glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(-1.5f + float(i), -1.2f, 1.0f)), glm::vec3(0.4f)));
+    return scene;
+}
+
+class PlacedEnvironment : public TechniqueTest {
+protected:
+    static constexpr int kSize = 64;
+
+    Image draw(const Environment& environment, float turn) {
+        Scene scene = still_life();
+        const glm::mat4 world = glm::rotate(glm::mat4(1.0f), turn, glm::vec3(0, 1, 0));
+        Camera camera = orbit_camera(scene_bounds(scene), 20.0f, 10.0f, framing_distance(0.5f, 0.7f), 0.5f);
+        camera.world_from_view = world * camera.world_from_view;
+        for (Object& object : scene.objects) object.world_from_object = world * object.world_from_object;
+        renderer().set_scene(scene);
+        renderer().set_camera(camera);
+        renderer().set_environment(environment);
+        RenderSettings settings;
+        settings.width = settings.height = kSize;
+        settings.technique = GetParam();
+        return renderer().render(settings).radiance;
+    }
+    static double mean_difference(const Image& a, const Image& b) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(double(a.pixels[i]) - double(b.pixels[i]));
+        return sum / double(a.pixels.size());
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Techniques, PlacedEnvironment,
+                         ::testing::Values("visibility-layers", "kay-greenberg-1979", "wyman-2005"),
+                         technique_test_name);
+
+TEST_P(PlacedEnvironment, IsTheSceneTurnedTheOtherWay) {
+    for (const Environment& environment : {environment_of(Environment::Kind::kStudio), noise_map(31, 17)}) {
+        const float level = environment.kind == Environment::Kind::kMap ? 5.0f : 0.3f;  // its mean radiance, about
+        const Image still = draw(environment, 0.0f), expected = draw(environment, -2.3f);
+        const Image found = draw(placed(environment, 2.3f, 1.0f), 0.0f);
+        // Paths that graze an edge go elsewhere by rounding.
+        EXPECT_LT(mean_difference(found, expected), 0.02 * double(level));
+        EXPECT_GT(mean_difference(found, still), 0.2 * double(level));
+    }
+}
+
+TEST_P(PlacedEnvironment, IntensityIsAFactor) {
+    const Environment environment = noise_map(31, 17);
+    const Image one = draw(environment, 0.0f), third = draw(placed(environment, 0.0f, 1.0f / 3.0f), 0.0f);
+    for (std::size_t i = 0; i < one.pixels.size(); ++i)
+        EXPECT_NEAR(one.pixels[i], 3.0f * third.pixels[i], 1e-3f * (1.0f + one.pixels[i]));
 }
 
 // A ball lens turns the world upside down and left to right.

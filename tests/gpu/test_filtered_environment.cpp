@@ -52,8 +52,7 @@ protected:
         map_ = upload_environment(device(), environment);
         filtered_ = filter_environment(workspace(), recorder(), environment, map_);
         constants_ = {};
-        constants_.environment_kind = std::uint32_t(environment.kind);
-        constants_.environment_uniform = glm::vec4(environment.uniform_radiance, 0.0f);
+        set_environment(constants_, environment);
     }
     std::vector<glm::vec3> look(const std::vector<glm::vec3>& directions, float roughness) {
         const Buffer& frame = workspace().buffer("frame", sizeof(constants_), true);

@@ -80,6 +80,31 @@ TEST(EnvironmentMap, SmallestMapAndSlightlyLongDirections) {
         expect_near(radiance(map, d), {1, 2, 3}, 1e-6f);
 }
 
+/// Right-handed about +Y.
+glm::vec3 turned(glm::vec3 d, float angle) {
+    return glm::vec3(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0)) * glm::vec4(d, 0.0f));
+}
+
+TEST(PlacedEnvironment, AQuarterTurnBringsLightFromXToMinusZ) {
+    Environment map = numbered_map();
+    const glm::vec3 from_x = radiance(map, {1, 0, 0}), from_minus_z = radiance(map, {0, 0, -1});
+    map.rotation = 0.5f * kPi;
+    expect_near(radiance(map, {0, 0, -1}), from_x, 1e-5f);
+    expect_near(radiance(map, {-1, 0, 0}), from_minus_z, 1e-5f);
+}
+
+TEST(PlacedEnvironment, RadianceTurnsAndScales) {
+    for (const Environment& environment : {numbered_map(), load_environment("studio"), load_environment("sky")}) {
+        Environment placed = environment;
+        placed.rotation = 2.2f;
+        placed.intensity = 3.0f;
+        for (const glm::vec3 from : {glm::vec3(1, 2, 3), glm::vec3(-2, 0.5f, 1), glm::vec3(0.1f, -1, -0.4f)}) {
+            const glm::vec3 d = glm::normalize(from);
+            expect_near(radiance(placed, turned(d, 2.2f)), 3.0f * radiance(environment, d), 2e-3f);
+        }
+    }
+}
+
 TEST(ProceduralEnvironment, EveryDirectionIsFiniteAndInRange) {
     for (const char* name : {"studio", "checker", "sky", "uniform"}) {
         SCOPED_TRACE(name);
@@ -165,6 +190,20 @@ TEST(Irradiance, OfALinearEnvironmentIsExact) {
     for (const glm::vec3 n :
          {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::normalize(glm::vec3(-1, 2, 1))})
         expect_near(irradiance(coefficients, n), glm::vec3(kPi + 2.0f * kPi / 3.0f * glm::dot(a, n)), 2e-3f);
+}
+
+TEST(Irradiance, TurnsAndScalesWithTheEnvironment) {
+    Environment map = numbered_map();
+    for (const Environment& environment : {map, load_environment("studio")}) {
+        Environment placed = environment;
+        placed.rotation = -0.8f;
+        placed.intensity = 0.25f;
+        const auto before = irradiance_coefficients(environment), after = irradiance_coefficients(placed);
+        for (const glm::vec3 from : {glm::vec3(1, 0, 0), glm::vec3(0.3f, -0.5f, 2), glm::vec3(-1, 1, -1)}) {
+            const glm::vec3 n = glm::normalize(from), expected = 0.25f * irradiance(before, n);
+            expect_near(irradiance(after, turned(n, -0.8f)), expected, 2e-3f * glm::length(expected));
+        }
+    }
 }
 
 TEST(Irradiance, FormulaAndItsMapAgree) {

@@ -61,6 +61,49 @@ TEST(PathPicture, IsTheSameOnAnyNumberOfThreads) {
     EXPECT_NE(one.radiance.pixels, trace_on(0, 6).radiance.pixels);
 }
 
+/// Turns everything about +Y, right-handed, but not the environment.
+Scene turned(Scene scene, float angle) {
+    const glm::mat4 turn = glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0));
+    for (Object& object : scene.objects) object.world_from_object = turn * object.world_from_object;
+    for (Light& light : scene.lights) light.position = glm::vec3(turn * glm::vec4(light.position, 1.0f));
+    return scene;
+}
+
+TEST(PathPicture, ATurnedEnvironmentIsTheSceneTurnedTheOtherWay) {
+    constexpr float kAngle = 2.1f;
+    const Scene scene = still_life(), other = turned(scene, -kAngle);
+    Camera camera = view_of(scene, 10), other_camera = camera;
+    other_camera.world_from_view = glm::rotate(glm::mat4(1.0f), -kAngle, glm::vec3(0, 1, 0)) * camera.world_from_view;
+    Environment environment = load_environment("studio");
+    const PathTracedImage expected = Tracer(other).path_trace(other_camera, environment, settings_of(16, 512));
+    environment.rotation = kAngle;
+    const PathTracedImage found = Tracer(scene).path_trace(camera, environment, settings_of(16, 512));
+    double square = 0.0, difference = 0.0;
+    for (std::size_t i = 0; i < found.radiance.pixels.size(); ++i) {
+        const double error =
+            std::hypot(double(found.standard_error.pixels[i]), double(expected.standard_error.pixels[i])) + 1e-3;
+        const double off = double(found.radiance.pixels[i] - expected.radiance.pixels[i]);
+        EXPECT_LT(std::abs(off), 6.0 * error) << i;
+        square += off * off / (error * error);
+        difference += off;
+    }
+    EXPECT_LT(square / double(found.radiance.pixels.size()), 1.5);
+    EXPECT_NEAR(difference / double(found.radiance.pixels.size()), 0.0, 4e-3);
+}
+
+TEST(PathPicture, IntensityScalesTheEnvironmentsShare) {
+    Scene scene = still_life();
+    scene.lights.clear();
+    const Camera camera = view_of(scene, 10);
+    Environment environment = load_environment("sky");
+    const Tracer tracer(scene);
+    const PathTracedImage one = tracer.path_trace(camera, environment, settings_of(12, 16));
+    environment.intensity = 4.0f;
+    const PathTracedImage four = tracer.path_trace(camera, environment, settings_of(12, 16));
+    for (std::size_t i = 0; i < one.radiance.pixels.size(); ++i)
+        EXPECT_NEAR(four.radiance.pixels[i], 4.0f * one.radiance.pixels[i], 1e-4f * (1.0f + four.radiance.pixels[i]));
+}
+
 TEST(PathPicture, SeedsAgreeAndTheStandardErrorIsTheirSpread) {
     const Scene scene = still_life();
     const Tracer tracer(scene);

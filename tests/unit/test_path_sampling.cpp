@@ -34,6 +34,11 @@ Environment sunny_map() {
 
 Environment named(const char* name) { return load_environment(name); }
 
+Environment rotated(Environment environment, float rotation) {
+    environment.rotation = rotation;
+    return environment;
+}
+
 TEST(PathSampling, RandomNumbersAreUniformAndPathsDiffer) {
     constexpr int kBins = 16, kPaths = 4000;
     std::vector<int> firsts(kBins), seconds(kBins);
@@ -53,7 +58,8 @@ TEST(PathSampling, RandomNumbersAreUniformAndPathsDiffer) {
 }
 
 TEST(EnvironmentSampler, DensityIntegratesToOne) {
-    for (const Environment& environment : {sunny_map(), named("studio"), named("sky"), named("uniform")}) {
+    for (const Environment& environment :
+         {sunny_map(), named("studio"), named("sky"), named("uniform"), rotated(sunny_map(), -2.0f)}) {
         const EnvironmentSampler sampler(environment);
         constexpr int kWidth = 1536, kHeight = 768;
         double sum = 0.0;
@@ -71,7 +77,8 @@ TEST(EnvironmentSampler, DensityIntegratesToOne) {
 }
 
 TEST(EnvironmentSampler, ChoosesWithTheDensityThatItStates) {
-    for (const Environment& environment : {sunny_map(), named("sky")}) {
+    for (const Environment& environment :
+         {sunny_map(), named("sky"), rotated(sunny_map(), 2.5f), rotated(named("sky"), -9.0f)}) {
         const EnvironmentSampler sampler(environment);
         constexpr int kColumns = 16, kRows = 8, kSamples = 40000, kFine = 32;
         const auto bin_of = [](const glm::dvec3& d) {
@@ -109,14 +116,30 @@ TEST(EnvironmentSampler, ChoosesWithTheDensityThatItStates) {
 }
 
 TEST(EnvironmentSampler, StatesTheDensityOfWhatItChose) {
-    const EnvironmentSampler sampler(sunny_map());
-    Random random(5, 0, 0);
-    int different = 0;
-    for (int i = 0; i < 10000; ++i) {
-        const EnvironmentSampler::Sample sample = sampler.sample(random);
-        different += std::abs(sampler.pdf(sample.direction) / sample.pdf - 1.0) > 1e-9;
+    for (const float rotation : {0.0f, 3.0f, -4.0f}) {
+        const EnvironmentSampler sampler(rotated(sunny_map(), rotation));
+        Random random(5, 0, 0);
+        int different = 0;
+        for (int i = 0; i < 10000; ++i) {
+            const EnvironmentSampler::Sample sample = sampler.sample(random);
+            different += std::abs(sampler.pdf(sample.direction) / sample.pdf - 1.0) > 1e-9;
+        }
+        EXPECT_LE(different, 2) << "rounding on the border of two cells";
     }
-    EXPECT_LE(different, 2) << "rounding on the border of two cells";
+}
+
+// The bright texel of the map, and the sun with a twentieth of the sky's light, are where radiance() shows it.
+TEST(EnvironmentSampler, ChoosesWhereARotatedEnvironmentIsBright) {
+    for (Environment environment : {sunny_map(), named("sky")}) {
+        environment.rotation = 1.9f;
+        environment.intensity = 0.5f;
+        const EnvironmentSampler sampler(environment);
+        Random random(11, 0, 0);
+        int bright = 0;
+        for (int i = 0; i < 2000; ++i)
+            bright += radiance(environment, glm::vec3(sampler.sample(random).direction)).r > 10.0f ? 1 : 0;
+        EXPECT_GT(bright, environment.kind == Environment::Kind::kMap ? 1200 : 80);
+    }
 }
 
 TEST(EnvironmentSampler, CoversAllLightOfABilinearMap) {
@@ -134,9 +157,13 @@ TEST(EnvironmentSampler, DarknessIsKnown) {
     Environment environment;
     environment.kind = Environment::Kind::kUniform;
     environment.uniform_radiance = glm::vec3(0.0f);
-    const EnvironmentSampler sampler(environment);
-    EXPECT_TRUE(sampler.dark());
-    EXPECT_EQ(sampler.pdf({0, 1, 0}), 0.0);
+    Environment out = sunny_map();
+    out.intensity = 0.0f;
+    for (const Environment& dark : {environment, out}) {
+        const EnvironmentSampler sampler(dark);
+        EXPECT_TRUE(sampler.dark());
+        EXPECT_EQ(sampler.pdf({0, 1, 0}), 0.0);
+    }
 }
 
 struct NamedBsdf {
