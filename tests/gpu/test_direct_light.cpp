@@ -67,6 +67,8 @@ protected:
         scene_.meshes = box.meshes;
         box_ = scene_bounds(box);
         add(diffuse(), {{-4.0, kFloor - 0.1, -4.0}, {4.0, kFloor, 4.0}});
+        const float fov = Camera{}.vertical_fov;
+        camera_ = orbit_camera(scene_bounds(scene_), 20.0f, 50.0f, framing_distance(fov, 0.9f), fov);
     }
     void add(const Material& material, const Box& box) {
         Object object;
@@ -80,8 +82,6 @@ protected:
         boxes_.push_back(box);
     }
     RenderResult draw(const LightOptions& light = {}, std::uint32_t samples = 1) {
-        camera_ = orbit_camera(scene_bounds(scene_), 20.0f, 50.0f, framing_distance(Camera{}.vertical_fov, 0.9f),
-                               Camera{}.vertical_fov);
         renderer().set_scene(scene_);
         renderer().set_environment(uniform_environment(glm::vec3(environment_)));
         renderer().set_camera(camera_);
@@ -133,7 +133,7 @@ TEST_P(DirectLight, OpaqueAndGlassCastShadows) {
     add(diffuse(), {{-1.5, -0.5, -0.5}, {-0.7, 0.3, 0.5}});
     add(glass(), {{0.7, -0.5, -0.5}, {1.5, 0.3, 0.5}});
     for (const bool is_lamp : {false, true}) {
-        const glm::vec3 towards(0.3f, 1.0f, 0.4f), position(0.5f, 2.5f, 0.8f);
+        const glm::vec3 towards(1.5f, 1.0f, -0.4f), position(2.5f, 2.0f, -0.8f);
         scene_.lights = {is_lamp ? lamp(position, 5.0f) : sun(-towards)};
         const RenderResult drawn = draw();
         int lit = 0, dark = 0;
@@ -167,7 +167,7 @@ TEST_P(DirectLight, TintedShadowsOfGlass) {
         const double passes = shadow == 1 ? 0.96 * 0.96 * std::sqrt(0.5) : 1.0;
         EXPECT_NEAR(rgb(drawn.radiance, x, y).g, kAlbedo / double(kPi) * 2.0 * passes, kRounding) << x << ", " << y;
     });
-    EXPECT_GT(shadowed, 20);
+    EXPECT_GE(shadowed, 10);
 }
 
 // A pane reflects 2 F / (1 + F) of light that falls on it straight, in both kinds of shadow.
@@ -186,7 +186,7 @@ TEST_P(DirectLight, PanesLetLightPass) {
         const double passes = shadow == 1 ? std::pow(0.5 * (1.0 - 0.08 / 1.04), 2.0) : 1.0;
         EXPECT_NEAR(rgb(drawn.radiance, x, y).g, kAlbedo / double(kPi) * 2.0 * passes, kRounding) << x << ", " << y;
     });
-    EXPECT_GT(shadowed, 20);
+    EXPECT_GE(shadowed, 10);
 }
 
 // Where the edge of a box hides half of a lamp's ball, half of its light is left. 256 samples: within 4 deviations of the
