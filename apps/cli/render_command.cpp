@@ -122,7 +122,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"width", settings.width},
                                 {"height", settings.height},
                                 {"samples", settings.samples},
-                                {"light", arguments.light.transport},
+                                {"light", light_transport_name(result.light)},
                                 {"shadows", arguments.light.shadows},
                                 {"bounces", settings.light.bounces},
                                 {"objects", scene.objects.size()},

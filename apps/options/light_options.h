@@ -11,7 +11,7 @@ namespace pellucid::cli {
 
 /// Which light is followed. Names are parsed when the command runs.
 struct LightArguments {
-    std::string transport = "direct";
+    std::string transport = "automatic";
     std::string shadows = "exact";
     std::uint32_t bounces = LightOptions().bounces;
 };

@@ -9,12 +9,16 @@ namespace pellucid {
 
 /// Which light the frames of a technique follow to opaque surfaces. Truths follow all of it.
 enum class LightTransport {
+    /// kEnvironment in scenes without lights and emissive objects, kFull in stills of several samples, kDirect otherwise
+    /// (default).
+    kAutomatic,
     kEnvironment,  ///< the environment's, unshadowed, as if each surface stood alone; lights of the scene are left out
-    kDirect,       ///< kEnvironment and the light of suns, lamps and spots, with shadows (default)
+    kDirect,       ///< kEnvironment and the light of suns, lamps and spots, with shadows
     kFull,         ///< kDirect, diffuse reflections between surfaces, and what hides the environment
 };
-/// The value of a name: environment, direct, full. Throws Error listing them.
+/// The value of a name: automatic, environment, direct, full. Throws Error listing them.
 PELLUCID_API LightTransport parse_light_transport(std::string_view name);
+PELLUCID_API std::string_view light_transport_name(LightTransport transport);
 
 /// What refracting glass does to the straight ray from a light to a surface. Thin walls tint it in both.
 enum class Shadows {
@@ -25,7 +29,7 @@ enum class Shadows {
 PELLUCID_API Shadows parse_shadows(std::string_view name);
 
 struct LightOptions {
-    LightTransport transport = LightTransport::kDirect;
+    LightTransport transport = LightTransport::kAutomatic;
     Shadows shadows = Shadows::kExact;
     std::uint32_t bounces = 2;  ///< diffuse reflections along a path, 0 to 7; kFull
 };

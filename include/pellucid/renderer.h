@@ -82,10 +82,11 @@ struct RenderResult {
     /// One entry per sample; empty where the device has no timestamps. On the software driver the
     /// first frame of a size includes compiling the shaders.
     std::vector<std::vector<PassTime>> frames;
-    std::uint32_t layer_passes = 0;                    ///< geometry passes that built the last frame's layers
-    std::uint64_t cut_rays = 0;                        ///< ThicknessResult::cut_rays of the first frame, all lights
-    std::uint64_t covered = 0;                         ///< pixels whose first surface is refracting glass
-    std::array<std::uint64_t, kStatusCount> status{};  ///< covered pixels by Status
+    LightTransport light = LightTransport::kEnvironment;  ///< of its frames; truths follow all light
+    std::uint32_t layer_passes = 0;                       ///< geometry passes that built the last frame's layers
+    std::uint64_t cut_rays = 0;                           ///< ThicknessResult::cut_rays of the first frame, all lights
+    std::uint64_t covered = 0;                            ///< pixels whose first surface is refracting glass
+    std::array<std::uint64_t, kStatusCount> status{};     ///< covered pixels by Status
     std::uint64_t side_conflicts = 0;   ///< covered pixels where shading and geometric normal disagreed about the side
     std::vector<std::string> warnings;  ///< what of the scene is drawn otherwise than it is; one line each
 };

@@ -22,6 +22,13 @@ double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+bool has_lights(const Scene& scene) {
+    return !scene.lights.empty() || std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        const Material& material = scene.materials[std::size_t(object.material)];
+        return !material.transmissive() && !material.unlit && material.emission != glm::vec3(0.0f);
+    });
+}
+
 bool has_size(const Light& light) {
     return (light.kind == Light::Kind::kDirectional ? light.angular_diameter : light.radius) > 0.0f;
 }
@@ -49,7 +56,7 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
     if (const std::string lacking = lacking_for(device, info); !lacking.empty()) {
         throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
     }
-    warnings = approximations(cpu.scene(), info, settings.light);
+    warnings = approximations(cpu.scene(), info, chosen_light(settings));
     ParameterMap parameters = settings.parameters;
     parameters.merge(choice.parameters);  // what is there already stays
     FrameSettings chosen{.info = info,
@@ -106,6 +113,16 @@ void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& set
     std::memcpy(constants->mapped(), &values, sizeof(values));
 }
 
+LightOptions Renderer::Impl::chosen_light(const RenderSettings& settings) const {
+    LightOptions light = settings.light;
+    if (light.transport != LightTransport::kAutomatic) return light;
+    const bool several = settings.still && (settings.samples > 1 || settings.error > 0.0f);
+    light.transport = !has_lights(cpu.scene()) ? LightTransport::kEnvironment
+                      : several                ? LightTransport::kFull
+                                               : LightTransport::kDirect;
+    return light;
+}
+
 FrameLight Renderer::Impl::frame_light(const LightOptions& wanted) const {
     if (wanted.transport == LightTransport::kEnvironment) return {};
     const std::vector<Light>& lights = cpu.scene().lights;
@@ -125,7 +142,7 @@ Frame Renderer::Impl::frame_of(const RenderSettings& settings) {
             {settings.width, settings.height},
             glm::uvec2(0),
             1,
-            frame_light(settings.light)};
+            frame_light(chosen_light(settings))};
 }
 
 void Renderer::Impl::forget_frame() {
@@ -194,8 +211,9 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     check_settings(settings, impl.device);
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
-    impl.prepare(chosen, impl.frame_light(settings.light), impl.camera_for(settings), settings.progress,
+    impl.prepare(chosen, impl.frame_light(chosen_light(settings)), impl.camera_for(settings), settings.progress,
                  result.warnings);
+    result.light = impl.chosen_light(settings).transport;
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
     Frame frame = impl.frame_of(settings);
     if (settings.view == View::kWavefront) frame.front_exposure = std::exp2(settings.exposure_ev);

@@ -84,6 +84,8 @@ struct Renderer::Impl {
     /// The image that a truth traces itself.
     void trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
     Frame frame_of(const RenderSettings& settings);
+    /// Settings::light with what kAutomatic stands for.
+    LightOptions chosen_light(const RenderSettings& settings) const;
     FrameLight frame_light(const LightOptions& wanted) const;
     /// Takes back what a frame that failed has left. Rooms for what frames need are learnt anew.
     void forget_frame();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,12 @@ Enum parse_name(std::string_view what, std::string_view name,
     throw Error(fmt::format("unknown {} '{}'; known: {}", what, name, fmt::join(names, ", ")));
 }
 
+constexpr std::array<std::pair<std::string_view, LightTransport>, 4> kLightTransports = {
+    {{"automatic", LightTransport::kAutomatic},
+     {"environment", LightTransport::kEnvironment},
+     {"direct", LightTransport::kDirect},
+     {"full", LightTransport::kFull}}};
+
 }  // namespace
 
 View parse_view(std::string_view name) {
@@ -42,10 +49,13 @@ LayerBuilder parse_layer_builder(std::string_view name) {
 }
 
 LightTransport parse_light_transport(std::string_view name) {
-    return parse_name<LightTransport, 3>("light transport", name,
-                                         {{{"environment", LightTransport::kEnvironment},
-                                           {"direct", LightTransport::kDirect},
-                                           {"full", LightTransport::kFull}}});
+    return parse_name("light transport", name, kLightTransports);
+}
+
+std::string_view light_transport_name(LightTransport transport) {
+    return std::find_if(kLightTransports.begin(), kLightTransports.end(),
+                        [&](const auto& known) { return known.second == transport; })
+        ->first;
 }
 
 Shadows parse_shadows(std::string_view name) {
