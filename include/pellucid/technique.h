@@ -55,6 +55,8 @@ struct TechniqueInfo {
     bool whole_scene = false;
     /// Draws volumes (Scene::volumes); otherwise they are left out.
     bool volumes = false;
+    /// Lights of the scene light its refracting glass.
+    bool lit_glass = false;
 };
 
 /// Every technique by its publication, then those that trace rays, then the truths (TechniqueInfo::reference).

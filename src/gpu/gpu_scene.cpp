@@ -110,7 +110,7 @@ gpu::MaterialRecord material_record(const Material& material, TextureTable& text
     gpu::MaterialRecord record{};
     record.base_color = material.base_color;
     record.emission = glm::vec4(material.emission, 0.0f);
-    record.sigma_a = glm::vec4(material.sigma_a(), 0.0f);
+    record.sigma_a = glm::vec4(material.sigma_a(), material.thickness);
     record.ior = material.ior;
     record.transmission = material.transmission;
     record.alpha_cutoff = material.alpha_cutoff;

@@ -201,6 +201,107 @@ TEST_F(KayGreenberg, SurfacesBeyondTheLayersAreCounted) {
     }
 }
 
+/// Two squares that face the eye, one behind the other, under a sun alone.
+class KayGreenbergLights : public KayGreenberg {
+protected:
+    static constexpr double kAlpha = 0.2 * 0.2;  // of the default highlight-roughness
+    const glm::dvec3 color_{0.8, 0.4, 0.2};
+
+    /// Radiance in the middle, under irradiance 2 from a sun `angle` off the view axis; parallel view rays.
+    glm::dvec3 middle(double angle, double t, ParameterMap parameters = {}) {
+        Scene scene;
+        for (const float z : {0.0f, -1.0f})
+            add(scene, square(1.0f), glass(glm::vec3(color_)), glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, z)));
+        Light sun;
+        sun.kind = Light::Kind::kDirectional;
+        sun.intensity = glm::vec3(2.0f);
+        sun.angular_diameter = 0.0f;  // it does not show itself
+        sun.direction = glm::vec3(float(std::sin(angle)), 0.0f, -float(std::cos(angle)));
+        scene.lights = {sun};
+        renderer().set_scene(scene);
+        renderer().set_camera(front_camera(1.0f));
+        renderer().set_environment(uniform_environment(glm::vec3(0.0f)));
+        RenderSettings settings;
+        settings.width = settings.height = 8;
+        settings.technique = "kay-greenberg-1979";
+        settings.parameters = std::move(parameters);
+        settings.parameters.try_emplace("mode", 0.0);
+        settings.parameters["max-transparency"] = t;
+        const RenderResult result = renderer().render(settings);
+        return glm::dvec3(rgb(result.radiance, 4, 4));
+    }
+    /// The highlight of one surface, from the definitions: GGX facets half-way, masked from both sides.
+    static double highlight(double angle) {
+        const double facet = std::cos(0.5 * angle), light = std::cos(angle), alpha2 = kAlpha * kAlpha;
+        const double density = alpha2 / (kPi * std::pow(facet * facet * (alpha2 - 1.0) + 1.0, 2));
+        const auto lambda = [&](double cosine) {
+            return 0.5 * (std::sqrt(1.0 + alpha2 * (1.0 / (cosine * cosine) - 1.0)) - 1.0);
+        };
+        const double unmasked = 1.0 / (1.0 + lambda(1.0) + lambda(light));
+        return 2.0 * light * density * unmasked * reflectance(facet) / (4.0 * light);
+    }
+    static void expect_near(const glm::dvec3& found, const glm::dvec3& expected) {
+        EXPECT_LT(glm::length(found - expected), 1e-3 * (1.0 + glm::length(expected)))
+            << found.x << ' ' << found.y << ' ' << found.z << " against " << expected.x << ' ' << expected.y << ' '
+            << expected.z;
+    }
+};
+
+// The nearer surface's colour in full, the one behind it tinted by it: see SphereFollowsTheLinearAndTheNonLinearFormula.
+TEST_F(KayGreenbergLights, NewFollowsTheAngleToTheLightAndHighlightsOfBothSurfacesAreAdded) {
+    for (const double angle : {0.0, 0.1, 0.5, 1.3}) {
+        for (const double t : {0.0, 0.3, 0.9}) {
+            const double lambert = 2.0 * std::cos(angle) / kPi;
+            expect_near(middle(angle, t), color_ * (lambert * (1.0 - t) * (1.0 + t)) + 2.0 * highlight(angle));
+        }
+    }
+}
+
+TEST_F(KayGreenbergLights, LightFromBehindDoesNotShow) {
+    EXPECT_EQ(middle(kPi, 0.5), glm::dvec3(0.0));
+    EXPECT_EQ(middle(2.0, 0.5), glm::dvec3(0.0));
+}
+
+TEST_F(KayGreenbergLights, HighlightsAreAsWideAsTheParameterSays) {
+    const glm::dvec3 sharp = middle(0.6, 1.0, {{"highlight-roughness", 0.1}});
+    const glm::dvec3 wide = middle(0.6, 1.0, {{"highlight-roughness", 0.6}});
+    EXPECT_GT(wide.r, 20.0 * sharp.r);
+}
+
+// Lights can be set anew, and taken away, on one scene.
+TEST_F(KayGreenbergLights, ChangedLightsAreDrawn) {
+    const double lit = middle(0.5, 0.5).r;
+    RenderSettings settings;
+    settings.width = settings.height = 8;
+    settings.technique = "kay-greenberg-1979";
+    settings.parameters = {{"mode", 0}, {"max-transparency", 0.5}};
+    Light sun;
+    sun.kind = Light::Kind::kDirectional;
+    sun.intensity = glm::vec3(2.0f);
+    sun.angular_diameter = 0.0f;
+    sun.direction = glm::vec3(float(std::sin(0.5)), 0.0f, -float(std::cos(0.5)));
+    renderer().set_lights({sun, sun, sun});
+    EXPECT_NEAR(double(rgb(renderer().render(settings).radiance, 4, 4).r), 3.0 * lit, 1e-4);
+    renderer().set_lights({});
+    EXPECT_EQ(rgb(renderer().render(settings).radiance, 4, 4), glm::vec3(0.0f));
+}
+
+// With own slabs h is thicknessFactor in the world, and t what the material's absorption leaves of d.
+TEST_F(KayGreenberg, OwnSlabsAreOfTheMaterial) {
+    Scene scene;
+    Material material = glass(glm::vec3(1.0f));
+    material.thickness = 0.1f;
+    material.attenuation_color = glm::vec3(0.5f, 0.25f, 1.0f);
+    material.attenuation_distance = 0.2f;
+    add(scene, square(0.5f), material, glm::scale(glm::mat4(1.0f), glm::vec3(2.0f)));
+    const RenderResult result = render(scene, front_camera(1.0f), {{"mode", 2}, {"own-slabs", 1}});
+    const RefractedPath& path = path_at(result, kSize / 2, kSize / 2);
+    EXPECT_NEAR(path.length_inside, 0.2f, 1e-5f);
+    EXPECT_NEAR(path.transmittance.r, 0.5f, 1e-5f);
+    EXPECT_NEAR(path.transmittance.g, 0.25f, 1e-5f);
+    EXPECT_NEAR(path.transmittance.b, 1.0f, 1e-5f);
+}
+
 TEST_F(KayGreenberg, EveryModelIsFinite) {
     const char* data = std::getenv("PELLUCID_TEST_DATA");
     if (data == nullptr) GTEST_SKIP() << "PELLUCID_TEST_DATA is not set";

@@ -129,6 +129,59 @@ TEST_F(Wyman2005, TotalReflectionIsClampedToTheCriticalAngle) {
     EXPECT_GT(clamped, result.covered / 5);
 }
 
+// d_V alone: the way of the view ray through the slab, laid along the refracted one.
+TEST_F(Wyman2005, TheDistanceAlongTheViewRayAloneIsAMode) {
+    const Scene scene = load_scene("shape:slab,width=2,height=2,thickness=0.3");
+    const RenderResult result = render(scene, parallel_camera(0.4f, 0.1f), settings_for(3, {{"distances", 2}}));
+    const RefractedPath& path = result.paths[4];
+    EXPECT_EQ(path.status, Status::kOk);
+    EXPECT_NEAR(double(path.length_inside), 0.3 / std::cos(0.4), 1e-4);
+}
+
+// Seen square on, a prism of 45 degrees throws the view back: in through the hypotenuse, two total reflections.
+TEST_F(Wyman2005, InnerReflectionsBounceBetweenTheFaces) {
+    Scene scene = load_scene("shape:cube");
+    Mesh prism;  // a right angle along Y that points away from the eye, the hypotenuse towards it
+    const glm::vec3 corners[] = {{-1, -1, 0}, {1, -1, 0}, {0, -1, -1}, {-1, 1, 0}, {1, 1, 0}, {0, 1, -1}};
+    for (const glm::uvec3 t : {glm::uvec3(0, 1, 4), glm::uvec3(0, 4, 3), glm::uvec3(1, 2, 5), glm::uvec3(1, 5, 4),
+                               glm::uvec3(2, 0, 3), glm::uvec3(2, 3, 5), glm::uvec3(0, 2, 1), glm::uvec3(3, 4, 5)}) {
+        const glm::vec3 n = glm::normalize(glm::cross(corners[t.y] - corners[t.x], corners[t.z] - corners[t.x]));
+        for (int k = 0; k < 3; ++k) {
+            prism.positions.push_back(corners[t[k]]);
+            prism.normals.push_back(n);
+        }
+        const auto first = std::uint32_t(prism.positions.size()) - 3;
+        prism.triangles.push_back({first, first + 1, first + 2});
+    }
+    scene.meshes[0] = prism;
+    constexpr std::uint32_t kSize = 64;
+    const Camera camera = parallel_camera(0.0f, 2.5f);
+    const auto paths_with = [&](double reflections) {
+        return render(scene, camera, settings_for(kSize, {{"inner-reflections", reflections}, {"distances", 2}})).paths;
+    };
+    const auto followed = paths_with(4), one = paths_with(1), clamped = paths_with(0);
+    ExactSettings exact_settings;
+    exact_settings.width = exact_settings.height = kSize;
+    const auto exact = renderer().tracer().exact(camera, exact_settings);
+    int right = 0, cut = 0, covered = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        if (exact[i].reflections != 2) continue;
+        ++covered;
+        EXPECT_EQ(clamped[i].reflections, 0);
+        EXPECT_EQ(one[i].reflections, 1);
+        cut += one[i].status == Status::kEventLimit ? 1 : 0;
+        right += followed[i].reflections == 2 && followed[i].status == Status::kOk &&
+                         angle_deg(followed[i].direction, exact[i].direction) < 1.0 &&
+                         std::abs(followed[i].length_inside - exact[i].length_inside) < 0.1f
+                     ? 1
+                     : 0;
+    }
+    // Within a step of the search the walls are not told apart, near the edge where they meet.
+    EXPECT_GT(covered, 1000);
+    EXPECT_GT(right, covered * 9 / 10);
+    EXPECT_GT(cut, covered * 9 / 10);
+}
+
 TEST_F(Wyman2005, BothBackFacesAndBothDistancesAreFiniteOnEveryModel) {
     std::vector<std::string> scenes = {"shape:goblet", "shape:knot", "shape:hollow-sphere"};
     if (!data_folder().empty()) {
@@ -140,9 +193,11 @@ TEST_F(Wyman2005, BothBackFacesAndBothDistancesAreFiniteOnEveryModel) {
     for (const std::string& source : scenes) {
         const Scene scene = load_scene(source);
         for (const double option : {0.0, 1.0}) {
-            const RenderResult result =
-                render(scene, framing(scene, 40.0f),
-                       settings_for(64, {{"back-face", option}, {"distances", option}, {"table", 8.0}}));
+            const RenderResult result = render(scene, framing(scene, 40.0f),
+                                               settings_for(64, {{"back-face", option},
+                                                                 {"distances", option},
+                                                                 {"table", 8.0},
+                                                                 {"inner-reflections", 5.0 * option}}));
             std::uint64_t covered = 0;
             for (const RefractedPath& path : result.paths) {
                 covered += path.events > 0 ? 1 : 0;

@@ -6,12 +6,19 @@
 // over the image that the passes before have left, read at a displaced pixel. Following one pixel through the
 // passes from the last to the first gives the same sum, and needs no images in between.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 #include "techniques/technique_bindings.glsl"
 
+layout(set = 0, binding = 15) uniform texture2D environment_map;
+
 #include "gpu/diffuse.glsl"
+#include "gpu/environment_lookup.glsl"
 #include "layers/pixel_list.glsl"
+#include "techniques/kay_greenberg_1979/surface_light.glsl"
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
+
+layout(constant_id = 0) const bool kLit = false;  // the scene has lights
 
 const uint kLinear = 0u;
 const uint kNonLinear = 1u;
@@ -20,6 +27,7 @@ layout(set = 0, binding = 10, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 11, rgba32f) readonly uniform image2DArray opaque_radiance;
 layout(set = 0, binding = 12, r32ui) readonly uniform uimage2DArray opaque_object;
 layout(set = 0, binding = 13, rgba32f) writeonly uniform image2DArray path_radiance;
+layout(set = 0, binding = 16, rgba32f) writeonly uniform image2DArray reflected_radiance;  // written if kLit
 
 layout(push_constant) uniform Push {
     uint mode;
@@ -29,6 +37,9 @@ layout(push_constant) uniform Push {
     float max_transparency;
     float thickness;      // h, metres
     float log_transmission;  // of T1 per metre, <= 0
+    uint own_slabs;          // 1: h and T1 are those of the surface's material
+    uint light_count;
+    float least_alpha;  // of highlights
 };
 
 // A pixel's way through the images, last first.
@@ -36,6 +47,7 @@ struct View {
     vec2 pixel;  // where the image is read; centres at +0.5
     vec3 transmittance;
     vec3 radiance;  // NEW terms
+    vec3 highlights;
     float length_inside;
     float depth;  // of the last surface
     uint events;
@@ -60,17 +72,32 @@ uint count_surfaces(ivec2 texel) {
 
 // NEW: the surface as if it were opaque. Shading multiplies all that comes through glass by the first surface's
 // colour (`tint`), which is taken out here.
-vec3 own_radiance(MaterialRecord material, vec3 tint, vec3 facing) {
+vec3 own_radiance(MaterialRecord material, vec3 tint, vec3 facing, vec3 irradiance_of_lights) {
     vec3 albedo = material.base_color.rgb / max(tint, vec3(1e-4));
-    return diffuse_radiance(albedo, mat3(frame.world_from_view) * facing);
+    vec3 own = diffuse_radiance(albedo, mat3(frame.world_from_view) * facing);
+    return kLit ? own + albedo * irradiance_of_lights / kLightPi : own;
+}
+
+SurfaceLight light_on_surface(View view, MaterialRecord material, vec3 facing, float depth) {
+    vec3 position = (frame.world_from_view * vec4(view_position(view.pixel, depth), 1.0)).xyz;
+    vec3 to_eye = -normalize(mat3(frame.world_from_view) * camera_ray(view.pixel).direction);
+    float alpha = max(material.roughness * material.roughness, least_alpha);
+    return light_on(LitSurface(position, normalize(mat3(frame.world_from_view) * facing), to_eye, material.ior, alpha),
+                    light_count);
+}
+
+// Thickness of a surface's own slab in the world, metres.
+float own_thickness(ObjectRecord object, MaterialRecord material) {
+    return material.sigma_a.a * pow(abs(determinant(mat3(object.world_from_object))), 1.0 / 3.0);
 }
 
 // Section 4.2, A and B: outside media rays run along -Z of the view; the surface is a slab of thickness h. Moves
 // to the pixel behind it and returns t.
-vec3 cross_slab(inout View view, MaterialRecord material, vec3 facing, float depth) {
+vec3 cross_slab(inout View view, ObjectRecord object, MaterialRecord material, vec3 facing, float depth) {
     vec3 inside;
     refract_direction(vec3(0.0, 0.0, -1.0), facing, 1.0 / material.ior, inside);
-    float distance = thickness / max(-dot(facing, inside), 1e-4);
+    float h = own_slabs != 0u ? own_thickness(object, material) : thickness;
+    float distance = h / max(-dot(facing, inside), 1e-4);
     vec2 metres_per_pixel = frame.film.zw * (frame.orthographic != 0u ? 1.0 : depth);
     view.pixel += distance * vec2(inside.x, -inside.y) / metres_per_pixel;
     view.length_inside += distance;
@@ -79,17 +106,21 @@ vec3 cross_slab(inout View view, MaterialRecord material, vec3 facing, float dep
 
 void cross_surface(inout View view, ivec2 texel, uint layer, vec3 tint) {
     Fragment fragment = load_fragment(texel, layer);
-    MaterialRecord material = material_of(fragment);
+    ObjectRecord object = objects[find_object(triangle_index(fragment.triangle))];
+    MaterialRecord material = materials[object.material];
     vec3 normal = view_normal(texel, layer);
     vec3 facing = normal.z < 0.0 ? -normal : normal;
+    SurfaceLight light = SurfaceLight(vec3(0.0), vec3(0.0));
+    if (kLit) light = light_on_surface(view, material, facing, fragment.depth);
     vec3 t = vec3(max_transparency);
     if (mode == kNonLinear) {  // section 2.2
         float grazing = 1.0 - min(facing.z, 1.0);
         t = vec3(mix(min_transparency, max_transparency, 1.0 - pow(grazing, power)));
     } else if (mode != kLinear) {
-        t = cross_slab(view, material, facing, fragment.depth);
+        t = cross_slab(view, object, material, facing, fragment.depth);
     }
-    view.radiance += view.transmittance * (1.0 - t) * own_radiance(material, tint, facing);
+    view.radiance += view.transmittance * (1.0 - t) * own_radiance(material, tint, facing, light.irradiance);
+    view.highlights += light.highlight;
     view.transmittance *= t;
     view.depth = fragment.depth;
     ++view.events;
@@ -113,12 +144,23 @@ void store(ivec2 texel, View view) {
     imageStore(path_radiance, at, vec4(view.radiance, hidden ? 1.0 : 0.0));
 }
 
+// What is added after all surfaces (section 2.2): their highlights, and the environment's reflection at the first one.
+void store_reflected(ivec2 texel, vec3 highlights) {
+    Fragment first = load_fragment(texel, 0u);
+    vec3 direction = mat3(frame.world_from_view) * camera_ray(vec2(texel) + 0.5).direction;
+    vec3 normal = mat3(frame.world_from_view) * view_normal(texel, 0u), mirrored = vec3(0.0);
+    if (!back_face(first.triangle))
+        mirrored = fresnel_dielectric(-dot(direction, normal), 1.0 / material_of(first).ior) *
+                   environment_radiance(reflect_direction(direction, normal));
+    imageStore(reflected_radiance, ivec3(texel, 0), vec4(mirrored + highlights, 1.0));
+}
+
 void main() {
     ivec2 texel;
     if (!listed_pixel(texel)) return;
 
     uint count = count_surfaces(texel);
-    View view = View(vec2(texel) + 0.5, vec3(1.0), vec3(0.0), 0.0, 0.0, 0u, kStatusOk);
+    View view = View(vec2(texel) + 0.5, vec3(1.0), vec3(0.0), vec3(0.0), 0.0, 0.0, 0u, kStatusOk);
     // What is opaque may stand inside the glass; without it an odd count is an open mesh.
     bool cut = imageLoad(opaque_depth, ivec3(texel, 0)).r < PELLUCID_EMPTY_DEPTH;
     if (count > surfaces) view.status = kStatusEventLimit;
@@ -136,4 +178,5 @@ void main() {
         if (r <= here) cross_surface(view, at, here - r, tint);
     }
     store(texel, view);
+    if (kLit) store_reflected(texel, view.highlights);
 }

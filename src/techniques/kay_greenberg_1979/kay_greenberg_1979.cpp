@@ -18,6 +18,10 @@ constexpr std::array kParameters = {
     ParameterInfo{"slab-thickness", "glass radii", 0.1, 0, 100, false,
                   "h of mode 2: of every surface along its normal; in half diagonals of the box around all glass"},
     ParameterInfo{"transmission", "", 0.6, 1e-6, 1, false, "T of mode 2: share left after one glass radius inside"},
+    ParameterInfo{"own-slabs", "", 0, 0, 1, true,
+                  "mode 2: 1 takes h and T from each surface's material, glTF's thicknessFactor and attenuation"},
+    ParameterInfo{"highlight-roughness", "", 0.2, 0.01, 1, false,
+                  "of highlights of lights, where the surface is smoother"},
 };
 
 /// Twin of Push in the shader.
@@ -29,6 +33,9 @@ struct Push {
     float max_transparency;
     float thickness;
     float log_transmission;
+    std::uint32_t own_slabs;
+    std::uint32_t light_count;
+    float least_alpha;
 };
 
 /// Half the diagonal of the box around all glass, m.
@@ -42,24 +49,33 @@ double glass_radius(const GpuScene& scene) {
     return 0.5 * double(glm::distance(low, high));
 }
 
-Push push_of(const ParameterValues& parameters, const GpuScene& scene) {
-    const double radius = std::max(glass_radius(scene), 1e-30);
+Push push_of(const ParameterValues& parameters, const Frame& frame) {
+    const double radius = std::max(glass_radius(frame.scene), 1e-30);
+    const bool own_slabs = parameters.whole("own-slabs") != 0;
+    const double roughness = parameters["highlight-roughness"];
     return {parameters.whole("mode"),
             parameters.whole("layers"),
             float(parameters["power"]),
             float(parameters["min-transparency"]),
             float(parameters["max-transparency"]),
             float(parameters["slab-thickness"] * radius),
-            float(std::log(parameters["transmission"]) / radius)};
+            own_slabs ? 0.0f : float(std::log(parameters["transmission"]) / radius),
+            own_slabs ? 1u : 0u,
+            frame.light.lights,
+            float(roughness * roughness)};
 }
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
     const Recorder::Scope scope(recorder, "trace");
-    const Refraction refraction = clear_refraction(recorder, frame, true);
-    recorder.compute_indirect(
-        frame.workspace.compute(shaders::kay_greenberg_1979_comp),
-        {frame.bindings(), layers.bindings(), refraction.bindings(), writes("path_radiance", *refraction.radiance)},
-        push_of(parameters, frame.scene), layers.covered);
+    Refraction refraction = clear_refraction(recorder, frame, true);
+    const bool lit = frame.light.lights > 0;
+    const GpuImage& reflected =
+        frame.workspace.image("highlights", vk::Format::eR32G32B32A32Sfloat, lit ? frame.extent : vk::Extent2D{1, 1});
+    if (lit) refraction.reflected = &reflected;
+    recorder.compute_indirect(frame.workspace.compute(shaders::kay_greenberg_1979_comp, {{"kLit", lit}}),
+                              {frame.bindings(), layers.bindings(), refraction.bindings(),
+                               writes("path_radiance", *refraction.radiance), writes("reflected_radiance", reflected)},
+                              push_of(parameters, frame), layers.covered);
     return refraction;
 }
 
@@ -71,7 +87,8 @@ constexpr Technique kKayGreenberg1979{
              .source = {"Douglas Scott Kay, Donald Greenberg", "Transparency for Computer Synthesized Images",
                         "SIGGRAPH '79, Computer Graphics 13(2)", 1979, "2 and 4"},
              .parameters = kParameters,
-             .opaque_behind = true},
+             .opaque_behind = true,
+             .lit_glass = true},
     .programs = {&shaders::kay_greenberg_1979_comp},
     // One more tells whether there are surfaces that are not looked at.
     .layer_count = [](const ParameterValues& parameters) { return parameters.whole("layers") + 1u; },

@@ -8,6 +8,7 @@ namespace pellucid::wyman_2005 {
 enum class Distances : std::uint32_t {
     kPerVertex,  ///< d_N of the vertices, and the distance of the faces along the view ray
     kSampled,    ///< the table over the surface and all directions
+    kAlongView,  ///< the distance of the faces along the view ray alone; nothing is baked
 };
 
 /// Baked distances on the device.

@@ -29,26 +29,8 @@ layout(push_constant) uniform Push {
 };
 
 #include "layers/objects.glsl"
+#include "techniques/wyman_2005/stretch.glsl"
 
-// A stretch of a ray over the picture: pixel coordinates, and what is linear in them: the depth of an orthographic
-// camera, the inverse depth of a perspective one.
-struct Stretch {
-    vec2 from, to;
-    float at_from, at_to;
-};
-
-float linear_depth(float depth) { return frame.orthographic != 0u ? depth : 1.0 / depth; }  // its own inverse
-
-Stretch stretch_of(vec3 from, vec3 to) {
-    return Stretch(project(from), project(to), linear_depth(-from.z), linear_depth(-to.z));
-}
-
-vec2 pixel_at(Stretch s, float share) { return mix(s.from, s.to, share); }
-float depth_at(Stretch s, float share) { return linear_depth(mix(s.at_from, s.at_to, share)); }
-
-ivec2 texel_at(Stretch s, float share) {
-    return clamp(ivec2(floor(pixel_at(s, share))), ivec2(0), ivec2(frame.width, frame.height) - 1);
-}
 float stored_depth(ivec2 texel) { return imageLoad(opaque_depth, ivec3(texel, 0)).r; }
 bool is_behind(Stretch s, float share) { return depth_at(s, share) > stored_depth(texel_at(s, share)); }
 
@@ -60,19 +42,6 @@ bool one_surface(ivec2 front, ivec2 behind) {
     ivec2 beyond = clamp(2 * behind - front, ivec2(0), ivec2(frame.width, frame.height) - 1);
     float slope = abs(stored_depth(beyond) - at_behind);
     return abs(stored_depth(front) - at_behind) <= 2.0 * slope + 1e-4 * at_behind;
-}
-
-// The part of a stretch, from its beginning, that lies over the picture; negative: it begins beside it, where nothing
-// is known.
-float share_within_picture(Stretch s) {
-    if (any(lessThan(s.from, vec2(0.0))) || any(greaterThanEqual(s.from, vec2(frame.width, frame.height)))) return -1.0;
-    vec2 step = s.to - s.from;
-    float share = 1.0;
-    for (int axis = 0; axis < 2; ++axis) {
-        float edge = step[axis] > 0.0 ? float(axis == 0 ? frame.width : frame.height) : 0.0;
-        if (step[axis] != 0.0) share = min(share, max((edge - s.from[axis]) / step[axis], 0.0));
-    }
-    return share;
 }
 
 // Share of the stretch at which it meets an opaque surface from in front; negative: nowhere. `behind` is kept from
@@ -96,8 +65,6 @@ float search(Stretch s, inout bool behind) {
     }
     return -1.0;
 }
-
-vec3 position_at(Stretch s, float share) { return view_position(pixel_at(s, share), depth_at(s, share)); }
 
 // Where a ray from `from` ends at the latest: the depth range of the scene.
 vec3 ray_end(vec3 from, vec3 direction) {
@@ -137,7 +104,10 @@ void main() {
     if (-exit.z < frame.near_plane) return;  // behind the eye nothing is known
     bool behind = false;  // nothing opaque hides the entry
     // A path that ends at its first interface has no way inside.
-    bool goes_inside = (imageLoad(path_events, at).r & 0xfffu) > 1u && distance(entry, exit) > 1e-6 * -entry.z;
+    // Inside reflections bend it.
+    uint events = imageLoad(path_events, at).r;
+    bool straight = (events & 0xfffu) > 1u && (events >> 12 & 0xfffu) == 0u;
+    bool goes_inside = straight && distance(entry, exit) > 1e-6 * -entry.z;
     Stretch inside = stretch_of(entry, exit);
     float share = goes_inside ? search(inside, behind) : -1.0;
     if (share >= 0.0) {

@@ -12,11 +12,17 @@
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(constant_id = 0) const bool kSampled = false;  // the table of distances instead of d_N
+layout(constant_id = 0) const bool kSampled = false;    // the table of distances instead of d_N
+layout(constant_id = 1) const bool kAlongView = false;  // d_V alone
+layout(constant_id = 2) const uint kInnerReflections = 0u;
 
 layout(set = 0, binding = 10, r32f) readonly uniform image2DArray back_depth;
 layout(set = 0, binding = 11, r32ui) readonly uniform uimage2DArray back_normal;
-layout(push_constant) uniform Push { uint table_side; };
+layout(push_constant) uniform Push {
+    uint table_side;
+    uint linear_steps;  // of the search for the wall behind a reflection
+    uint binary_steps;
+};
 
 const float kSmallAngle = 1e-3;  // radians; the ratio of the angles differs from its limit by less than 1e-6 below
 
@@ -43,25 +49,35 @@ float guess_distance(Path path, vec2 pixel, Fragment first, vec3 incident, vec3 
     float depth = back_depth_at(ivec2(pixel));
     if (depth == PELLUCID_EMPTY_DEPTH) return -1.0;
     float along_view = distance(path.position, view_position(pixel, max(depth, first.depth)));
+    if (kAlongView) return along_view;
     SurfacePoint entry = surface_point(object_ray(pixel, object), first.triangle, object);
     return mix(inward_distance(entry, object), along_view, angle_ratio(incident, normal, eta));
 }
 
-// Outward normal of the back faces where a point projects to (3.2), between the four texels around; false: it
-// projects beside them.
-bool exit_normal(vec3 position, out vec3 normal) {
+// Depth and normal of the back faces, or of the first surface.
+float wall_depth(ivec2 texel, bool front) {
+    return front ? imageLoad(layer_depth, ivec3(texel, 0)).r : back_depth_at(texel);
+}
+vec3 wall_normal(ivec2 texel, bool front) {
+    uint packed = front ? imageLoad(layer_normal, ivec3(texel, 0)).r : imageLoad(back_normal, ivec3(texel, 0)).r;
+    return unpack_unit_vector(packed);
+}
+
+// Outward normal of the wall where a point projects to (3.2), between the four texels around; false: it projects
+// beside the wall.
+bool exit_normal(vec3 position, bool front, out vec3 normal) {
     vec2 pixel = project(position);
     ivec2 texel = ivec2(floor(pixel));
-    if (!within_picture(texel) || back_depth_at(texel) == PELLUCID_EMPTY_DEPTH) return false;
+    if (!within_picture(texel) || wall_depth(texel, front) == PELLUCID_EMPTY_DEPTH) return false;
     ivec2 low = ivec2(floor(pixel - 0.5));
     vec2 share = pixel - 0.5 - vec2(low);
-    vec3 nearest = unpack_unit_vector(imageLoad(back_normal, ivec3(texel, 0)).r);
+    vec3 nearest = wall_normal(texel, front);
     normal = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
-        if (!within_picture(low + step) || back_depth_at(low + step) == PELLUCID_EMPTY_DEPTH) continue;
+        if (!within_picture(low + step) || wall_depth(low + step, front) == PELLUCID_EMPTY_DEPTH) continue;
         vec2 weights = mix(1.0 - share, share, vec2(step));
-        normal += weights.x * weights.y * unpack_unit_vector(imageLoad(back_normal, ivec3(low + step, 0)).r);
+        normal += weights.x * weights.y * wall_normal(low + step, front);
     }
     // Opposite normals may cancel out; then that of the nearest texel will do.
     normal = mat3(frame.view_from_world) * (dot(normal, normal) > 1e-12 ? normalize(normal) : nearest);
@@ -79,21 +95,29 @@ void leave(inout Path path, vec3 normal, float ior) {
     path.direction = dot(along, along) > 1e-12 ? normalize(along) : incident;
 }
 
+// The edge of the object: its normals there are perpendicular to the view ray (3.3).
+vec3 edge_normal(vec3 direction, vec3 view_direction) {
+    vec3 across = direction - dot(direction, view_direction) * view_direction;
+    return dot(across, across) > 1e-12 ? normalize(across) : direction;
+}
+
+#include "techniques/wyman_2005/inner_reflections.glsl"
+
 // What the second interface does to a path that has crossed the first one.
-void cross_second(inout Path path, vec3 view_direction, vec3 normal, float ior) {
+void cross_second(inout Path path, vec3 view_direction, MaterialRecord material) {
     if (-path.position.z <= 0.0 && frame.orthographic == 0u) {  // behind the eye
         path.status = kStatusLeftScreen;
         return;
     }
     vec3 exit;
-    if (!exit_normal(path.position, exit)) {
+    if (!exit_normal(path.position, false, exit)) {
         bool seen = within_picture(ivec2(floor(project(path.position))));
         path.status = seen ? kStatusMissingLayer : kStatusLeftScreen;
-        // The edge of the object is met: its normals there are perpendicular to the view ray (3.3).
-        vec3 across = path.direction - dot(path.direction, view_direction) * view_direction;
-        exit = dot(across, across) > 1e-12 ? normalize(across) : path.direction;
+        exit = edge_normal(path.direction, view_direction);
+    } else if (kInnerReflections > 0u && bounce(path, view_direction, exit, material)) {
+        return;
     }
-    leave(path, exit, ior);
+    leave(path, exit, material.ior);
 }
 
 void main() {
@@ -121,7 +145,7 @@ void main() {
             path.status = kStatusMissingLayer;
         } else {
             travel(path, d, material.sigma_a.rgb);
-            cross_second(path, view_direction, normal, material.ior);
+            cross_second(path, view_direction, material);
         }
     }
     store_refraction(texel, path);

@@ -13,17 +13,25 @@ using wyman_2005::Distances;
 
 constexpr std::array kParameters = {
     ParameterInfo{"back-face", "", 0, 0, 1, true, "far side of the glass: 0 the first back face, 1 the farthest"},
-    ParameterInfo{"distances", "", 0, 0, 1, true,
-                  "way through the glass: 0 between the view ray's and the normal's, 1 from a table of samples"},
+    ParameterInfo{
+        "distances", "", 0, 0, 2, true,
+        "way through the glass: 0 between the view ray's and the normal's, 1 from a table of samples, 2 the view "
+        "ray's alone"},
     ParameterInfo{"table", "", 64, 4, 64, true,
                   "points and directions along a side of the table; it has their 4th power"},
     ParameterInfo{"nearby-steps", "", 64, 1, 4096, true, "linear steps in search of opaque objects behind the glass"},
     ParameterInfo{"nearby-binary-steps", "", 6, 0, 24, true, "binary steps after a linear one"},
+    ParameterInfo{"inner-reflections", "", 0, 0, 16, true,
+                  "total reflections followed between the pictures of front and back; then the angle is clamped"},
+    ParameterInfo{"bounce-steps", "", 64, 1, 4096, true, "linear steps in search of the wall behind such a reflection"},
 };
+
+constexpr std::uint32_t kBounceBinarySteps = 6;
 
 Distances distances_of(const ParameterValues& parameters) { return Distances(parameters.whole("distances")); }
 
 void prepare(const Preparation& preparation, const ParameterValues& parameters) {
+    if (distances_of(parameters) == Distances::kAlongView) return;
     wyman_2005::bake(preparation, distances_of(parameters), parameters.whole("table"));
 }
 
@@ -37,21 +45,30 @@ void find_nearby_geometry(Recorder& recorder, const Frame& frame, const Layers& 
         push, layers.covered);
 }
 
+/// Those that prepare() has baked; what is bound in their place where it bakes none.
+wyman_2005::BakedDistances baked_for(const Frame& frame, Distances distances, std::uint32_t table_side) {
+    if (distances != Distances::kAlongView) return wyman_2005::baked_distances(frame.scene, distances, table_side);
+    return {frame.workspace.buffer("no distances", 16), frame.workspace.buffer("no baked objects", 96)};
+}
+
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
     const BackFaces back =
         draw_back_faces(recorder, frame, frame.scene.refractive, BackFace(parameters.whole("back-face")));
-    const std::uint32_t side = parameters.whole("table");
     const Distances distances = distances_of(parameters);
-    const wyman_2005::BakedDistances baked = wyman_2005::baked_distances(frame.scene, distances, side);
+    const std::array push = {parameters.whole("table"), parameters.whole("bounce-steps"), kBounceBinarySteps};
+    const wyman_2005::BakedDistances baked = baked_for(frame, distances, push[0]);
 
     const Recorder::Scope scope(recorder, "trace");
     const bool nearby = !frame.scene.opaque.empty();
     const Refraction refraction = clear_refraction(recorder, frame, nearby);
     recorder.compute_indirect(
-        frame.workspace.compute(shaders::wyman_2005_comp, {{"kSampled", distances == Distances::kSampled}}),
+        frame.workspace.compute(shaders::wyman_2005_comp,
+                                {{"kSampled", distances == Distances::kSampled},
+                                 {"kAlongView", distances == Distances::kAlongView},
+                                 {"kInnerReflections", parameters.whole("inner-reflections")}}),
         {frame.bindings(), layers.bindings(), refraction.bindings(), reads("back_depth", back.depth),
          reads("back_normal", back.normal), reads("BakedObjects", baked.objects), reads("Distances", baked.values)},
-        side, layers.covered);
+        push, layers.covered);
     if (nearby) find_nearby_geometry(recorder, frame, layers, refraction, parameters);
     return refraction;
 }
