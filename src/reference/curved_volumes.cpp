@@ -1,6 +1,7 @@
 #include "reference/curved_volumes.h"
 
 #include "reference/placed_volume.h"
+#include "reference/punctual_lights.h"
 
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
@@ -21,6 +22,10 @@ constexpr double kLongestStep = 1.0;     // voxels: surfaces are looked for alon
 constexpr double kLeastCrossing = 1e-3;  // voxels; less of a box is not met
 constexpr double kMostSides = 32.0;      // longest ways in a box, in its longest side: what goes farther is caught
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+Hit next_hit(const Geometry& geometry, const Query& query, const SizedLights* lights, const Light*& ball) {
+    return lights ? lights->intersect(geometry, query, ball) : geometry.intersect(query);
+}
 
 }  // namespace
 
@@ -116,7 +121,7 @@ bool CurvedVolumes::meets(const glm::dvec3& origin, const glm::dvec3& direction,
 }
 
 CurvedVolumes::Flight CurvedVolumes::fly(std::int32_t solid, const Geometry& geometry, Query& query, int channel,
-                                         Random* random) const {
+                                         Random* random, const SizedLights* lights) const {
     const List& volumes = volumes_of(solid);
     Flight flight;
     for (;;) {
@@ -124,7 +129,7 @@ CurvedVolumes::Flight CurvedVolumes::fly(std::int32_t solid, const Geometry& geo
         const std::size_t volume = next_volume(volumes, query.origin, query.direction, to_box);
         const double t_max = query.t_max;
         query.t_max = std::min(to_box, t_max);
-        flight.hit = geometry.intersect(query);
+        flight.hit = next_hit(geometry, query, lights, flight.ball);
         query.t_max = t_max;
         if (flight.hit.found || volume == kNone || to_box >= t_max) return flight;
         if (to_box > 0.0) query.standing = {};
@@ -133,13 +138,13 @@ CurvedVolumes::Flight CurvedVolumes::fly(std::int32_t solid, const Geometry& geo
         flight.length += to_box;
         flight.met = true;
         flight.ior = flight.basic = 1.0;
-        if (bend(volumes, volume, geometry, query, channel, random, flight)) return flight;
+        if (bend(volumes, volume, geometry, query, channel, random, lights, flight)) return flight;
     }
 }
 
 /// From where a ray is in a box, to a surface (true), or to where it leaves the box.
 bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& geometry, Query& query, int channel,
-                         Random* random, Flight& flight) {
+                         Random* random, const SizedLights* lights, Flight& flight) {
     const Placed& placed = *volumes[own];
     const auto world = [&](const Values& s) {
         return glm::dvec3(placed.world_from_voxel * glm::dvec4(position_of(s), 1.0));
@@ -229,7 +234,7 @@ bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& g
             query.direction = chord / length;
             const double t_max = query.t_max;
             query.t_max = std::min(t_max, length);
-            flight.hit = geometry.intersect(query);
+            flight.hit = next_hit(geometry, query, lights, flight.ball);
             query.t_max = t_max;
             if (flight.hit.found) {
                 const Values at = after(state, taken * std::min(flight.hit.t / length, 1.0));

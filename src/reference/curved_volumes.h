@@ -17,6 +17,8 @@
 
 namespace pellucid::reference {
 
+class SizedLights;
+
 /// The volumes of a scene, and rays that bend in them, in double precision.
 ///
 /// - The index is interpolated by uniform cubic B-splines over the voxels: its gradient is that of the value itself. Absorption, scattering and emission are interpolated linearly.
@@ -50,6 +52,7 @@ public:
         glm::dvec3 emission{0.0};       ///< radiance that was added, as it arrives at the start
         double ior = 1.0;               ///< where the way ends
         double basic = 1.0;             ///< n^2 at the face of the volume in which it ends, over n^2 where it ends
+        const Light* ball = nullptr;    ///< `hit` is on the ball of this light
         bool met = false;               ///< some of it was in a volume
         bool stuck = false;             ///< a volume has caught the ray
         bool ends_inside = false;       ///< the last piece is in a volume
@@ -58,7 +61,9 @@ public:
     };
     /// `channel`: kRed to kBlue. Leaves in `query` the last piece.
     /// With `random` surfaces of volumes reflect or transmit by chance; without, every path is transmitted.
-    Flight fly(std::int32_t solid, const Geometry& geometry, Query& query, int channel, Random* random = nullptr) const;
+    /// With `lights` their balls are met, too.
+    Flight fly(std::int32_t solid, const Geometry& geometry, Query& query, int channel, Random* random = nullptr,
+               const SizedLights* lights = nullptr) const;
 
     /// Whether a straight way in the open meets a box.
     bool meets(const glm::dvec3& origin, const glm::dvec3& direction, double distance) const;
@@ -74,7 +79,7 @@ private:
     static std::size_t next_volume(const List& volumes, const glm::dvec3& origin, const glm::dvec3& direction,
                                    double& distance);
     static bool bend(const List& volumes, std::size_t own, const Geometry& geometry, Query& query, int channel,
-                     Random* random, Flight& flight);
+                     Random* random, const SizedLights* lights, Flight& flight);
 
     List open_;
     std::map<std::int32_t, List> held_;  ///< by solid

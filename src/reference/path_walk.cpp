@@ -1,7 +1,7 @@
 #include "reference/path_walk.h"
 
 #include "reference/boundaries.h"
-#include "reference/punctual_lights.h"
+#include "reference/local_frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,39 +10,24 @@
 #include <utility>
 
 namespace pellucid::reference {
-namespace {
-
-/// Weight of a direction chosen with density `pdf` that `other` might have chosen, too (Veach 1997,
-/// section 9.2.4, exponent 2).
-double power_heuristic(double pdf, double other) {
-    const double ratio = other / pdf;
-    return 1.0 / (1.0 + ratio * ratio);
-}
-
-}  // namespace
-
-glm::dmat3 world_from_local(const glm::dvec3& n) {
-    const double sign = std::copysign(1.0, n.z);
-    const double a = -1.0 / (sign + n.z);
-    const double b = n.x * n.y * a;
-    return {glm::dvec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), glm::dvec3(b, sign + n.y * n.y * a, -n.y),
-            n};
-}
-
 PathWalk::Result PathWalk::walk(const CameraRay& ray, const MediumStack& inside, Random& random) {
     start(ray, inside);
     for (std::uint32_t vertices = 0;; ++vertices) {
         bool caught = false;
         const Hit hit = next_surface(random, caught);
-        if (caught) return {radiance_, true};
-        if (!hit.found) {
-            see_environment();
-            return {radiance_, false};
+        if (caught) return {radiance_, parts_, true};
+        if (ball_) {
+            see_ball(hit.t);
+            return {radiance_, parts_, false};
         }
-        if (vertices == world_.max_vertices) return {radiance_, true};
+        if (!hit.found) {
+            see_sky();
+            return {radiance_, parts_, false};
+        }
+        if (vertices == world_.max_vertices) return {radiance_, parts_, true};
         travel(hit);
-        if (!meet(hit, random)) return {radiance_, false};
-        if (vertices >= kRouletteFrom && !survives(random)) return {radiance_, false};
+        if (!meet(hit, random)) return {radiance_, parts_, false};
+        if (vertices >= kRouletteFrom && !survives(random)) return {radiance_, parts_, false};
     }
 }
 
@@ -56,8 +41,11 @@ void PathWalk::start(const CameraRay& ray, const MediumStack& inside) {
     open_ior_ = open_share_ = 1.0;
     throughput_ = glm::dvec3(1.0);
     radiance_ = glm::dvec3(0.0);
+    parts_.fill(glm::dvec3(0.0));
     channel_.reset();
     pdf_ = 0.0;
+    scatters_ = 0;
+    bent_ = false;
     length_ = 0.0;
 }
 
@@ -65,13 +53,14 @@ void PathWalk::start(const CameraRay& ray, const MediumStack& inside) {
 Hit PathWalk::next_surface(Random& random, bool& caught) {
     const std::int32_t solid = inside_.solid();
     in_held_volume_ = false;
-    if (!world_.volumes.bends_in(solid)) return world_.geometry.intersect(ray_);
+    if (!world_.volumes.bends_in(solid)) return lights_.intersect(world_.geometry, ray_, ball_);
     if (!channel_ && world_.volumes.disperses() &&
         (solid != kAir || world_.volumes.meets(ray_.origin, ray_.direction, std::numeric_limits<double>::infinity())))
         choose_channel(random);
     const CurvedVolumes::Flight flight =
-        world_.volumes.fly(solid, world_.geometry, ray_, channel_.value_or(kGreen), &random);
-    radiance_ += throughput_ * flight.emission;
+        world_.volumes.fly(solid, world_.geometry, ray_, channel_.value_or(kGreen), &random, &lights_);
+    ball_ = flight.ball;
+    receive(part(), throughput_ * flight.emission);
     throughput_ *= flight.transmittance;
     if (solid == kAir) {
         open_ior_ = flight.ior;
@@ -82,15 +71,26 @@ Hit PathWalk::next_surface(Random& random, bool& caught) {
     if (flight.met) {
         standing_.clear();
         ray_.standing = standing_;
-        pdf_ = 0.0;
+        bend();
     }
     return flight.hit;
 }
 
+/// A mirror, a refraction or a volume: no source can choose the path from here on.
+void PathWalk::bend() {
+    pdf_ = 0.0;
+    bent_ = true;
+}
+
+/// A straight piece of the path.
+void PathWalk::cover(double distance) {
+    if (inside_.solid() != kAir && !in_held_volume_) throughput_ *= beer_lambert(inside_.medium().sigma_a, distance);
+    length_ += distance;
+}
+
 /// Goes straight on to what was met.
 void PathWalk::travel(const Hit& hit) {
-    if (inside_.solid() != kAir && !in_held_volume_) throughput_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
-    length_ += hit.t;
+    cover(hit.t);
     ray_.origin = hit.position;
     ray_.t_max = std::numeric_limits<double>::infinity();  // the camera's planes cut off what it sees first
     world_.geometry.step_onto(hit, standing_);
@@ -140,7 +140,7 @@ bool PathWalk::meet(const Hit& hit, Random& random) {
 
 bool PathWalk::meet_opaque(const Vertex& vertex, Random& random) {
     if (vertex.material.unlit) {
-        radiance_ += throughput_ * glm::dvec3(vertex.base);
+        receive(part(), throughput_ * glm::dvec3(vertex.base));
         return false;
     }
     emit(vertex);
@@ -169,7 +169,8 @@ bool PathWalk::refracts_towards(const Hit& from, const glm::dvec3& direction) co
 }
 
 void PathWalk::emit(const Vertex& vertex) {
-    radiance_ += throughput_ * emitted_share() * glm::dvec3(emission(world_.scene, vertex.material, vertex.attributes));
+    receive(part(),
+            throughput_ * emitted_share() * glm::dvec3(emission(world_.scene, vertex.material, vertex.attributes)));
 }
 
 OpaqueBsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
@@ -195,7 +196,7 @@ bool PathWalk::meet_solid(const Hit& hit, Random& random) {
     if (!is_interface(inside_, beyond_)) {  // such as a boundary inside a solid that displaces it
         std::swap(inside_, beyond_);
         turn_to(ray_.direction);
-        pdf_ = 0.0;
+        bend();
         return true;
     }
     const Vertex vertex = vertex_at(interface, ray_.direction);
@@ -231,7 +232,8 @@ bool PathWalk::scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random) {
     const glm::dmat3 to_world = world_from_local(vertex.normal);
     const Facing facing{to_world, -ray_.direction * to_world};
     if (!photon_.stored && !std::visit([](const auto& b) { return b.only_mirrors(); }, bsdf)) {
-        add_light(vertex, bsdf, facing, random);
+        add_environment(vertex, bsdf, facing, random);
+        for (const Light& light : world_.scene.lights) add_light(light, vertex, bsdf, facing, random);
         if (world_.photons) add_photons(vertex, bsdf, facing, random);
     }
 
@@ -250,9 +252,19 @@ bool PathWalk::scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random) {
     throughput_ *= sample->weight;
     if (photon_.stored) throughput_ *= adjoint_weight(vertex, -ray_.direction, direction);
     const bool straight = sample->mirror && means_to && std::holds_alternative<PaneBsdf>(bsdf);
-    if (!straight) pdf_ = sample->mirror || through != means_to ? 0.0 : sample->pdf;
+    if (sample->mirror && !straight) bend();
+    if (!sample->mirror) scatter_from(vertex.hit.position, through == means_to ? sample->pdf : 0.0);
     turn_to(direction);
     return true;
+}
+
+/// A surface that is not smooth has chosen a direction with density `pdf`; 0: sources cannot choose it.
+void PathWalk::scatter_from(const glm::dvec3& position, double pdf) {
+    pdf_ = pdf;
+    scattered_at_ = position;
+    ++scatters_;
+    bent_ = false;
+    length_ = 0.0;
 }
 
 /// Russian roulette on what the path still can carry; lossless paths always go on.
@@ -272,88 +284,6 @@ void PathWalk::choose_channel(Random& random) {
     channel_ = at < throughput_.r ? kRed : at < throughput_.r + throughput_.g ? kGreen : kBlue;
     throughput_ = glm::dvec3(0.0);
     throughput_[*channel_] = sum;
-}
-
-/// The path leaves the scene. In an open mesh it may seem to be inside glass of no end, which then does
-/// not absorb.
-void PathWalk::see_environment() {
-    const glm::dvec3 light = radiance(world_.environment, glm::vec3(ray_.direction));
-    const double weight = pdf_ > 0.0 ? power_heuristic(pdf_, world_.sampler.pdf(ray_.direction)) : 1.0;
-    radiance_ += throughput_ * light * weight;
-}
-
-BsdfValue PathWalk::value_towards(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing,
-                                  const glm::dvec3& direction, Random& random) const {
-    const glm::dvec3 wi = direction * facing.world_from_local;
-    if (crosses(vertex.hit, direction) != (wi.z < 0.0)) return {};
-    return std::visit([&](const auto& b) { return b.evaluate(facing.wo, wi, random); }, bsdf);
-}
-
-/// Light from the environment and from the scene's lights, chosen by them.
-void PathWalk::add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random) {
-    if (!world_.sampler.dark()) {
-        const EnvironmentSampler::Sample chosen = world_.sampler.sample(random);
-        const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, chosen.direction, random);
-        if (bsdf_value.pdf > 0.0) {
-            const glm::dvec3 light = radiance(world_.environment, glm::vec3(chosen.direction));
-            const double weight = power_heuristic(chosen.pdf, bsdf_value.pdf) / chosen.pdf;
-            radiance_ += throughput_ * bsdf_value.value * light * weight *
-                         visibility(vertex.hit, chosen.direction, std::numeric_limits<double>::infinity());
-        }
-    }
-    for (const Light& light : world_.scene.lights) {
-        const std::optional<ArrivingLight> arriving = arriving_light(light, vertex.hit.position);
-        if (!arriving) continue;
-        const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, arriving->direction, random);
-        if (!(bsdf_value.pdf > 0.0)) continue;
-        // Light from beyond was emitted there. No volume is there: visibility() is 0 in volumes.
-        const double share =
-            refracts_towards(vertex.hit, arriving->direction) ? emitted_share(beyond_, 1.0) : emitted_share();
-        radiance_ += throughput_ * share * bsdf_value.value * arriving->irradiance *
-                     visibility(vertex.hit, arriving->direction, arriving->distance);
-    }
-}
-
-/// Share of the light from a source at `distance` that reaches a surface.
-glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, double distance) {
-    shadow_standing_ = standing_;
-    for (Crossing& on : shadow_standing_) on.sense = world_.geometry.sense(on.object, on.triangle, direction);
-    const MediumStack& inside = refracts_towards(from, direction) ? beyond_ : inside_;
-    Query query;
-    query.origin = from.position;
-    query.direction = direction;
-    query.t_max = distance;
-    query.standing = shadow_standing_;
-    query.kinds = only(SurfaceKind::kOpaque) | only(SurfaceKind::kRefractive);
-    if (world_.geometry.occluded(query)) return glm::dvec3(0.0);
-    if (inside.solid() == kAir && world_.volumes.meets(query.origin, direction, distance)) return glm::dvec3(0.0);
-    glm::dvec3 share(1.0);
-    // To infinity there is no glass on the way but that of open meshes; see see_environment().
-    if (inside.solid() != kAir && std::isfinite(distance)) share = beer_lambert(inside.medium().sigma_a, distance);
-    return world_.has_panes ? share * pane_transmittance(query) : share;
-}
-
-/// What smooth panes leave of light that comes straight through them; rough ones scatter it.
-glm::dvec3 PathWalk::pane_transmittance(Query query) {
-    query.kinds = only(SurfaceKind::kThin);
-    glm::dvec3 share(1.0);
-    for (;;) {
-        const Hit hit = world_.geometry.intersect(query);
-        if (!hit.found) return share;
-        const Vertex pane = vertex_at(hit, query.direction);
-        const PaneBsdf bsdf(double(pane.material.ior), roughness_at(pane), glm::dvec3(pane.base));
-        const double coverage = pane.material.alpha_is_coverage ? pane.base.a : 1.0;
-        glm::dvec3 through(0.0);  // rough panes scatter
-        if (bsdf.only_mirrors())
-            through = bsdf.straight_through(-glm::dot(pane.normal, query.direction)) *
-                      double(transmission(world_.scene, pane.material, pane.attributes));
-        share *= (1.0 - coverage) + coverage * through;
-        if (share == glm::dvec3(0.0)) return share;
-        world_.geometry.step_onto(hit, shadow_standing_);
-        query.standing = shadow_standing_;
-        query.origin = hit.position;
-        query.t_max -= hit.t;
-    }
 }
 
 }  // namespace pellucid::reference

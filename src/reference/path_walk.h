@@ -6,6 +6,7 @@
 #include "reference/environment_sampler.h"
 #include "reference/geometry.h"
 #include "reference/photon_map.h"
+#include "reference/punctual_lights.h"
 #include "reference/random.h"
 #include "reference/texture_lookup.h"
 
@@ -14,6 +15,8 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -39,9 +42,15 @@ struct PhotonStart {
     glm::dvec3 flux{0.0};  ///< W, RGB
 };
 
-/// Rotation that takes the z axis to the unit vector n: Duff et al., "Building an orthonormal basis,
-/// revisited", 2017, listing 3.
-glm::dmat3 world_from_local(const glm::dvec3& n);
+/// What light a picture is made of, in Heckbert's notation (Heckbert, "Adaptive radiosity textures for bidirectional ray
+/// tracing", 1990); D is every surface that is not smooth, and light straight through panes met nothing.
+enum class LightPart : std::uint8_t {
+    kEmitted,   ///< E S* L
+    kDirect,    ///< E S* D L
+    kCaustic,   ///< E S* D S+ L
+    kIndirect,  ///< E S* D (S* D)+ S* L
+};
+using LightParts = std::array<glm::dvec3, 4>;  ///< radiance, by LightPart
 
 /// One light path at a time, from the eye backwards (Kajiya 1986), with light sources and the
 /// environment asked for at every surface that scatters (Veach, "Robust Monte Carlo methods for light
@@ -55,6 +64,10 @@ glm::dmat3 world_from_local(const glm::dvec3& n);
 /// Around all solids a path bends in volumes (curved_volumes.h). As behind refracting glass, light behind a volume is found
 /// by chance alone: lights that are points do not shine through volumes.
 ///
+/// Lights of the scene that have a size are met by chance, too, combined with those that were chosen. A path may meet
+/// one after a mirror or a refraction that follows on a surface that is not smooth: it counts if there are no photons,
+/// which else have that light.
+///
 /// Colours part at the first boundary of a dispersive medium, or volume: the path goes on with one channel, at whose
 /// indices it is refracted from there on.
 ///
@@ -64,11 +77,13 @@ glm::dmat3 world_from_local(const glm::dvec3& n);
 class PathWalk {
 public:
     explicit PathWalk(const PathWorld& world)
-        : world_(world), inside_(world.geometry.solids()), beyond_(world.geometry.solids()) {}
+        : world_(world), lights_(world.scene.lights), inside_(world.geometry.solids()),
+          beyond_(world.geometry.solids()) {}
 
     struct Result {
         glm::dvec3 radiance{0.0};
-        bool cut = false;  ///< reached max_vertices; what would have come after is missing
+        LightParts parts{};  ///< they add up to `radiance`
+        bool cut = false;    ///< reached max_vertices; what would have come after is missing
     };
     /// `inside`: the solids around the ray's origin.
     Result walk(const CameraRay& ray, const MediumStack& inside, Random& random);
@@ -100,6 +115,8 @@ private:
 
     void start(const CameraRay& ray, const MediumStack& inside);
     Hit next_surface(Random& random, bool& caught);
+    void bend();
+    void cover(double distance);
     void travel(const Hit& hit);
     void turn_to(const glm::dvec3& direction);
     Vertex vertex_at(const Hit& hit, const glm::dvec3& direction) const;
@@ -118,34 +135,50 @@ private:
     OpaqueBsdf opaque_bsdf(const Vertex& vertex) const;
     double roughness_at(const Vertex& vertex) const;
     bool scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random);
+    void scatter_from(const glm::dvec3& position, double pdf);
     bool survives(Random& random);
     void choose_channel(Random& random);
 
-    void see_environment();
-    void add_light(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
+    void receive(LightPart part, const glm::dvec3& light) {
+        radiance_ += light;
+        parts_[std::size_t(part)] += light;
+    }
+    LightPart part() const;
+    LightPart part_through(LightPart of_first) const { return scatters_ == 0 ? of_first : LightPart::kIndirect; }
+    double weight_of_chance(const Light& light) const;
+    void see_sky();
+    void see_ball(double distance);
+    void add_environment(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
+    void add_light(const Light& light, const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
     void add_photons(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
     BsdfValue value_towards(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, const glm::dvec3& direction,
                             Random& random) const;
     void deposit(const Vertex& vertex);
     bool cross_as_photon(const Vertex& vertex, const InterfaceBsdf& bsdf, Random& random);
     double adjoint_weight(const Vertex& vertex, const glm::dvec3& wi, const glm::dvec3& wo) const;
-    glm::dvec3 visibility(const Hit& from, const glm::dvec3& direction, double distance);
+    glm::dvec3 visibility(const Hit& from, const glm::dvec3& direction, double distance, const Light* light);
     glm::dvec3 pane_transmittance(Query query);
 
     const PathWorld& world_;
+    SizedLights lights_;
     Query ray_;
+    const Light* ball_ = nullptr;     ///< the ray has met the ball of this light
     std::vector<Crossing> standing_;  ///< what ray_.origin lies on
     std::vector<Crossing> shadow_standing_;
     MediumStack inside_;  ///< the solids around the ray
     MediumStack beyond_;  ///< those on the other side of the surface at hand
     glm::dvec3 throughput_{1.0};
     glm::dvec3 radiance_{0.0};
+    LightParts parts_{};
     std::optional<int> channel_;  ///< the only one that the path still carries; none: all
     /// Density, per steradian, with which the last surface that scattered chose the ray's direction; 0 if
     /// no source can choose this path. Of a photon: 0 from its first mirror or refraction on.
     double pdf_ = 0.0;
+    glm::dvec3 scattered_at_{0.0};  ///< world, m: position of that surface
+    std::uint32_t scatters_ = 0;    ///< surfaces on the path that were not smooth
+    bool bent_ = false;             ///< there was a mirror, a refraction or a volume after the last of them
     FromLight photon_;
-    double length_ = 0.0;          ///< m from the start, along straight pieces
+    double length_ = 0.0;          ///< m along straight pieces, from the start or the last surface that scattered
     bool in_held_volume_ = false;  ///< the last piece of the way was in the volume of a solid
     double open_ior_ = 1.0;        ///< of what is around all solids, at the ray's origin
     /// Of what is emitted there, the share that arrives where the path entered the volume.

@@ -1,5 +1,6 @@
 #include "reference/photon_emission.h"
 
+#include "reference/local_frame.h"
 #include "reference/microfacet.h"
 #include "reference/punctual_lights.h"
 
@@ -48,11 +49,11 @@ bool has_smooth_part(const Scene& scene, const Material& material, SurfaceKind k
 }  // namespace
 
 PhotonEmitter::PhotonEmitter(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene)
-    : target_(smooth_bounds(geometry, volumes, scene)) {
+    : geometry_(geometry), target_(scene.lights.empty() ? Sphere{} : smooth_bounds(geometry, volumes, scene)) {
     if (!(target_.radius > 0.0)) return;
     double power = 0.0;
     for (const Light& light : scene.lights) {
-        Aim aim = aim_of(geometry, scene, light);
+        Aim aim = light.kind == Light::Kind::kDirectional ? aim_of_sun(scene, light) : aim_of_lamp(light);
         const double own = brightest(glm::dvec3(light.intensity)) * measure(aim);
         if (!(own > 0.0)) continue;
         aim.power_up_to = power += own;
@@ -77,34 +78,40 @@ PhotonEmitter::Sphere PhotonEmitter::smooth_bounds(const Geometry& geometry, con
     return {0.5 * (low + high), 0.5 * glm::length(high - low)};
 }
 
-PhotonEmitter::Aim PhotonEmitter::aim_of(const Geometry& geometry, const Scene& scene, const Light& light) const {
-    if (light.kind == Light::Kind::kDirectional) {
-        // Start before everything that may stand in the light's way.
-        const Bounds all = scene_bounds(scene);
-        const double before =
-            glm::length(target_.center - glm::dvec3(all.center)) + 2.0 * (all.radius + target_.radius);
-        const glm::dvec3 along = glm::normalize(glm::dvec3(light.direction));
-        return {&light, MediumStack(geometry.solids()), target_.center - before * along, world_from_local(along)};
-    }
-    const glm::dvec3 position(light.position), to_target = target_.center - position;
-    const double distance = glm::length(to_target), sine = target_.radius / distance;
-    Aim aim{&light, geometry.solids_around(position), position, glm::dmat3(1.0)};
+PhotonEmitter::Aim PhotonEmitter::aim_of_sun(const Scene& scene, const Light& light) const {
+    Aim aim{
+        .light = &light, .inside = MediumStack(geometry_.solids()), .center = target_.center, .disc = target_.radius};
+    // Photons start before everything that may stand in their way.
+    const Bounds all = scene_bounds(scene);
+    aim.before = glm::length(target_.center - glm::dvec3(all.center)) + 2.0 * (all.radius + target_.radius);
+    aim.world_from_cone = world_from_local(glm::normalize(glm::dvec3(light.direction)));
+    aim.one_less_cosine = one_less_cosine(light);
+    return aim;
+}
+
+PhotonEmitter::Aim PhotonEmitter::aim_of_lamp(const Light& light) const {
+    const glm::dvec3 center(light.position), to_target = target_.center - center;
+    Aim aim{.light = &light, .inside = std::nullopt, .center = center, .disc = double(light.radius)};
+    if (aim.disc == 0.0 || geometry_.in_air(center - aim.disc, center + aim.disc))
+        aim.inside = geometry_.solids_around(center);
+    const double distance = glm::length(to_target), sine = (target_.radius + aim.disc) / distance;
     if (sine < 1.0) {
-        aim.world_from_aim = world_from_local(to_target / distance);
-        aim.cos_limit = std::sqrt(1.0 - sine * sine);
+        aim.world_from_cone = world_from_local(to_target / distance);
+        aim.one_less_cosine = sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
     }
-    const double cos_outer = std::cos(double(light.outer_cone_angle));
-    if (light.kind == Light::Kind::kSpot && cos_outer > aim.cos_limit) {
-        aim.world_from_aim = world_from_local(glm::normalize(glm::dvec3(light.direction)));
-        aim.cos_limit = cos_outer;
+    const double outer = 1.0 - std::cos(double(light.outer_cone_angle));
+    if (light.kind == Light::Kind::kSpot && outer < aim.one_less_cosine) {
+        aim.world_from_cone = world_from_local(glm::normalize(glm::dvec3(light.direction)));
+        aim.one_less_cosine = outer;
     }
     return aim;
 }
 
-/// Area of the disc, m2, or solid angle of the cone.
+/// What a light's brightest channel is multiplied by to get the flux of its photons: the area of the disc, m2, or the
+/// solid angle of the cone.
 double PhotonEmitter::measure(const Aim& aim) const {
-    if (aim.light->kind == Light::Kind::kDirectional) return pi * target_.radius * target_.radius;
-    return 2.0 * pi * (1.0 - aim.cos_limit);
+    if (aim.light->kind == Light::Kind::kDirectional) return pi * aim.disc * aim.disc;
+    return 2.0 * pi * aim.one_less_cosine;
 }
 
 double PhotonEmitter::first_radius(std::uint32_t count) const {
@@ -112,23 +119,20 @@ double PhotonEmitter::first_radius(std::uint32_t count) const {
 }
 
 PhotonStart PhotonEmitter::start(const Aim& aim, Random& random) const {
-    const glm::dvec2 u = random.next2();
-    const double angle = 2.0 * pi * u.y;
     PhotonStart photon{{}, aim.light, glm::dvec3(aim.light->intensity)};
-    if (aim.light->kind == Light::Kind::kDirectional) {
-        const double radius = target_.radius * std::sqrt(u.x);
-        const glm::dvec3 on_disc(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-        photon.ray.origin = aim.origin + aim.world_from_aim * on_disc;
-        photon.ray.direction = aim.world_from_aim[2];
-        return photon;
-    }
-    const double z = 1.0 - u.x * (1.0 - aim.cos_limit), across = std::sqrt(std::max(1.0 - z * z, 0.0));
-    photon.ray.origin = aim.origin;
-    photon.ray.direction =
-        glm::normalize(aim.world_from_aim * glm::dvec3(across * std::cos(angle), across * std::sin(angle), z));
+    glm::dvec3& direction = photon.ray.direction;
+    direction = glm::normalize(aim.world_from_cone * uniform_in_cone(aim.one_less_cosine, random.next2()));
+    const glm::dvec2 u = random.next2();
+    const double from_axis = aim.disc * std::sqrt(u.x), angle = 2.0 * pi * u.y;
+    const glm::dvec3 on_disc =
+        world_from_local(direction) * glm::dvec3(from_axis * std::cos(angle), from_axis * std::sin(angle), 0.0);
+    const bool sun = aim.light->kind == Light::Kind::kDirectional;
+    // A ball's radiance is the same all over: its points lie evenly in the disc that it is seen as.
+    const double ahead = sun ? -aim.before : aim.disc * std::sqrt(std::max(1.0 - u.x, 0.0));
+    photon.ray.origin = aim.center + on_disc + ahead * direction;
     if (aim.light->kind == Light::Kind::kSpot) {
         const glm::dvec3 axis = glm::normalize(glm::dvec3(aim.light->direction));
-        photon.flux *= cone_share(*aim.light, glm::dot(photon.ray.direction, axis));
+        photon.flux *= cone_share(*aim.light, glm::dot(direction, axis));
     }
     return photon;
 }
@@ -138,7 +142,7 @@ void PhotonEmitter::shoot(PathWalk& walk, std::uint32_t count, Random& random, s
     const auto aim = std::find_if(aims_.begin(), aims_.end() - 1, [&](const Aim& a) { return at < a.power_up_to; });
     PhotonStart photon = start(*aim, random);
     photon.flux *= emitted() / (brightest(glm::dvec3(aim->light->intensity)) * double(count));
-    walk.follow(photon, aim->inside, random, stored);
+    walk.follow(photon, aim->inside ? *aim->inside : geometry_.solids_around(photon.ray.origin), random, stored);
 }
 
 PhotonMap shoot_photons(const PathWorld& world, const PhotonEmitter& emitter, std::uint32_t count, std::uint32_t seed,

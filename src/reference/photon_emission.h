@@ -7,12 +7,13 @@
 #include <pellucid/scene.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pellucid::reference {
 
 /// Photons of suns, lamps and spots, aimed at the sphere around everything smooth: only there is light that next-event
-/// estimation cannot follow. Suns send them through a disc of the sphere's radius, lamps and spots into a cone.
+/// estimation cannot follow. A light with a size sends photons from all of its disc or ball.
 class PhotonEmitter {
 public:
     /// The arguments must outlive the emitter.
@@ -33,20 +34,24 @@ private:
         glm::dvec3 center{0.0};
         double radius = 0.0;  ///< m; 0: nothing is smooth
     };
-    /// A light and where it sends its photons.
+    /// A light and where it sends its photons: in directions of a cone, through a disc across each of them.
     struct Aim {
         const Light* light;
-        MediumStack inside;         ///< solids around the light
-        glm::dvec3 origin;          ///< the disc's centre, or the light
-        glm::dmat3 world_from_aim;  ///< z is the axis of the disc's normal, or of the cone
-        double cos_limit = -1.0;    ///< of the cone's half angle
-        double power_up_to = 0.0;   ///< W in the brightest channel, of this light and those before it
+        std::optional<MediumStack> inside;  ///< solids around the light; none: they differ from photon to photon
+        glm::dvec3 center;                  ///< of the discs: of the sphere for a directional light, else of the light
+        double disc = 0.0;                  ///< radius of the discs, m: of the sphere, or of the light
+        double before = 0.0;                ///< m from `center` back to where photons of a directional light start
+        glm::dmat3 world_from_cone{1.0};    ///< z is the cone's axis
+        double one_less_cosine = 2.0;       ///< of the cone's half angle
+        double power_up_to = 0.0;           ///< W in the brightest channel, of this light and those before it
     };
     static Sphere smooth_bounds(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene);
-    Aim aim_of(const Geometry& geometry, const Scene& scene, const Light& light) const;
+    Aim aim_of_sun(const Scene& scene, const Light& light) const;
+    Aim aim_of_lamp(const Light& light) const;
     double measure(const Aim& aim) const;
     PhotonStart start(const Aim& aim, Random& random) const;
 
+    const Geometry& geometry_;
     Sphere target_;
     std::vector<Aim> aims_;
 };

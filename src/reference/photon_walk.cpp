@@ -18,7 +18,7 @@ void PathWalk::follow(const PhotonStart& photon, const MediumStack& inside, Rand
     for (std::uint32_t vertices = 0; vertices < world_.max_vertices; ++vertices) {
         bool caught = false;
         const Hit hit = next_surface(random, caught);
-        if (caught || !hit.found) break;
+        if (caught || ball_ || !hit.found) break;
         travel(hit);
         if (!meet(hit, random)) break;
         if (vertices >= kRouletteFrom && !survives(random)) break;
@@ -71,7 +71,7 @@ void PathWalk::add_photons(const Vertex& vertex, const Bsdf& bsdf, const Facing&
         const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, towards, random);
         if (bsdf_value.pdf > 0.0 && cosine > 0.0) sum += bsdf_value.value * glm::dvec3(photon.flux) / cosine;
     });
-    radiance_ += throughput_ * sum / world_.photons->disc_area();
+    receive(part_through(LightPart::kCaustic), throughput_ * sum / world_.photons->disc_area());
 }
 
 }  // namespace pellucid::reference

@@ -63,7 +63,7 @@ float ThicknessTracer::Impl::at(const CameraRay& ray, const Light& light) const 
     query.kinds = only(SurfaceKind::kOpaque);
     Hit hit = geometry.intersect(query);
     if (!hit.found || !translucent(hit.crossing.object)) return kNotTranslucent;
-    const std::optional<ArrivingLight> arriving = arriving_light(light, hit.position);
+    const std::optional<ArrivingLight> arriving = arriving_from_center(light, hit.position);
     if (!arriving) return kNotTranslucent;
     const bool leaving = crossing_sense(-arriving->direction, hit.normal) == Sense::kLeaving;
 

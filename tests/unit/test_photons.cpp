@@ -22,6 +22,7 @@ Light sun(glm::vec3 direction, float irradiance = 3.0f) {
     light.kind = Light::Kind::kDirectional;
     light.direction = glm::normalize(direction);
     light.intensity = glm::vec3(irradiance);
+    light.angular_diameter = 0.0f;
     return light;
 }
 

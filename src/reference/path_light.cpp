@@ -1,0 +1,133 @@
+// The part of PathWalk that meets lights, by chance and by aiming at them.
+#include "reference/path_walk.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace pellucid::reference {
+namespace {
+
+/// Weight of a direction chosen with density `pdf` that `other` might have chosen, too (Veach 1997,
+/// section 9.2.4, exponent 2).
+double power_heuristic(double pdf, double other) {
+    const double ratio = other / pdf;
+    return 1.0 / (1.0 + ratio * ratio);
+}
+
+}  // namespace
+
+/// Part of the picture that a light belongs to which the path meets now.
+LightPart PathWalk::part() const {
+    if (scatters_ == 0) return LightPart::kEmitted;
+    if (scatters_ > 1) return LightPart::kIndirect;
+    return bent_ ? LightPart::kCaustic : LightPart::kDirect;
+}
+
+/// Weight of a light with a size that the path meets by chance.
+double PathWalk::weight_of_chance(const Light& light) const {
+    if (pdf_ > 0.0) return power_heuristic(pdf_, arriving_pdf(light, scattered_at_));
+    const bool photons_have_it = world_.photons && scatters_ > 0 && bent_;
+    return photons_have_it ? 0.0 : 1.0;
+}
+
+/// The path leaves the scene. In an open mesh it may seem to be inside glass of no end, which then does
+/// not absorb.
+void PathWalk::see_sky() {
+    const glm::dvec3 light = radiance(world_.environment, glm::vec3(ray_.direction));
+    const double weight = pdf_ > 0.0 ? power_heuristic(pdf_, world_.sampler.pdf(ray_.direction)) : 1.0;
+    receive(part(), throughput_ * light * weight);
+    lights_.for_each_sun(ray_.direction, [&](const Light& sun) {
+        receive(part(), throughput_ * radiance_of(sun, ray_.direction) * weight_of_chance(sun));
+    });
+}
+
+/// The path meets a lamp, and ends there. What is seen without a surface that scatters does not fade with its range.
+void PathWalk::see_ball(double distance) {
+    cover(distance);
+    const double range = scatters_ > 0 ? range_share(*ball_, length_) : 1.0;
+    receive(part(),
+            throughput_ * emitted_share() * radiance_of(*ball_, ray_.direction) * (range * weight_of_chance(*ball_)));
+}
+
+BsdfValue PathWalk::value_towards(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing,
+                                  const glm::dvec3& direction, Random& random) const {
+    const glm::dvec3 wi = direction * facing.world_from_local;
+    if (crosses(vertex.hit, direction) != (wi.z < 0.0)) return {};
+    return std::visit([&](const auto& b) { return b.evaluate(facing.wo, wi, random); }, bsdf);
+}
+
+/// Light of the environment, in a direction that it has chosen.
+void PathWalk::add_environment(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random) {
+    if (world_.sampler.dark()) return;
+    const EnvironmentSampler::Sample chosen = world_.sampler.sample(random);
+    const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, chosen.direction, random);
+    if (!(bsdf_value.pdf > 0.0)) return;
+    const glm::dvec3 light = radiance(world_.environment, glm::vec3(chosen.direction));
+    const double weight = power_heuristic(chosen.pdf, bsdf_value.pdf) / chosen.pdf;
+    receive(part_through(LightPart::kDirect),
+            throughput_ * bsdf_value.value * light * weight *
+                visibility(vertex.hit, chosen.direction, std::numeric_limits<double>::infinity(), nullptr));
+}
+
+/// Light of one of the scene's lights, in a direction that it has chosen.
+void PathWalk::add_light(const Light& light, const Vertex& vertex, const Bsdf& bsdf, const Facing& facing,
+                         Random& random) {
+    const std::optional<ArrivingLight> arriving = arriving_light(light, vertex.hit.position, random);
+    if (!arriving) return;
+    const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, arriving->direction, random);
+    if (!(bsdf_value.pdf > 0.0)) return;
+    // Light from beyond was emitted there. No volume is there: visibility() is 0 in volumes.
+    const double share =
+        refracts_towards(vertex.hit, arriving->direction) ? emitted_share(beyond_, 1.0) : emitted_share();
+    const double weight = arriving->pdf > 0.0 ? power_heuristic(arriving->pdf, bsdf_value.pdf) : 1.0;
+    receive(part_through(LightPart::kDirect),
+            throughput_ * (share * weight) * bsdf_value.value * arriving->irradiance *
+                visibility(vertex.hit, arriving->direction, arriving->distance, &light));
+}
+
+/// Share of the light from a source at `distance` that reaches a surface. `light`: the source, if it is one of the scene's.
+glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, double distance, const Light* light) {
+    shadow_standing_ = standing_;
+    for (Crossing& on : shadow_standing_) on.sense = world_.geometry.sense(on.object, on.triangle, direction);
+    const MediumStack& inside = refracts_towards(from, direction) ? beyond_ : inside_;
+    Query query;
+    query.origin = from.position;
+    query.direction = direction;
+    query.t_max = distance;
+    query.standing = shadow_standing_;
+    query.kinds = only(SurfaceKind::kOpaque) | only(SurfaceKind::kRefractive);
+    if (world_.geometry.occluded(query) || lights_.nearest(query, light).light) return glm::dvec3(0.0);
+    const bool in_volume = inside.solid() == kAir ? world_.volumes.meets(query.origin, direction, distance)
+                                                  : world_.volumes.bends_in(inside.solid());
+    if (in_volume) return glm::dvec3(0.0);
+    glm::dvec3 share(1.0);
+    // To infinity there is no glass on the way but that of open meshes; see see_sky().
+    if (inside.solid() != kAir && std::isfinite(distance)) share = beer_lambert(inside.medium().sigma_a, distance);
+    return world_.has_panes ? share * pane_transmittance(query) : share;
+}
+
+/// What smooth panes leave of light that comes straight through them; rough ones scatter it.
+glm::dvec3 PathWalk::pane_transmittance(Query query) {
+    query.kinds = only(SurfaceKind::kThin);
+    glm::dvec3 share(1.0);
+    for (;;) {
+        const Hit hit = world_.geometry.intersect(query);
+        if (!hit.found) return share;
+        const Vertex pane = vertex_at(hit, query.direction);
+        const PaneBsdf bsdf(double(pane.material.ior), roughness_at(pane), glm::dvec3(pane.base));
+        const double coverage = pane.material.alpha_is_coverage ? pane.base.a : 1.0;
+        glm::dvec3 through(0.0);  // rough panes scatter
+        if (bsdf.only_mirrors())
+            through = bsdf.straight_through(-glm::dot(pane.normal, query.direction)) *
+                      double(transmission(world_.scene, pane.material, pane.attributes));
+        share *= (1.0 - coverage) + coverage * through;
+        if (share == glm::dvec3(0.0)) return share;
+        world_.geometry.step_onto(hit, shadow_standing_);
+        query.standing = shadow_standing_;
+        query.origin = hit.position;
+        query.t_max -= hit.t;
+    }
+}
+
+}  // namespace pellucid::reference
