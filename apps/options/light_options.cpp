@@ -9,7 +9,8 @@ void add_light_options(CLI::App& command, LightArguments& arguments) {
         .add_option(
             "--light", arguments.transport,
             "Light that frames follow to opaque surfaces. environment: of the environment alone, unshadowed; direct: "
-            "of lights, too, with shadows; full: also reflected between surfaces, with what hides the environment")
+            "of lights, too, with shadows; full: also reflected between surfaces, with what hides the environment; "
+            "automatic: environment where there are no lights, full with several samples, direct with one")
         ->capture_default_str()
         ->type_name("NAME");
     command

@@ -211,7 +211,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     check_settings(settings, impl.device);
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
-    impl.prepare(chosen, impl.frame_light(chosen_light(settings)), impl.camera_for(settings), settings.progress,
+    impl.prepare(chosen, impl.frame_light(impl.chosen_light(settings)), impl.camera_for(settings), settings.progress,
                  result.warnings);
     result.light = impl.chosen_light(settings).transport;
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);

@@ -209,7 +209,7 @@ bool end_at_surface(ivec2 texel, PathState state) {
     }
     // Light that goes through translucent surfaces is drawn with them (shade/transmit_light.comp), and what they reflect.
     if (kLightsSurfaces && !point.unlit && !(drawn && point.translucent)) look_at_lights(texel, state, point);
-    if (most_bounces > 0u) bounce(texel, state, point);
+    if (most_bounces > 0u && !(drawn && full_light == 0u)) bounce(texel, state, point);
     return true;
 }
 
