@@ -18,11 +18,12 @@ struct WantedSamples {
 /// The light that a frame follows to opaque surfaces, beyond that of an environment which nothing hides.
 struct FrameLight {
     std::uint32_t lights = 0;     ///< of GpuScene::lights; 0: none is followed
+    std::uint32_t emitters = 0;   ///< of GpuScene::emitters, likewise
     bool visible = false;         ///< some of them have a size, and are seen
     bool tinted_shadows = false;  ///< glass lets the straight ray pass, weakened, instead of blocking it
     std::uint32_t bounces = 0;    ///< diffuse reflections along a path, 0 to 7
 
-    bool any() const { return lights > 0 || bounces > 0; }
+    bool any() const { return lights > 0 || emitters > 0 || bounces > 0; }
     std::uint32_t visible_lights() const { return visible ? lights : 0; }
 };
 
@@ -49,6 +50,7 @@ struct Frame {
                                   reads("Appearance", scene.appearance),
                                   reads("Textures", scene.textures),
                                   reads("SceneLights", scene.lights),
+                                  reads("Emitters", scene.emitters),
                                   reads("texture_pages", scene.texture_pages),
                                   reads_layer("environment_map", environment, 0),
                                   reads_layer("filtered_environment", filtered_environment, 0)};

@@ -1,5 +1,6 @@
 #include "gpu/gpu_scene.h"
 
+#include "gpu/emitters.h"
 #include "gpu/punctual_light.h"
 
 #include "gpu/texture_pages.h"
@@ -208,6 +209,14 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
     texture_pages = texture_table.upload_pages(device);
     textures = upload_buffer(device, "the scene's textures", texture_table.records(), Usage::eStorageBuffer);
     set_lights(device, scene.lights);
+    list_emitters(device, scene);
+}
+
+void GpuScene::list_emitters(const Device& device, const Scene& scene) {
+    std::vector<EmitterRecord> records = emitters_of(scene, first_triangles);
+    emitter_count = std::uint32_t(records.size());
+    if (records.empty()) records.push_back({});  // something has to be bound
+    emitters = upload_buffer(device, "emissive triangles", records, vk::BufferUsageFlagBits::eStorageBuffer);
 }
 
 void GpuScene::set_lights(const Device& device, std::span<const Light> given) {
@@ -243,6 +252,7 @@ void GpuScene::move_vertices(const Device& device, const Scene& scene, std::span
         const std::vector<Vertex> data = vertices_of(scene.meshes[std::size_t(mesh)]);
         upload(device, vertices, std::as_bytes(std::span(data)), first * sizeof(Vertex));
     }
+    if (emitter_count > 0) list_emitters(device, scene);
 }
 
 }  // namespace pellucid

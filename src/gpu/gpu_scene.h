@@ -44,6 +44,9 @@ struct GpuScene {
     /// Uploads the lights from now on. No frame may be in flight.
     void set_lights(const Device& device, std::span<const Light> given);
 
+    /// Lists the triangles that emit light, as `scene` is now. No frame may be in flight.
+    void list_emitters(const Device& device, const Scene& scene);
+
     /// Makes `topology`, or brings it up to date; `scene` as it is now.
     void prepare_topology(const Device& device, const Scene& scene);
 
@@ -56,6 +59,8 @@ struct GpuScene {
     GpuImage texture_pages;
     Buffer lights;  ///< PunctualLight[] (punctual_light.glsl)
     std::uint32_t light_count = 0;
+    Buffer emitters;  ///< EmitterRecord[] (emitters.h)
+    std::uint32_t emitter_count = 0;
 
     std::uint32_t object_count = 0;
     std::uint64_t triangle_count = 0;

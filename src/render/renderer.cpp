@@ -127,6 +127,7 @@ FrameLight Renderer::Impl::frame_light(const LightOptions& wanted) const {
     if (wanted.transport == LightTransport::kEnvironment) return {};
     const std::vector<Light>& lights = cpu.scene().lights;
     return {.lights = scene->light_count,
+            .emitters = scene->emitter_count,
             .visible = std::any_of(lights.begin(), lights.end(), has_size),
             .tinted_shadows = wanted.shadows == Shadows::kTinted,
             .bounces = wanted.transport == LightTransport::kFull ? wanted.bounces : 0};

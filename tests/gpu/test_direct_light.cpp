@@ -250,6 +250,28 @@ TEST_P(DirectLight, ManyLightsAreChosenAtRandomWithoutBias) {
     EXPECT_NEAR(found / expected, 1.0, 0.01);
 }
 
+// A bright plate above the floor, whose light the path tracer meets by chance: in the dark, and of one bounce.
+TEST_P(DirectLight, EmissiveSurfacesLightOthers) {
+    Material bright = diffuse(glm::vec3(0.0f));
+    bright.emission = glm::vec3(3.0f, 2.0f, 1.0f);
+    add(bright, {{-1.0, 0.5, -1.0}, {0.5, 0.6, 1.0}});
+    LightOptions light;
+    light.transport = LightTransport::kDirect;
+    const RenderResult found = draw(light, 64);
+    RenderSettings settings;
+    settings.width = settings.height = kSize;
+    settings.technique = "path";
+    settings.samples = 256;
+    const RenderResult truth = renderer().render(settings);
+    glm::dvec3 sum_found(0.0), sum_truth(0.0);
+    for_each_floor_pixel([&](int x, int y, const glm::dvec3&) {
+        sum_found += rgb(found.radiance, x, y);
+        sum_truth += rgb(truth.radiance, x, y);
+    });
+    // The plate reflects nothing, so there is no other light.
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum_found[c] / sum_truth[c], 1.0, 0.01) << "channel " << c;
+}
+
 // A grey floor under a white sky, with a box on it: diffuse reflections between them, and what the box hides of the sky.
 TEST_P(DirectLight, BouncesAgreeWithThePathTracer) {
     environment_ = 1.0f;

@@ -80,11 +80,12 @@ OpaquePoint opaque_point(PathState state) {
     return point;
 }
 
-// Of an opaque surface, what it emits and reflects of an environment that nothing hides. Paths carry radiance over n^2: what
-// a surface emits into a medium, and what lamps in it throw, is divided by that.
-vec3 light_of(OpaquePoint point, vec3 direction) {
+// Of an opaque surface, what it reflects of an environment that nothing hides and, if `emits`, what it emits. Paths carry
+// radiance over n^2: what a surface emits into a medium, and what lamps in it throw, is divided by that.
+vec3 light_of(OpaquePoint point, vec3 direction, bool emits) {
     if (point.unlit) return point.emission;
-    return opaque_radiance(point.surface, point.normal, -direction) + point.emission / (point.ior * point.ior);
+    vec3 emission = emits ? point.emission / (point.ior * point.ior) : vec3(0.0);
+    return opaque_radiance(point.surface, point.normal, -direction) + emission;
 }
 
 vec3 diffuse_albedo(OpaquePoint point) {
@@ -154,9 +155,9 @@ void bounce(ivec2 texel, PathState state, OpaquePoint point) {
     uint mark = state.mark;
     state.path.direction = chosen.direction;
     state.path.transmittance = weight;
-    state.mark = (mark & 0xffffu & ~(kMainPath | kMetOpaque | kBounceMask | kBounced)) | (before + 1u) << kBounceShift;
+    state.mark = (mark & 0xffffu & ~(kMainPath | kMetOpaque | kBounceMask | kBounced | kUnbent)) | (before + 1u) << kBounceShift;
     // A mirror's path sees lights; others leave these to shadow rays.
-    if (chosen.alpha > 0.0) state.mark = widened(state.mark | kBounced, chosen.alpha);
+    if (chosen.alpha > 0.0) state.mark = widened(state.mark | kBounced | kUnbent, chosen.alpha);
     float roughness = sqrt(spread_of(state.mark));
     if (push_branch(state, branch_capacity, true))
         add_light(texel, mark, -weight * filtered_environment_radiance(chosen.direction, roughness));
@@ -199,7 +200,9 @@ bool end_at_surface(ivec2 texel, PathState state) {
     bool drawn = has_mark(state, kOpaquePixel) && has_mark(state, kMainPath);  // by the rasteriser
     if (!drawn) {
         if (has_mark(state, kMainPath)) store_result(texel, state);
-        vec3 light = light_of(point, state.path.direction);
+        // Shadow rays have brought what is met straight from an opaque surface.
+        bool emits = emitter_count == 0u || !has_mark(state, kUnbent);
+        vec3 light = light_of(point, state.path.direction, emits);
 #ifdef PELLUCID_LIT
         if (!point.unlit)
             light += diffuse_albedo(point) / (3.14159265 * point.ior * point.ior) *

@@ -197,6 +197,7 @@ void cross_touching(vec3 direction, Search search, Media here, inout MetSurface 
 
 // Takes a path that has met glass to its other side, which may be no boundary of media.
 void pass_glass(inout PathState state, MetSurface met, Media here, uint before, uint beyond) {
+    state.mark &= ~kUnbent;
     Crossing crossing;
     crossing.surface = met.surface;
     crossing.leaving = met.hit.leaving;

@@ -5,14 +5,20 @@
 // light, and bring it if they reach the light.
 // Needs: end_paths.glsl as far as struct OpaquePoint.
 #include "techniques/visibility_layers/path_lights.glsl"
+#include "techniques/visibility_layers/emitters.glsl"
 
 // Shadow rays of one path end. Where there are more lights, they are chosen at random by what they contribute unshadowed.
 const uint kMostShadowRays = 4u;
 
+// Lights, and all that emits as one more.
+uint source_count() { return direct_lights + (emitter_count > 0u ? 1u : 0u); }
+
 // Light `number`'s sample at the end of a path, and what of it goes back along the path if nothing is in between.
 vec3 unshadowed_light(uint number, ivec2 texel, PathState state, OpaquePoint point, out LightSample light) {
     uint seed = hash(uvec3(texel + first_pixel(), 4099u + number)).x;
-    light = sample_light(scene_lights[number], state.path.position, random_numbers(seed, state.path.events));
+    vec2 u = random_numbers(seed, state.path.events);
+    if (number < direct_lights) light = sample_light(scene_lights[number], state.path.position, u);
+    else light = sample_emitter(state.path.position, u, random_number(seed, state.path.events));
     if (light.irradiance == vec3(0.0)) return vec3(0.0);
     return state.path.transmittance * light.irradiance *
            opaque_reflection(point.surface, point.normal, -state.path.direction, light.to_light);
@@ -29,18 +35,19 @@ void push_shadow_ray(PathState state, LightSample light, vec3 weight) {
 }
 
 void look_at_lights(ivec2 texel, PathState state, OpaquePoint point) {
-    bool chooses = direct_lights > kMostShadowRays;
+    uint sources = source_count();
+    bool chooses = sources > kMostShadowRays;
     float step_ = 0.0, next = 0.0, passed = 0.0;
     LightSample light;
     if (chooses) {
-        for (uint i = 0u; i < direct_lights; ++i) {
+        for (uint i = 0u; i < sources; ++i) {
             vec3 weight = unshadowed_light(i, texel, state, point, light);
             step_ += (weight.r + weight.g + weight.b) / float(kMostShadowRays);
         }
         uint seed = hash(uvec3(texel + first_pixel(), 4098u)).x;
         next = step_ * random_number(seed, state.path.events);
     }
-    for (uint i = 0u; i < direct_lights; ++i) {
+    for (uint i = 0u; i < sources; ++i) {
         vec3 weight = unshadowed_light(i, texel, state, point, light);
         float share = weight.r + weight.g + weight.b;
         if (!(share > 0.0)) continue;

@@ -56,6 +56,7 @@ const uint kLost = 256u;        // the map cannot say what it meets: another wil
 const uint kToLight = 512u;     // a shadow ray: it goes straight to a light, `length_inside` metres away
 const uint kOpaquePixel = 1024u;  // its light is that of the opaque surface which the pixel shows
 const uint kMetLamp = 16384u;     // it has ended on a lamp, whose radiance its transmittance includes
+const uint kUnbent = 32768u;    // scattered by an opaque surface, and in no mirror or refraction since
 const uint kBounceShift = 11u, kBounceMask = 7u << kBounceShift;  // diffuse reflections so far
 
 bool has_mark(PathState state, uint bits) { return (state.mark & bits) != 0u; }

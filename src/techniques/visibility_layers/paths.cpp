@@ -104,7 +104,8 @@ private:
             return std::max(in_passes(surfaces), push_.max_events + kVolumesPerPath) +
                    push_.most_branches * kSurfacesPerBranch;
         const std::uint32_t branches = std::max(push_.most_branches, push_.most_bounces);
-        const std::uint32_t shadow_rays = std::min(push_.direct_lights, kMostShadowRays) * (1 + branches);
+        const std::uint32_t shadow_rays =
+            std::min(push_.direct_lights + (push_.emitter_count > 0 ? 1 : 0), kMostShadowRays) * (1 + branches);
         return in_passes(surfaces) + branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1) +
                shadow_rays * in_passes(kSurfacesPerShadowRay + surfaces_per_pass_ - 1);
     }

@@ -26,7 +26,7 @@ struct PathPush {
     float eye_depth;
     float largest_contact;
     std::uint32_t direct_lights, tinted_shadows, most_bounces;
-    std::uint32_t full_light, behind_glass;
+    std::uint32_t full_light, emitter_count, behind_glass;
 };
 
 /// What a pass that takes paths on is made of and binds, besides what is its own.

@@ -52,6 +52,7 @@ layout(push_constant) uniform Push {
     uint tinted_shadows;   // 1: glass lets shadow rays pass, weakened; 0: it blocks them
     uint most_bounces;     // diffuse reflections along a path
     uint full_light;       // 1: what facets of opaque surfaces reflect is followed, too
+    uint emitter_count;    // triangles that emit light, to whose points shadow rays go; 0: none
     uint behind_glass;     // 1: opaque surfaces that pixels show behind glass are lit, too
 };
 

@@ -22,6 +22,7 @@ void light_surfaces(PathTask& task, const Frame& frame) {
     if (!task.lights_surfaces) return;
     task.push.full_light = frame.light.bounces > 0 ? 1 : 0;
     task.push.direct_lights = frame.light.lights;
+    task.push.emitter_count = frame.light.emitters;
     task.push.tinted_shadows = frame.light.tinted_shadows ? 1 : 0;
 }
 
