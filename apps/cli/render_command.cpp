@@ -109,6 +109,23 @@ std::vector<PassTime> median_times(const std::vector<std::vector<PassTime>>& fra
     return medians;
 }
 
+/// Light of lights on every object, by as many photons as the picture of the path tracer has, up to kMostPhotons.
+nlohmann::ordered_json describe_light_flux(const nlohmann::ordered_json& parameters, std::uint32_t samples,
+                                           std::uint32_t threads, const Scene& scene) {
+    constexpr double kMostPhotons = 2e6;
+    const double photons = std::min(parameters["photons"].get<double>() * samples, kMostPhotons);
+    const Tracer tracer(scene, {.threads = threads});
+    const std::vector<LightFlux> flux =
+        tracer.light_flux(std::uint32_t(photons), std::uint32_t(parameters["seed"].get<double>()));
+    auto json = nlohmann::ordered_json::array();
+    const auto rgb = [](const glm::dvec3& watts) { return nlohmann::ordered_json{watts.r, watts.g, watts.b}; };
+    for (std::size_t i = 0; i < flux.size(); ++i)
+        json.push_back({{"object", scene.objects[i].name},
+                        {"direct_w", rgb(flux[i].direct)},
+                        {"photons_w", rgb(flux[i].photons)}});
+    return json;
+}
+
 nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSettings& settings,
                                 const NamedTechnique& technique, const Scene& scene, const DeviceInfo& device,
                                 const RenderResult& result, const std::vector<std::string>& warnings) {
@@ -153,6 +170,9 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
     // Of a technique that traces on the CPU the passes are the least part.
     if (!technique.info().reference) json["frame_ms"] = frame_ms;
     if (!result.standard_error.pixels.empty()) json["cut_paths"] = result.cut_paths;
+    if (technique.info().all_light && arguments.json && !scene.lights.empty())
+        json["light_flux"] =
+            describe_light_flux(json["parameters"], settings.samples, device_options(arguments.device).threads, scene);
     json["frames"] = result.frames.size();
     json["layer_passes"] = result.layer_passes;
     json["cut_rays"] = result.cut_rays;

@@ -7,9 +7,12 @@
 #include <pellucid/refracted_path.h>
 #include <pellucid/scene.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace pellucid {
@@ -50,7 +53,11 @@ struct PathTraceSettings {
     std::uint32_t max_vertices = 256;  ///< a path that is longer is cut and counted
     /// Photons per sample, for light of scene lights that mirrors and refracts before it meets something else; 0: none.
     std::uint32_t photons = 0;
+    bool parts = false;  ///< fill PathTracedImage::parts
 };
+
+/// Names of the parts of a picture: its light as AOVs of the technique path.
+inline constexpr std::array<std::string_view, 4> kLightParts{"emitted", "direct", "caustic", "indirect"};
 
 /// A path-traced picture. It depends on the scene, the settings and nothing else: not on threads.
 struct PathTracedImage {
@@ -58,6 +65,16 @@ struct PathTracedImage {
     Image standard_error;  ///< RGB, of that mean; 0 for one sample
     std::uint32_t samples = 0;
     std::uint64_t cut_paths = 0;  ///< paths that reached max_vertices, over all pixels
+    /// RGB, in the order of kLightParts; they add up to `radiance`. In Heckbert's notation, D everything that is not smooth:
+    /// E S* L, E S* D L, E S* D S+ L, and E S* D (S* D)+ S* L. Light straight through smooth panes has met nothing.
+    std::array<Image, 4> parts;
+    std::vector<std::string> warnings;  ///< what light is lost; one line each
+};
+
+/// Light that lights of the scene bring to an object, W, RGB, before any kernel.
+struct LightFlux {
+    glm::dvec3 direct{0.0};   ///< by shadow rays from its surface; 0 for glass
+    glm::dvec3 photons{0.0};  ///< stored on it, after mirrors and refractions
 };
 
 /// Exact ray tracing on the CPU (Embree): the truth that techniques are held against. Shares no
@@ -97,6 +114,10 @@ public:
     /// follows one colour channel.
     PathTracedImage path_trace(const Camera& camera, const Environment& environment, const PathTraceSettings& settings,
                                const Progress& progress = {}) const;
+
+    /// Light on every object of the scene, by as many photons over all lights and by shadow rays from points of every opaque
+    /// object. What lights send out is what arrives and what is absorbed on the way, by glass and metal, or flies off.
+    std::vector<LightFlux> light_flux(std::uint32_t photons, std::uint32_t seed = 1) const;
 
     /// Moves vertices in every object that shows the meshes, and refits the hierarchy (needs
     /// TracerOptions::deforming) or builds it anew, once for all of them. The first refit after a build takes

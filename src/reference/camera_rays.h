@@ -47,6 +47,12 @@ public:
         return ray;
     }
 
+    /// Side of a pixel, m, at a position in the world that the camera sees.
+    double pixel_size(const glm::dvec3& position) const {
+        const double depth = glm::dot(glm::dvec3(world_from_view_[3]) - position, glm::dvec3(world_from_view_[2]));
+        return orthographic_ ? pixel_ : pixel_ * std::abs(depth);
+    }
+
     /// True if every ray starts at the same point.
     bool one_origin() const { return !orthographic_ && near_ == 0.0; }
 

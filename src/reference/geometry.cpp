@@ -76,6 +76,18 @@ const Mesh& Geometry::mesh(std::uint32_t object) const {
     return scene_.meshes[std::size_t(scene_.objects[object].mesh)];
 }
 
+Hit Geometry::at(std::uint32_t object, std::uint32_t triangle, double u, double v) const {
+    const Corners c = corners(object, triangle);
+    Hit hit;
+    hit.found = true;
+    hit.crossing = {object, triangle, Sense::kEntering, shell(object, triangle)};
+    hit.normal = c.normal;
+    hit.u = u;
+    hit.v = v;
+    hit.position = (1.0 - u - v) * c.p0 + u * c.p1 + v * c.p2;
+    return hit;
+}
+
 const Material& Geometry::material(std::uint32_t object) const {
     return scene_.materials[std::size_t(scene_.objects[object].material)];
 }

@@ -110,6 +110,8 @@ public:
     Box box(std::uint32_t object) const { return {objects_[object].low, objects_[object].high}; }
     const Mesh& mesh(std::uint32_t object) const;
 
+    /// The point of a triangle at barycentric weights, as hit from outside.
+    Hit at(std::uint32_t object, std::uint32_t triangle, double u, double v) const;
     /// Sense in which `direction` crosses a triangle.
     Sense sense(std::uint32_t object, std::uint32_t triangle, const glm::dvec3& direction) const;
     /// Outward unit normal of the triangle itself (0 if it has no area).

@@ -86,6 +86,23 @@ void PathWalk::add_light(const Light& light, const Vertex& vertex, const Bsdf& b
                 visibility(vertex.hit, arriving->direction, arriving->distance, &light));
 }
 
+glm::dvec3 PathWalk::irradiance(const Hit& on, Random& random) {
+    const auto [object, triangle, sense, shell] = on.crossing;
+    if (world_.geometry.cut_out(object, triangle, on.u, on.v)) return glm::dvec3(0.0);
+    start({.origin = on.position}, world_.geometry.solids_around(on.position));
+    world_.geometry.step_onto(on, standing_);
+    const glm::dvec3 normal = world_.geometry.geometric_normal(on);
+    glm::dvec3 sum(0.0);
+    for (const Light& light : world_.scene.lights) {
+        const std::optional<ArrivingLight> arriving = arriving_light(light, on.position, random);
+        const double cosine = arriving ? glm::dot(arriving->direction, normal) : 0.0;
+        if (cosine == 0.0 || (cosine < 0.0 && world_.geometry.material(object).single_sided())) continue;
+        sum +=
+            arriving->irradiance * std::abs(cosine) * visibility(on, arriving->direction, arriving->distance, &light);
+    }
+    return sum;
+}
+
 /// Share of the light from a source at `distance` that reaches a surface. `light`: the source, if it is one of the scene's.
 glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, double distance, const Light* light) {
     shadow_standing_ = standing_;

@@ -4,6 +4,7 @@
 #include "reference/environment_sampler.h"
 #include "reference/path_walk.h"
 #include "reference/photon_emission.h"
+#include "reference/photon_kernel.h"
 #include "reference/random.h"
 #include "reference/start_media.h"
 #include "scene/check_scene.h"
@@ -56,6 +57,19 @@ private:
     glm::dvec3 mean_{0.0}, squares_{0.0};
 };
 
+class MeanParts {
+public:
+    void add(const LightParts& parts) {
+        for (std::size_t part = 0; part < parts.size(); ++part) sums_[part] += parts[part];
+        ++count_;
+    }
+    glm::dvec3 mean(std::size_t part) const { return sums_[part] / double(std::max(count_, 1u)); }
+
+private:
+    LightParts sums_{};
+    std::uint32_t count_ = 0;
+};
+
 void store(Image& image, glm::uvec2 pixel, const glm::dvec3& value) {
     float* to = image.at(int(pixel.x), int(pixel.y));
     for (int c = 0; c < 3; ++c) to[c] = float(value[c]);
@@ -66,7 +80,9 @@ public:
     Painter(const PathWorld& world, const CameraRays& rays, const PathTraceSettings& settings)
         : world_(world), rays_(rays), settings_(settings),
           media_(world.geometry, rays, {settings.width, settings.height}) {
-        if (world.photons) means_.resize(std::size_t(settings.width) * settings.height);
+        const std::size_t pixels = std::size_t(settings.width) * settings.height;
+        if (world.photons) means_.resize(pixels);
+        if (settings.parts) parts_.resize(pixels);
     }
 
     /// Rounds that a picture takes: one per sample if each has photons of its own.
@@ -91,10 +107,13 @@ public:
             const CameraRay ray = rays_.at(glm::dvec2(pixel) + random.next2());
             const PathWalk::Result result = walk.walk(ray, media_.around(ray), random);
             mean.add(result.radiance);
+            if (settings_.parts) parts_[index].add(result.parts);
             cut += result.cut ? 1 : 0;
         }
         store(image.radiance, pixel, mean.mean());
         store(image.standard_error, pixel, mean.standard_error());
+        for (std::size_t part = 0; settings_.parts && part < image.parts.size(); ++part)
+            store(image.parts[part], pixel, parts_[index].mean(part));
         return cut;
     }
 
@@ -113,39 +132,48 @@ private:
     const CameraRays& rays_;
     const PathTraceSettings& settings_;
     StartMedia media_;
+    std::vector<MeanParts> parts_;    ///< per pixel; empty: not asked for
     std::vector<RunningMean> means_;  ///< per pixel, over the rounds; empty: there is one round
 };
 
 /// One round of photons after another, each for one sample of every pixel.
 class PhotonRounds {
 public:
-    PhotonRounds(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene,
+    PhotonRounds(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene, const CameraRays& rays,
                  const PathTraceSettings& settings)
-        : settings_(settings) {
-        if (settings.photons > 0) emitter_.emplace(geometry, volumes, scene);
+        : geometry_(geometry), rays_(rays), settings_(settings) {
+        if (!scene.lights.empty()) emitter_.emplace(geometry, volumes, scene);
     }
     /// Null: none are wanted, or no light shines on anything smooth.
-    const PhotonMap* map() const { return emitter_ && !emitter_->dark() ? &map_ : nullptr; }
+    const PhotonMap* map() const { return settings_.photons > 0 && emitter_ && !emitter_->dark() ? &map_ : nullptr; }
+    /// What is lost without photons.
+    std::vector<std::string> warnings() const {
+        if (settings_.photons > 0 || !emitter_) return {};
+        const std::vector<std::string> names = emitter_->without_size();
+        if (names.empty()) return {};
+        return {
+            fmt::format("{} without a size: no light of {} comes through smooth glass or from mirrors without photons "
+                        "({})",
+                        names.size() == 1 ? "1 light is" : fmt::format("{} lights are", names.size()),
+                        names.size() == 1 ? "it" : "them", fmt::join(names, ", "))};
+    }
 
     void shoot(const PathWorld& world, std::uint32_t round) {
         if (!map()) return;
         const std::uint32_t of_all = settings_.first_sample + round;
         const double radius = photon_radius(emitter_->first_radius(settings_.photons), of_all);
-        map_ = shoot_photons(world, *emitter_, settings_.photons, settings_.seed, of_all, radius);
+        std::vector<Photon> photons = shoot_photons(world, *emitter_, settings_.photons, settings_.seed, of_all);
+        spread_over_receivers(geometry_, rays_, radius, settings_.seed, photons);
+        map_ = PhotonMap(std::move(photons));
     }
 
 private:
+    const Geometry& geometry_;
+    const CameraRays& rays_;
     const PathTraceSettings& settings_;
     std::optional<PhotonEmitter> emitter_;
     PhotonMap map_;
 };
-
-bool has_panes(const Geometry& geometry) {
-    for (std::uint32_t object = 0; object < geometry.object_count(); ++object) {
-        if (geometry.kind(object) == SurfaceKind::kThin) return true;
-    }
-    return false;
-}
 
 }  // namespace
 
@@ -159,12 +187,14 @@ PathTracedImage trace_paths(const Geometry& geometry, const CurvedVolumes& volum
     image.samples = settings.samples;
     image.radiance = Image(int(settings.width), int(settings.height), 3);
     image.standard_error = image.radiance;
+    if (settings.parts) image.parts.fill(image.radiance);
 
     const EnvironmentSampler sampler(environment);
-    PhotonRounds photons(geometry, volumes, scene, settings);
+    const CameraRays rays(camera, settings.width, settings.height);
+    PhotonRounds photons(geometry, volumes, scene, rays, settings);
+    image.warnings = photons.warnings();
     const PathWorld world{
         geometry, volumes, scene, environment, sampler, settings.max_vertices, has_panes(geometry), photons.map()};
-    const CameraRays rays(camera, settings.width, settings.height);
     Painter painter(world, rays, settings);
     const std::uint32_t rounds = painter.rounds();
     const std::uint32_t columns = (settings.width + kTile - 1) / kTile;

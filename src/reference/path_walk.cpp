@@ -10,6 +10,13 @@
 #include <utility>
 
 namespace pellucid::reference {
+bool has_panes(const Geometry& geometry) {
+    for (std::uint32_t object = 0; object < geometry.object_count(); ++object) {
+        if (geometry.kind(object) == SurfaceKind::kThin) return true;
+    }
+    return false;
+}
+
 PathWalk::Result PathWalk::walk(const CameraRay& ray, const MediumStack& inside, Random& random) {
     start(ray, inside);
     for (std::uint32_t vertices = 0;; ++vertices) {

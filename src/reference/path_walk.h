@@ -35,6 +35,8 @@ struct PathWorld {
     const PhotonMap* photons = nullptr;  ///< of light that next-event estimation cannot follow; null: none
 };
 
+bool has_panes(const Geometry& geometry);
+
 /// A photon as its light sends it.
 struct PhotonStart {
     CameraRay ray;
@@ -87,6 +89,8 @@ public:
     };
     /// `inside`: the solids around the ray's origin.
     Result walk(const CameraRay& ray, const MediumStack& inside, Random& random);
+    /// Flux density, W/m2, that shadow rays find at a point of an opaque surface, over both sides.
+    glm::dvec3 irradiance(const Hit& on, Random& random);
     /// Appends to `stored` what next-event estimation cannot follow of a photon. `inside`: the solids around its light.
     void follow(const PhotonStart& photon, const MediumStack& inside, Random& random, std::vector<Photon>& stored);
 

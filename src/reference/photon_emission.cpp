@@ -145,8 +145,16 @@ void PhotonEmitter::shoot(PathWalk& walk, std::uint32_t count, Random& random, s
     walk.follow(photon, aim->inside ? *aim->inside : geometry_.solids_around(photon.ray.origin), random, stored);
 }
 
-PhotonMap shoot_photons(const PathWorld& world, const PhotonEmitter& emitter, std::uint32_t count, std::uint32_t seed,
-                        std::uint32_t round, double radius) {
+std::vector<std::string> PhotonEmitter::without_size() const {
+    std::vector<std::string> names;
+    for (const Aim& aim : aims_) {
+        if (!has_size(*aim.light)) names.push_back(aim.light->name);
+    }
+    return names;
+}
+
+std::vector<Photon> shoot_photons(const PathWorld& world, const PhotonEmitter& emitter, std::uint32_t count,
+                                  std::uint32_t seed, std::uint32_t round) {
     constexpr std::uint64_t kPhotons = std::uint64_t(1) << 63;  // random numbers apart from those of pixels
     std::vector<std::vector<Photon>> blocks((std::size_t(count) + kBlock - 1) / kBlock);
     tbb::parallel_for(std::size_t(0), blocks.size(), [&](std::size_t block) {
@@ -159,7 +167,7 @@ PhotonMap shoot_photons(const PathWorld& world, const PhotonEmitter& emitter, st
     });
     std::vector<Photon> all;
     for (const std::vector<Photon>& block : blocks) all.insert(all.end(), block.begin(), block.end());
-    return {std::move(all), radius};
+    return all;
 }
 
 }  // namespace pellucid::reference

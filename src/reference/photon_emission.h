@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pellucid::reference {
@@ -21,6 +22,8 @@ public:
 
     /// True if no light shines on anything smooth.
     bool dark() const { return aims_.empty(); }
+    /// Names of lights without a size: without photons what they send onto smooth things is lost.
+    std::vector<std::string> without_size() const;
     /// Radius of the first round's look-ups, m: where nothing bends light that runs across the sphere, a look-up finds
     /// 16 of `count` photons.
     double first_radius(std::uint32_t count) const;
@@ -56,8 +59,8 @@ private:
     std::vector<Aim> aims_;
 };
 
-/// Photons of one round, the same on any number of threads. `radius`: of their look-ups, m.
-PhotonMap shoot_photons(const PathWorld& world, const PhotonEmitter& emitter, std::uint32_t count, std::uint32_t seed,
-                        std::uint32_t round, double radius);
+/// Photons of one round, the same on any number of threads.
+std::vector<Photon> shoot_photons(const PathWorld& world, const PhotonEmitter& emitter, std::uint32_t count,
+                                  std::uint32_t seed, std::uint32_t round);
 
 }  // namespace pellucid::reference

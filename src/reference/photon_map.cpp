@@ -2,22 +2,22 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace pellucid::reference {
 
-PhotonMap::PhotonMap(std::vector<Photon> photons, double radius) : radius_(radius) {
+PhotonMap::PhotonMap(std::vector<Photon> photons) {
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const Photon& photon : photons) {
         low = glm::min(low, photon.position);
         high = glm::max(high, photon.position);
+        radius_ = std::max(radius_, double(photon.radius));
     }
     if (photons.empty()) low = high = glm::dvec3(0.0);
     const glm::dvec3 extent = high - low;
     const double coarsest = std::max({extent.x, extent.y, extent.z}) / double((1 << kBits) - 1);
     low_ = low;
-    cell_size_ = std::max(2.0 * radius, coarsest);
+    cell_size_ = std::max({2.0 * radius_, coarsest, std::numeric_limits<double>::min()});
 
     std::vector<std::pair<std::uint64_t, std::size_t>> order;
     order.reserve(photons.size());
@@ -30,8 +30,6 @@ PhotonMap::PhotonMap(std::vector<Photon> photons, double radius) : radius_(radiu
         keys_.push_back(key);
     }
 }
-
-double PhotonMap::disc_area() const { return std::numbers::pi * radius_ * radius_; }
 
 double photon_radius(double first_radius, std::uint32_t round) {
     constexpr double kAlpha = 2.0 / 3.0;

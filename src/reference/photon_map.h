@@ -1,5 +1,7 @@
 #pragma once
 
+#include "reference/geometry.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
@@ -15,20 +17,26 @@ struct Photon {
     glm::vec3 normal{0.0f};     ///< of the triangle, outward, unit
     glm::vec3 direction{0.0f};  ///< in which it flew, unit
     glm::vec3 flux{0.0f};       ///< W, RGB, over n^2 of the medium it arrives in (as radiance in bsdf.h)
+    float share = 1.0f;         ///< of its flux that this is: 1 / n^2
+    Crossing crossing{};        ///< of the triangle
+    float radius = 0.0f;        ///< m, of the disc over which look-ups find it
+    float area = 0.0f;          ///< m2, of the receiver, as much as the disc covers
 };
+
+/// Whether places with these unit normals belong to one receiver.
+inline bool of_one_surface(const glm::dvec3& normal, const glm::dvec3& other) { return glm::dot(normal, other) > 0.5; }
 
 /// Photons of one round, and those near a point (Jensen, "Global illumination using photon maps", 1996). They lie in a
 /// sorted grid, so that their order depends on nothing but their positions and the order in which they were given.
 class PhotonMap {
 public:
     PhotonMap() = default;
-    /// `radius`, m, > 0: of the disc over which for_each_near() looks.
-    PhotonMap(std::vector<Photon> photons, double radius);
+    /// The photons have their radii.
+    explicit PhotonMap(std::vector<Photon> photons);
 
     const std::vector<Photon>& photons() const { return photons_; }
-    double disc_area() const;  ///< m2
 
-    /// Calls visit(photon) for the photons of a surface with that unit normal, at most one radius from `position`.
+    /// Calls visit(photon) for the photons of a surface with that unit normal that are at most their radius away.
     template <class Visit>
     void for_each_near(const glm::dvec3& position, const glm::dvec3& normal, const Visit& visit) const {
         const Cell low = cell_of(position - radius_), high = cell_of(position + radius_);
@@ -55,12 +63,14 @@ private:
     static std::uint64_t key_of(const Cell& cell) { return (cell.z << 2 * kBits) | (cell.y << kBits) | cell.x; }
     bool belongs(const Photon& photon, const glm::dvec3& position, const glm::dvec3& normal) const {
         const glm::dvec3 apart = photon.position - position;
-        return glm::dot(apart, apart) <= radius_ * radius_ && glm::dot(glm::dvec3(photon.normal), normal) > 0.5;
+        return glm::dot(apart, apart) <= double(photon.radius) * double(photon.radius) &&
+               of_one_surface(glm::dvec3(photon.normal), normal);
     }
 
     std::vector<Photon> photons_;      ///< by key
     std::vector<std::uint64_t> keys_;  ///< of the photons' cells, ascending
-    double radius_ = 1.0, cell_size_ = 1.0;
+    double radius_ = 0.0;              ///< m, the largest of the photons'
+    double cell_size_ = 1.0;
     glm::dvec3 low_{0.0};
 };
 

@@ -29,9 +29,11 @@ void PathWalk::follow(const PhotonStart& photon, const MediumStack& inside, Rand
 /// Stores the photon at a surface that is not smooth everywhere, unless next-event estimation has its light.
 void PathWalk::deposit(const Vertex& vertex) {
     if (pdf_ > 0.0) return;
-    const double flux = photon_.flux * emitted_share() * range_share(*photon_.light, length_);
-    photon_.stored->push_back({vertex.hit.position, glm::vec3(world_.geometry.geometric_normal(vertex.hit)),
-                               glm::vec3(ray_.direction), glm::vec3(flux * throughput_)});
+    const double share = emitted_share(), flux = photon_.flux * share * range_share(*photon_.light, length_);
+    Photon photon{vertex.hit.position, glm::vec3(world_.geometry.geometric_normal(vertex.hit)),
+                  glm::vec3(ray_.direction), glm::vec3(flux * throughput_), float(share)};
+    photon.crossing = vertex.hit.crossing;
+    photon_.stored->push_back(photon);
 }
 
 /// Refracts a photon, or reflects it, as the reversed path from the eye would be: the opaque coat and the base colour
@@ -69,9 +71,10 @@ void PathWalk::add_photons(const Vertex& vertex, const Bsdf& bsdf, const Facing&
         const glm::dvec3 towards = -glm::normalize(glm::dvec3(photon.direction));
         const double cosine = std::abs(glm::dot(towards, normal));
         const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, towards, random);
-        if (bsdf_value.pdf > 0.0 && cosine > 0.0) sum += bsdf_value.value * glm::dvec3(photon.flux) / cosine;
+        if (bsdf_value.pdf > 0.0 && cosine > 0.0)
+            sum += bsdf_value.value * glm::dvec3(photon.flux) / (cosine * double(photon.area));
     });
-    receive(part_through(LightPart::kCaustic), throughput_ * sum / world_.photons->disc_area());
+    receive(part_through(LightPart::kCaustic), throughput_ * sum);
 }
 
 }  // namespace pellucid::reference

@@ -1,6 +1,7 @@
 #include "reference/exact_refraction.h"
 #include "reference/float_trace.h"
 #include "reference/geometry.h"
+#include "reference/light_flux.h"
 #include "reference/path_tracer.h"
 
 #include <pellucid/reference.h>
@@ -50,6 +51,10 @@ PathTracedImage Tracer::path_trace(const Camera& camera, const Environment& envi
                                    const PathTraceSettings& settings, const Progress& progress) const {
     return reference::trace_paths(impl_->geometry, *impl_->volumes, impl_->scene, camera, environment, settings,
                                   impl_->threads, progress);
+}
+
+std::vector<LightFlux> Tracer::light_flux(std::uint32_t photons, std::uint32_t seed) const {
+    return reference::light_flux(impl_->geometry, *impl_->volumes, impl_->scene, photons, seed, impl_->threads);
 }
 
 void Tracer::trace_fast(const Camera& camera, const ExactSettings& settings, std::span<glm::vec3> directions) const {

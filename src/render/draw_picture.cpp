@@ -177,7 +177,14 @@ void Renderer::Impl::trace_image(const FrameSettings& chosen, const RenderSettin
                                 .samples_for(settings.error, settings.exposure_ev, settings.most_samples);
         result.sample_counts = image_of(samples.of_pixels, {settings.width, settings.height});
     }
+    samples.parts = std::any_of(settings.aovs.begin(), settings.aovs.end(), is_light_part);
     PathTracedImage traced = trace(samples, part_of(settings.progress, before, 1.0));
+    for (std::size_t part = 0; part < kLightParts.size(); ++part) {
+        const std::string name(kLightParts[part]);
+        if (std::find(settings.aovs.begin(), settings.aovs.end(), name) != settings.aovs.end())
+            result.aovs[name] = std::move(traced.parts[part]);
+    }
+    result.warnings.insert(result.warnings.end(), traced.warnings.begin(), traced.warnings.end());
     result.radiance = std::move(traced.radiance);
     result.standard_error = std::move(traced.standard_error);
     result.cut_paths = traced.cut_paths;

@@ -212,6 +212,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     check_settings(settings, impl.device);
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
+    if (draws_picture(chosen)) refuse_light_parts(settings.aovs, chosen.info.name);
     impl.prepare(chosen, impl.frame_light(impl.chosen_light(settings)), impl.camera_for(settings), settings.progress,
                  result.warnings);
     result.light = impl.chosen_light(settings).transport;

@@ -20,6 +20,7 @@ struct PictureSamples {
     std::uint32_t count = 1;                    ///< of every pixel
     std::vector<std::uint32_t> of_pixels = {};  ///< in place of `count`, rows from the top; empty: all alike
     std::uint32_t first = 0;
+    bool parts = false;  ///< PathTraceSettings::parts
 };
 
 /// A row of the registry for what techniques are measured against. It has no passes: the CPU traces its exact paths

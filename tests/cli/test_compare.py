@@ -158,7 +158,7 @@ class Compare(CliTest):
     def test_truth_takes_its_parameters(self):
         content = self.runs("shape:sphere", "--techniques", "one-interface", "--views", "1", "--truth", "path",
                             "--truth-samples", "2", "--seed", "7", size="16x16")
-        self.assertEqual(content["image_truth_parameters"], {"events": 16, "seed": 7, "vertices": 256, "photons": 0})
+        self.assertEqual(content["image_truth_parameters"], {"events": 16, "seed": 7, "vertices": 256, "photons": 20000})
 
     def test_refusals(self):
         for words, arguments in (

@@ -116,7 +116,29 @@ class PathTraced(CliTest):
         self.assertLess(sum(channel["error.G"]), sum(channel["G"]))
         described = json.loads(self.read("out.json"))
         self.assertGreaterEqual(described["cut_paths"], 0)
-        self.assertEqual(described["parameters"], {"events": 16, "seed": 1, "vertices": 256, "photons": 0})
+        self.assertEqual(described["parameters"], {"events": 16, "seed": 1, "vertices": 256, "photons": 20000})
+
+    def test_parts_add_up_and_flux_is_told(self):
+        names = ("emitted", "direct", "caustic", "indirect")
+        picture = self.trace("--add-light", "lamp:0,3,0,9,0.2", *(a for n in names for a in ("--aov", f"{n}={n}.exr")))
+        parts = [read_exr(self.read(f"{name}.exr")).pixels for name in names]
+        for c, own in (("R", "R"), ("G", "G"), ("B", "B")):
+            whole = picture.pixels[picture.channels.index(c)::len(picture.channels)]
+            summed = [sum(values) for values in zip(*(part["BGR".index(own)::3] for part in parts))]
+            self.assertTrue(all(math.isclose(a, b, rel_tol=1e-4, abs_tol=1e-4) for a, b in zip(whole, summed)))
+        flux = json.loads(self.read("out.json"))["light_flux"]
+        self.assertEqual([sorted(entry) for entry in flux], [["direct_w", "object", "photons_w"]])
+
+    def test_other_techniques_have_no_parts(self):
+        run = self.render("shape:sphere", "--technique", "visibility-layers", "--aov", "direct=direct.exr")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("'direct'", run.stderr)
+        self.assertIn("path", run.stderr)
+
+    def test_light_that_needs_photons_is_told(self):
+        run = self.render("shape:sphere", "--technique", "path", "--photons", "0", "--add-light", "lamp:0,3,0,9")
+        self.assertEqual(run.returncode, 0)
+        self.assertIn("1 light is without a size", run.stderr)
 
     def test_depends_on_the_seed_and_not_on_the_threads(self):
         first = self.trace("--threads", "1").pixels

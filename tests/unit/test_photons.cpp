@@ -39,7 +39,7 @@ std::vector<Photon> photons_of(const Scene& scene, std::uint32_t count) {
     const Environment dark = uniform(0.0f);
     const EnvironmentSampler sampler(dark);
     const PathWorld world{geometry, volumes, scene, dark, sampler, 256, true};
-    return shoot_photons(world, PhotonEmitter(geometry, volumes, scene), count, 1, 0, 0.01).photons();
+    return shoot_photons(world, PhotonEmitter(geometry, volumes, scene), count, 1, 0);
 }
 
 /// Flux of the photons that fly up or down, W.
@@ -87,16 +87,16 @@ TEST(PhotonMap, FindsWhatASearchOfAllFinds) {
     for (int i = 0; i < 2000; ++i) {
         const float side = random.next() < 0.5 ? 1.0f : -1.0f;
         photons.push_back({anywhere(), {0, 0, side}, {0, 0, -side}, glm::vec3(float(i))});
+        photons.back().radius = i % 2 == 0 ? 0.07f : 0.03f;
     }
-    const double radius = 0.07;
-    const PhotonMap map(photons, radius);
+    const PhotonMap map(photons);
     EXPECT_EQ(map.photons().size(), photons.size());
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 at = 1.2 * anywhere();
         double found = 0.0, expected = 0.0;
         map.for_each_near(at, {0, 0, 1}, [&](const Photon& photon) { found += 1.0 + double(photon.flux.r); });
         for (const Photon& photon : photons)
-            if (photon.normal.z > 0.0f && glm::length(photon.position - at) <= radius)
+            if (photon.normal.z > 0.0f && glm::length(photon.position - at) <= double(photon.radius))
                 expected += 1.0 + double(photon.flux.r);
         EXPECT_EQ(found, expected);
     }

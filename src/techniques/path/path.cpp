@@ -21,7 +21,7 @@ constexpr ParameterInfo kParameters[] = {
      .doc = "surfaces after which a path is cut"},
     {.name = "photons",
      .unit = "",
-     .default_value = 0,
+     .default_value = 20000,
      .minimum = 0,
      .maximum = 10000000.0,
      .whole = true,
@@ -38,7 +38,8 @@ PathTracedImage trace_image(const TracedView& view, const Environment& environme
                                    .first_sample = samples.first,
                                    .seed = parameters.whole("seed"),
                                    .max_vertices = parameters.whole("vertices"),
-                                   .photons = parameters.whole("photons")},
+                                   .photons = parameters.whole("photons"),
+                                   .parts = samples.parts},
                                   view.progress);
 }
 
