@@ -133,7 +133,7 @@ float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
 // One of the two, at random by their weights; facets only where all light is followed.
 Bounce choose_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, float choice) {
     Bounce diffuse = diffuse_bounce(point, u);
-    if (full_light == 0u || point.unlit) return diffuse;
+    if (!kFullLight || point.unlit) return diffuse;
     Bounce facet = facet_bounce(point, to_viewer, u);
     float share = largest(facet.weight) / max(largest(facet.weight) + largest(diffuse.weight), 1e-20);
     bool by_facet = choice < share;
@@ -212,7 +212,7 @@ bool end_at_surface(ivec2 texel, PathState state) {
     }
     // Light that goes through translucent surfaces is drawn with them (shade/transmit_light.comp), and what they reflect.
     if (kLightsSurfaces && !point.unlit && !(drawn && point.translucent)) look_at_lights(texel, state, point);
-    if (most_bounces > 0u && !(drawn && full_light == 0u)) bounce(texel, state, point);
+    if ((kTree || kFullLight) && most_bounces > 0u && !(drawn && !kFullLight)) bounce(texel, state, point);
     return true;
 }
 

@@ -132,6 +132,7 @@ private:
                 {"kCrossing", topology_.crossing},
                 {"kFoundOnHost", finder_ != nullptr},
                 {"kLightsSurfaces", task_.lights_surfaces},
+                {"kFullLight", task_.full_light},
                 {"kVisibleLights", frame_.light.visible_lights()}};
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }

@@ -26,7 +26,7 @@ struct PathPush {
     float eye_depth;
     float largest_contact;
     std::uint32_t direct_lights, tinted_shadows, most_bounces;
-    std::uint32_t full_light, emitter_count, behind_glass;
+    std::uint32_t emitter_count, behind_glass;
 };
 
 /// What a pass that takes paths on is made of and binds, besides what is its own.
@@ -76,6 +76,7 @@ struct PathTask {
     const Buffer* beginning = nullptr;  ///< pixels that `begin` is dispatched over; null: all of the frame
     /// Begins paths at their first end, in a dispatch over all of the frame, besides those of `begin`; none if empty.
     ShaderCode begin_at_end = {};
+    bool full_light = false;  ///< what facets of opaque surfaces reflect is followed, too
     bool lights_surfaces = false;  ///< opaque surfaces at which paths end look to lights, and to what is around them
     std::vector<Binding> bindings = {};  ///< of `begin` and `end`, besides those of paths
     Ways ways = Ways::kTransmitted;

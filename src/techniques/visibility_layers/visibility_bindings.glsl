@@ -19,6 +19,7 @@ layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is 
 layout(constant_id = 9) const bool kTouching = false;     // surfaces of two shells may lie at one place
 layout(constant_id = 15) const bool kFoundOnHost = false; // surfaces are found by the host, in no map
 layout(constant_id = 29) const bool kLightsSurfaces = false;  // paths look from opaque surfaces to lights, and to each other
+layout(constant_id = 31) const bool kFullLight = false;       // what facets of opaque surfaces reflect is followed, too
 layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend
 
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
@@ -51,7 +52,6 @@ layout(push_constant) uniform Push {
     uint direct_lights;    // of the scene, whose light opaque surfaces reflect
     uint tinted_shadows;   // 1: glass lets shadow rays pass, weakened; 0: it blocks them
     uint most_bounces;     // diffuse reflections along a path
-    uint full_light;       // 1: what facets of opaque surfaces reflect is followed, too
     uint emitter_count;    // triangles that emit light, to whose points shadow rays go; 0: none
     uint behind_glass;     // 1: opaque surfaces that pixels show behind glass are lit, too
 };

@@ -20,7 +20,7 @@ void light_surfaces(PathTask& task, const Frame& frame) {
     const std::uint32_t least_bounces = task.ways == Ways::kTree ? 1 : 0;
     task.push.most_bounces = std::max(task.lights_surfaces ? frame.light.bounces : 0, least_bounces);
     if (!task.lights_surfaces) return;
-    task.push.full_light = frame.light.bounces > 0 ? 1 : 0;
+    task.full_light = frame.light.bounces > 0;
     task.push.direct_lights = frame.light.lights;
     task.push.emitter_count = frame.light.emitters;
     task.push.tinted_shadows = frame.light.tinted_shadows ? 1 : 0;
