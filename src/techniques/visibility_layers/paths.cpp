@@ -132,7 +132,9 @@ private:
                 {"kCrossing", topology_.crossing},
                 {"kFoundOnHost", finder_ != nullptr},
                 {"kLightsSurfaces", task_.lights_surfaces},
-                {"kVisibleLights", frame_.light.visible_lights()}};
+                {"kVisibleLights", frame_.light.visible_lights()},
+                {"kFromLight", task_.from_light},
+                {"kPhotons", frame_.photons != nullptr}};
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 
