@@ -80,6 +80,7 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     settings.most_samples = arguments.most_samples;
     settings.light = light_options(arguments.light);
     settings.thickness = thickness_settings(arguments.thickness);
+    settings.photon_flux = arguments.json.has_value();
     settings.tonemap = parse_tonemap(arguments.tonemap);
     settings.exposure_ev = float(arguments.exposure_ev);
     settings.unit_luminance_cd_m2 = float(arguments.unit_luminance_cd_m2);
@@ -126,6 +127,17 @@ nlohmann::ordered_json describe_light_flux(const nlohmann::ordered_json& paramet
     return json;
 }
 
+nlohmann::ordered_json describe_flux(const PhotonFlux& flux, const Scene& scene) {
+    const auto rgb = [](const glm::dvec3& watts) { return nlohmann::ordered_json{watts.r, watts.g, watts.b}; };
+    nlohmann::ordered_json json{{"sent", rgb(flux.sent)}, {"left", rgb(flux.left)}};
+    for (std::size_t i = 0; i < flux.objects.size(); ++i) {
+        const auto& [bent, straight] = flux.objects[i];
+        if (bent == glm::dvec3(0.0) && straight == glm::dvec3(0.0)) continue;
+        json["objects"].push_back({{"name", scene.objects[i].name}, {"bent", rgb(bent)}, {"straight", rgb(straight)}});
+    }
+    return json;
+}
+
 nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSettings& settings,
                                 const NamedTechnique& technique, const Scene& scene, const DeviceInfo& device,
                                 const RenderResult& result, const std::vector<std::string>& warnings) {
@@ -161,6 +173,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
         const double share = result.covered > 0 ? double(result.status[status]) / double(result.covered) : 0.0;
         json["status"][std::string(status_name(Status(status)))] = share;
     }
+    if (!result.photon_flux.objects.empty()) json["photon_flux"] = describe_flux(result.photon_flux, scene);
     double frame_ms = 0.0;
     json["passes"] = nlohmann::ordered_json::object();
     for (const PassTime& pass : median_times(result.frames)) {

@@ -18,12 +18,19 @@ void add_light_options(CLI::App& command, LightArguments& arguments) {
                     "Of glass. exact: it blocks the straight ray to a light; tinted: it weakens it")
         ->capture_default_str()
         ->type_name("NAME");
+    command
+        .add_option(
+            "--caustics", arguments.caustics,
+            "Technique that finds where the light of --photons leaves glass, run from the lights' views; default: "
+            "photons follow every interface")
+        ->type_name("NAME");
     add_number(command, "--bounces", arguments.bounces, "Diffuse reflections along a path, 0 to 7; --light full")
         ->capture_default_str();
 }
 
 LightOptions light_options(const LightArguments& arguments) {
-    return {parse_light_transport(arguments.transport), parse_shadows(arguments.shadows), arguments.bounces};
+    return {parse_light_transport(arguments.transport), parse_shadows(arguments.shadows), arguments.caustics,
+            arguments.bounces};
 }
 
 }  // namespace pellucid::cli

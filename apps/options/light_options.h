@@ -13,6 +13,7 @@ namespace pellucid::cli {
 struct LightArguments {
     std::string transport = "automatic";
     std::string shadows = "exact";
+    std::string caustics;
     std::uint32_t bounces = LightOptions().bounces;
 };
 void add_light_options(CLI::App& command, LightArguments& arguments);

@@ -3,6 +3,7 @@
 #include <pellucid/api.h>
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace pellucid {
@@ -31,6 +32,9 @@ PELLUCID_API Shadows parse_shadows(std::string_view name);
 struct LightOptions {
     LightTransport transport = LightTransport::kAutomatic;
     Shadows shadows = Shadows::kExact;
+    /// Technique that finds where the light of photons leaves glass, run from the lights' views; empty: photons follow every
+    /// interface, reflections included. Techniques that see the whole scene do as empty does.
+    std::string caustics = {};
     std::uint32_t bounces = 2;  ///< diffuse reflections along a path, 0 to 7; kFull
 };
 

@@ -7,6 +7,7 @@
 #include <pellucid/image.h>
 #include <pellucid/layer_builder.h>
 #include <pellucid/light_options.h>
+#include <pellucid/photon_flux.h>
 #include <pellucid/progress.h>
 #include <pellucid/reference.h>
 #include <pellucid/refracted_path.h>
@@ -56,6 +57,7 @@ struct RenderSettings {
     float adaptation_s = std::numeric_limits<float>::infinity();
     std::vector<std::string> aovs;  ///< names of aov_infos() wanted in RenderResult::aovs
     bool paths = false;             ///< fill RenderResult::paths
+    bool photon_flux = false;       ///< fill RenderResult::photon_flux
     /// Pixels of a tile, at most; 0: as many as the device holds. A picture of more is drawn tile by tile and is the same
     /// picture, but for what the tiles of a technique warn of and for rounding (docs/architecture.md, Tiles).
     std::uint64_t tile_pixels = 0;
@@ -67,6 +69,7 @@ struct AovInfo {
     std::string_view name;
     int channels;
     std::string_view doc;
+    bool of_path = false;  ///< a part of the light in an image of `path`; techniques refuse it
 };
 PELLUCID_API std::span<const AovInfo> aov_infos();
 
@@ -77,6 +80,7 @@ struct RenderResult {
     std::vector<RefractedPath> paths;  ///< if asked for: one per pixel, through its centre, rows from the top
     Image standard_error;              ///< RGB, of `radiance`, where the technique estimates it (path); else empty
     Image sample_counts;  ///< 1 channel: samples of every pixel, where RenderSettings::error chose them; else empty
+    PhotonFlux photon_flux;                                ///< of the first frame, if asked for
     std::uint64_t cut_paths = 0;  ///< technique path: paths that reached its limit of length
     float adapted_cd_m2 = 0.0f;   ///< tone map kKrawczyk: the luminance that the eye has adapted to; else 0
     /// One entry per sample; empty where the device has no timestamps. On the software driver the

@@ -40,6 +40,7 @@ struct Frame {
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
     FrameLight light = {};
     std::optional<WantedSamples> wanted_samples = std::nullopt;
+    const std::vector<Binding>* photons = nullptr;       ///< for look-ups (light/photon_store.h); null: there are none
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
 
     std::vector<Binding> group = {reads("Frame", constants),

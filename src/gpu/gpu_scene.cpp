@@ -64,14 +64,6 @@ std::pair<glm::vec3, glm::vec3> box_of(const Mesh& mesh) {
     return {low, high};
 }
 
-void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, std::vector<glm::vec3>& corners) {
-    const auto [low, high] = box_of(mesh);
-    for (int i = 0; i < 8; ++i) {
-        const glm::vec3 corner((i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z);
-        corners.push_back(glm::vec3(world_from_object * glm::vec4(corner, 1.0f)));
-    }
-}
-
 void append(Geometry& geometry, const Mesh& mesh) {
     const auto first_vertex = std::uint32_t(geometry.vertices.size());
     geometry.first_corner.push_back(std::uint32_t(geometry.indices.size()));
@@ -144,6 +136,14 @@ std::vector<glm::vec3> box_corners(const Scene& scene, bool (Material::*which)()
 }
 
 }  // namespace
+
+void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, std::vector<glm::vec3>& corners) {
+    const auto [low, high] = box_of(mesh);
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec3 corner((i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z);
+        corners.push_back(glm::vec3(world_from_object * glm::vec4(corner, 1.0f)));
+    }
+}
 
 GpuScene::GpuScene(const Device& device, const Scene& scene)
     : bounds(scene_bounds(scene)), refractive_corners(box_corners(scene, &Material::refractive)),

@@ -88,6 +88,9 @@ struct GpuScene {
     std::map<std::string, Buffer, std::less<>> prepared;
 };
 
+/// Appends the eight corners of a mesh's box, world, m.
+void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, std::vector<glm::vec3>& corners);
+
 /// Bytes from one vertex of GpuScene::vertices to the next.
 inline constexpr std::uint32_t kVertexStride = 24;
 

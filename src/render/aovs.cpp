@@ -25,10 +25,11 @@ constexpr std::array kAovs = {
     AovInfo{"depth", 1, "depth of the first glass surface along -Z of the view, m; 0 where there is none"},
     AovInfo{"normal", 3, "outward world normal of the first glass surface; 0 where there is none"},
     AovInfo{"object", 1, "index of the first glass surface's object; -1 where there is none"},
-    AovInfo{"emitted", 3, "path: light that is seen directly, or reflected and refracted by smooth surfaces alone"},
-    AovInfo{"direct", 3, "path: light that meets one surface that is not smooth, and no other before it"},
-    AovInfo{"caustic", 3, "path: light that smooth surfaces throw onto one that is not smooth"},
-    AovInfo{"indirect", 3, "path: light that meets two or more surfaces that are not smooth"},
+    AovInfo{"emitted", 3, "path: light that is seen directly, or reflected and refracted by smooth surfaces alone",
+            true},
+    AovInfo{"direct", 3, "path: light that meets one surface that is not smooth, and no other before it", true},
+    AovInfo{"caustic", 3, "path: light that smooth surfaces throw onto one that is not smooth", true},
+    AovInfo{"indirect", 3, "path: light that meets two or more surfaces that are not smooth", true},
 };
 
 template <class T>

@@ -31,21 +31,22 @@ std::vector<std::string> volumes_of_truth(const Scene& scene) {
 
 /// What frames leave out of the light of lights. Numbers of refracting and of opaque objects.
 std::vector<std::string> light_left_out(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light,
-                                        std::size_t refractive, std::size_t opaque) {
+                                        std::size_t refractive, std::size_t opaque, bool photons) {
     const std::size_t translucent = translucent_objects(scene), count = scene.lights.size();
     const std::size_t lit = opaque + (technique.lit_glass ? refractive : 0);
     const bool followed = light.transport != LightTransport::kEnvironment && lit > 0;
     if (!followed && translucent == 0)
         return {fmt::format("{} light{} not drawn", count, count == 1 ? " is" : "s are")};
     if (!followed && translucent < scene.objects.size()) return {"lights light translucent objects only"};
-    if (!followed || refractive == 0 || opaque == 0) return {};
+    if (!followed || refractive == 0 || opaque == 0 || (photons && light.shadows == Shadows::kExact)) return {};
     return {light.shadows == Shadows::kExact ? "glass casts shadows, but the light of lights that it bends is not drawn"
                                              : "the light of lights goes straight through glass"};
 }
 
 }  // namespace
 
-std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light) {
+std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light,
+                                        bool photons) {
     std::vector<std::string> lines;
     if (!scene.volume_objects.empty() && !technique.volumes) {
         const std::size_t count = scene.volume_objects.size();
@@ -91,7 +92,7 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
     }
     // A technique that draws volumes says itself what lights do: glass may have become a volume.
     if (!technique.volumes && !scene.lights.empty()) {
-        const std::vector<std::string> left_out = light_left_out(scene, technique, light, refractive, opaque);
+        const std::vector<std::string> left_out = light_left_out(scene, technique, light, refractive, opaque, photons);
         lines.insert(lines.end(), left_out.begin(), left_out.end());
     }
     return lines;

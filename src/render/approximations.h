@@ -12,8 +12,9 @@
 
 namespace pellucid {
 
-/// What of `scene` the technique draws otherwise than it is: one line each, for the user.
-std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light);
+/// What of `scene` the technique draws otherwise than it is: one line each, for the user. `photons`: it sends some.
+std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light,
+                                        bool photons);
 
 /// The same of solids, for techniques that do not count what a ray is inside of.
 std::vector<std::string> unknown_solids(const SceneTopology& topology, const TechniqueInfo& technique);

@@ -1,8 +1,8 @@
 // How a picture is drawn: tiles of it, samples of these, and frames, which are drawn again until what they gather fits.
 #include "render/renderer_impl.h"
 
+#include "gpu/camera_constants.h"
 #include "render/adaptive_sampling.h"
-#include "render/camera_constants.h"
 
 #include <algorithm>
 #include <utility>
@@ -42,14 +42,17 @@ std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameS
                                                 const Progress& progress, std::optional<FrameImages>& images) {
     const glm::vec2 jitter = sample ? sample_jitter(*sample) : glm::vec2(0.0f);
     set_constants(frame, settings, jitter, sample.value_or(0));
+    photons.count_flux(settings.photon_flux && !sample);
     std::optional<TracedView> traced;
     if (chosen.truth) traced.emplace(traced_view(settings, jitter, progress));
     std::vector<PassTime> times;
     for (;;) {
         TransmittedLight& transmitted = solid_lighting.transmitted();
-        images.emplace(record_frame(recorder, frame, chosen, layer_source, transmitted, traced ? &*traced : nullptr));
+        images.emplace(
+            record_frame(recorder, frame, chosen, layer_source, transmitted, photons, traced ? &*traced : nullptr));
         times = with_missing_passes(recorder.submit_and_wait(), times);
-        const bool light_again = transmitted.must_repeat(frame);
+        const bool transmitted_again = transmitted.must_repeat(frame);
+        const bool light_again = photons.must_repeat(frame) || transmitted_again;
         if (!layer_source.must_repeat(frame) && !light_again) return times;
     }
 }

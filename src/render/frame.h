@@ -2,6 +2,7 @@
 
 #include "shade/shade.h"
 #include "shade/transmitted_light.h"
+#include "techniques/photons/photons.h"
 #include "techniques/truth.h"
 
 namespace pellucid {
@@ -12,6 +13,7 @@ struct FrameSettings {
     const Technique* technique;  ///< null for a truth
     const Truth* truth;          ///< null for a technique
     ParameterValues parameters;
+    const Technique* caustics = nullptr;  ///< finds where photons leave glass; null: paths do
     LayerBuilder layer_builder;
     View view;
 };
@@ -23,9 +25,9 @@ struct FrameImages {
     const GpuImage& radiance;  ///< RGBA32F, scene-linear
 };
 
-/// Records one frame: the whole renderer in six lines. To be recorded again if `source` or `transmitted` must_repeat().
+/// Records one frame: the whole renderer in a few lines. To be recorded again if `source`, `transmitted` or `photons` must_repeat().
 /// `traced`: for truths.
 FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source,
-                         TransmittedLight& transmitted, const TracedView* traced);
+                         TransmittedLight& transmitted, Photons& photons, const TracedView* traced);
 
 }  // namespace pellucid

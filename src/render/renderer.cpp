@@ -1,5 +1,5 @@
+#include "gpu/camera_constants.h"
 #include "render/approximations.h"
-#include "render/camera_constants.h"
 #include "render/check_settings.h"
 #include "render/renderer_impl.h"
 #include "scene/check_scene.h"
@@ -35,6 +35,23 @@ bool has_size(const Light& light) {
 
 }  // namespace
 
+/// LightOptions::caustics; null: photons follow paths.
+static const Technique* caustics_of(const LightOptions& light, const Device& device) {
+    if (light.caustics.empty()) return nullptr;
+    const TechniqueInfo& info = find_technique(light.caustics);
+    const Technique* technique = technique_of(info);
+    if (technique == nullptr) throw Error(fmt::format("caustics: {} is a truth; give a technique", info.name));
+    if (const std::string lacking = lacking_for(device, info); !lacking.empty())
+        throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
+    return info.whole_scene ? nullptr : technique;
+}
+
+/// Of every light in every frame.
+static std::uint32_t photons_asked(const FrameSettings& chosen) {
+    const bool known = chosen.technique != nullptr && chosen.parameters.has("photons");
+    return known ? chosen.parameters.whole("photons") : 0;
+}
+
 const GpuImage& Renderer::Impl::filtered_environment_for_scene() {
     if (filtered_environment) return *filtered_environment;
     if (scene->rough)
@@ -56,7 +73,6 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
     if (const std::string lacking = lacking_for(device, info); !lacking.empty()) {
         throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
     }
-    warnings = approximations(cpu.scene(), info, chosen_light(settings));
     ParameterMap parameters = settings.parameters;
     parameters.merge(choice.parameters);  // what is there already stays
     FrameSettings chosen{.info = info,
@@ -65,6 +81,8 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
                          .parameters = ParameterValues(info, parameters),
                          .layer_builder = settings.layer_builder,
                          .view = settings.view};
+    chosen.caustics = caustics_of(settings.light, device);
+    warnings = approximations(cpu.scene(), info, chosen_light(settings), photons_asked(chosen) > 0);
     if (settings.view == View::kWavefront) {
         if (chosen.truth || chosen.technique->draw_light == nullptr)
             throw Error(fmt::format("view wavefront: {} traces no wavefronts of light; ihrke-2007 does", info.name));
@@ -87,6 +105,7 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
 
 void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& light, const Camera& view,
                              const Progress& progress, std::vector<std::string>& warnings) {
+    aim_photons(chosen, light);
     if (chosen.truth) return;
     if (!chosen.info.whole_scene) {
         if (!scene->topology) scene->prepare_topology(device, cpu.scene());
@@ -97,9 +116,22 @@ void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& ligh
     bake::BakeCache passing{std::filesystem::path()};
     bake::BakeCache& cache = scene->moves > 0 ? passing : bake_cache;
     const Preparation preparation{device, cpu.scene(), *scene, cache, options.threads, progress, warnings};
-    if (!chosen.info.whole_scene && light.any() && !scene->opaque.empty()) prepare_light(preparation);
+    if (photons.any() || (!chosen.info.whole_scene && light.any() && !scene->opaque.empty()))
+        prepare_light(preparation);
     if (chosen.technique->prepare != nullptr) chosen.technique->prepare(preparation, chosen.parameters);
+    if (photons.any() && chosen.caustics != nullptr && chosen.caustics->prepare != nullptr)
+        chosen.caustics->prepare(preparation, ParameterValues(chosen.caustics->info, {}));
     if (scene->topology) scene->topology->look_from(device, cpu.scene(), view);
+}
+
+void Renderer::Impl::aim_photons(const FrameSettings& chosen, const FrameLight& light) {
+    // Tinted shadows have the light that glass lets through.
+    const bool sends = light.lights > 0 && !light.tinted_shadows;
+    PhotonSetup setup = photon_setup(cpu.scene(), scene->bounds, sends ? photons_asked(chosen) : 0);
+    setup.by = chosen.caustics;
+    setup.layer_builder = chosen.layer_builder;
+    setup.draw_opaque = draw_opaque;
+    photons.begin(std::move(setup));
 }
 
 void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& settings, glm::vec2 jitter,
@@ -169,6 +201,7 @@ void Renderer::set_scene(const Scene& scene) {
     impl_->scene.reset();  // freed first: a large scene may fit once only
     impl_->layer_source = LayerSource();
     impl_->solid_lighting.forget();
+    impl_->photons.forget();
     impl_->cpu.set_scene(Scene{});
     impl_->scene_camera.reset();
     try {
@@ -218,12 +251,14 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     result.light = impl.chosen_light(settings).transport;
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
     Frame frame = impl.frame_of(settings);
+    frame.photons = impl.photons.bindings();
     if (settings.view == View::kWavefront) frame.front_exposure = std::exp2(settings.exposure_ev);
     impl.workspace.trim();
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {
         const Impl::Drawn drawn = impl.draw_tiles(frame, chosen, settings, result);
         warn_of(result, chosen, drawn.cut, settings);
+        result.photon_flux = impl.photons.flux();
         const bool draws = draws_picture(chosen);
         if (!draws) impl.trace_image(chosen, settings, result);
         if (chosen.technique && chosen.technique->report) chosen.technique->report(*impl.scene, result.warnings);
@@ -237,6 +272,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
         impl.layer_source = LayerSource();
         impl.solid_lighting.forget();
+        impl.photons.forget();
         throw;
     }
     return result;
@@ -282,6 +318,7 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
         impl.solid_lighting.forget();
+        impl.photons.forget();
         throw;
     }
     result.cut_rays = transmitted.cut_rays();

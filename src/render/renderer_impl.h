@@ -7,6 +7,7 @@
 #include "render/display.h"
 #include "render/frame.h"
 #include "render/measured_techniques.h"
+#include "render/photon_lighting.h"
 #include "render/solid_lighting.h"
 #include "render/tiles.h"
 
@@ -25,7 +26,7 @@ inline bool draws_picture(const FrameSettings& chosen) {
 struct Renderer::Impl {
     explicit Impl(const DeviceOptions& given)
         : device(given), workspace(device), recorder(device), cpu(given.threads), options(given),
-          solid_lighting(device), adaptation(device) {}
+          solid_lighting(device), photons(device), adaptation(device) {}
 
     Device device;
     Workspace workspace;
@@ -34,6 +35,7 @@ struct Renderer::Impl {
     const DeviceOptions options;
     bake::BakeCache bake_cache;
     SolidLighting solid_lighting;
+    Photons photons;
     Adaptation adaptation;
     LayerSource layer_source;
     vk::Extent2D layer_extent;  // the size that `layer_source` has learnt from
@@ -101,6 +103,8 @@ struct Renderer::Impl {
         solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache,
                              options.threads, progress, warnings);
     }
+    /// For a picture of a technique whose parameter `photons` asks for some of every light.
+    void aim_photons(const FrameSettings& chosen, const FrameLight& light);
     gpu::FrameConstants current_constants() const {
         gpu::FrameConstants values{};
         std::memcpy(&values, constants->mapped(), sizeof(values));

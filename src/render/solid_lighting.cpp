@@ -1,6 +1,6 @@
 #include "render/solid_lighting.h"
 
-#include "render/light_views.h"
+#include "light/light_views.h"
 #include "render/local_thickness.h"
 
 #include <pellucid/error.h>
@@ -56,7 +56,8 @@ void SolidLighting::begin(const ThicknessSettings& settings, std::span<const std
     if (!gpu_scene.translucent.empty() && !lights.empty()) {
         setup.builder = builder_for(settings.method, warnings);
         for (const std::uint32_t light : lights) {
-            std::vector<LightView> views = light_views(scene.lights.at(light), light, gpu_scene, settings.resolution);
+            std::vector<LightView> views = light_views(scene.lights.at(light), light, gpu_scene.translucent_corners,
+                                                       gpu_scene.bounds, settings.resolution);
             setup.views.insert(setup.views.end(), views.begin(), views.end());
         }
         if (settings.method == ThicknessMethod::kLocalThickness) {

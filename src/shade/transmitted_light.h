@@ -1,6 +1,7 @@
 #pragma once
 
 #include "layers/layers.h"
+#include "light/light_views.h"
 
 #include <pellucid/thickness.h>
 
@@ -9,14 +10,6 @@
 #include <vector>
 
 namespace pellucid {
-
-/// What a light's map looks at: all that its light reaches of the translucent surfaces, or a face of a cube around it.
-struct LightView {
-    static constexpr std::uint32_t kWhole = 6;
-    gpu::FrameConstants constants;  ///< camera part
-    std::uint32_t light;            ///< Scene::lights
-    std::uint32_t face = kWhole;    ///< +x, -x, +y, -y, +z, -z, or kWhole
-};
 
 /// Thickness that was baked per vertex.
 struct LocalThickness {

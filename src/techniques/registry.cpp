@@ -101,6 +101,11 @@ double ParameterValues::operator[](std::string_view name) const {
     return values_.at(std::size_t(found - all.begin()));
 }
 
+bool ParameterValues::has(std::string_view name) const {
+    const auto& all = technique_.parameters;
+    return std::any_of(all.begin(), all.end(), [&](const ParameterInfo& p) { return p.name == name; });
+}
+
 Refraction allocate_refraction(const Frame& frame, bool with_radiance) {
     Workspace& workspace = frame.workspace;
     const auto vectors = vk::Format::eR32G32B32A32Sfloat;

@@ -62,6 +62,7 @@ public:
     /// Throws Error for an unknown name (listing the known ones) or a value out of range.
     ParameterValues(const TechniqueInfo& technique, const ParameterMap& given);
     double operator[](std::string_view name) const;
+    bool has(std::string_view name) const;
     std::uint32_t whole(std::string_view name) const { return std::uint32_t((*this)[name]); }
 
 private:

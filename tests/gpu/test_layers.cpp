@@ -1,6 +1,6 @@
 // Layers against ray casting on the CPU, and the builders against each other.
+#include "gpu/camera_constants.h"
 #include "layers/layers.h"
-#include "render/camera_constants.h"
 
 #include "gpu/device_test.h"
 #include "unit/test_files.h"

@@ -6,6 +6,7 @@
 #include "gpu/object_traits.glsl"
 #include "techniques/visibility_layers/filling_body.glsl"
 #include "techniques/visibility_layers/microfacets.glsl"
+#include "techniques/visibility_layers/photon_paths.glsl"
 
 // Of the surfaces' textures.
 layout(std430, set = 0, binding = 40) readonly buffer Indices { uint indices[]; };
@@ -23,6 +24,7 @@ struct Surface {
     uint material;
     uint corner;      // first of the triangle's three, in `indices`
     vec3 weights;     // of the three corners
+    float curvature;  // 1/m, mean, of the interpolated normals; above 0: bulges outward. Photons alone ask for it
 };
 
 vec3 map_vector(utextureBuffer vectors, int number) { return uintBitsToFloat(texelFetch(vectors, number)).xyz; }
@@ -38,16 +40,22 @@ Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
         edge_c = mat3(o.world_from_object) * edge_c;
     }
     vec3 weights = corner_weights(direction, a - origin, edge_b, edge_c);
-    vec3 normal = weights.x * map_vector(map_normals, at) + weights.y * map_vector(map_normals, at + 1) +
-                  weights.z * map_vector(map_normals, at + 2);
+    vec3 normal_a = map_vector(map_normals, at), normal_b = map_vector(map_normals, at + 1),
+         normal_c = map_vector(map_normals, at + 2);
+    vec3 normal = weights.x * normal_a + weights.y * normal_b + weights.z * normal_c;
     vec3 geometric = cross(edge_b, edge_c);
+    float curvature = 0.0;
+    if (kFromLight) {
+        mat3 turn = kMapPerMesh ? mat3(o.world_from_object_normal) : mat3(1.0);
+        curvature = mean_curvature(turn * normal_a, turn * normal_b, turn * normal_c, edge_b, edge_c);
+    }
     if (kMapPerMesh) {
         normal = mat3(o.world_from_object_normal) * normal;
         geometric *= o.mirrored != 0u ? -1.0 : 1.0;
     }
     return Surface(a + weights.y * edge_b + weights.z * edge_c,
                    normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material,
-                   o.first_corner + 3u * (triangle - o.first_triangle), weights);
+                   o.first_corner + 3u * (triangle - o.first_triangle), weights, curvature);
 }
 
 // Texture coordinates, both sets.
@@ -148,7 +156,9 @@ Meeting meet(inout PathState state, Crossing crossing) {
     m.cosine = -dot(m.incident, m.normal);
     m.total = !refract_direction(m.incident, m.normal, m.eta, m.onward);
     m.reflectance = m.total ? 1.0 : fresnel_dielectric(m.cosine, m.eta);
-    m.tint = crossing.leaving || crossing.first ? vec3(1.0) : surface_tint(crossing.surface).rgb;
+    // Base colour counts where a path from the eye enters the solid, so where light leaves it.
+    bool tinted = kFromLight ? crossing.leaving : !(crossing.leaving || crossing.first);
+    m.tint = tinted ? surface_tint(crossing.surface).rgb : vec3(1.0);
     state.path.side_conflict = state.path.side_conflict || m.cosine < 0.0;
     ++state.path.events;
     if (m.total) ++state.path.reflections;
@@ -206,11 +216,19 @@ void branch_reflection(inout PathState state, Crossing crossing, Meeting m) {
 
 // Takes a path past the boundary between two media, or back from it.
 void cross_boundary(inout PathState state, Crossing crossing) {
+    if (kFromLight && kDispersive) choose_channel(state, refracts_apart(crossing.n_i) || refracts_apart(crossing.n_t));
     Meeting m = meet(state, crossing);
     if (kStochastic) {
-        bool beyond = !m.total && random_number(state.seed, state.path.events) >= m.reflectance;
+        float choice = kFromLight ? photon_choice(state) : random_number(state.seed, state.path.events);
+        bool beyond = !m.total && choice >= m.reflectance;
         vec3 way = m.total || beyond ? m.onward : reflect_direction(m.incident, m.normal);
         go_from(state, m, way, beyond, crossing.first);
+        if (kFromLight) {
+            float bend = crossing.leaving ? -crossing.surface.curvature : crossing.surface.curvature;
+            refract_spacing(state.path, m.cosine, m.eta, bend, beyond, beyond ? 1.0 - m.reflectance : m.reflectance, m.normal);
+            state.path.transmittance *= adjoint_weight(m.incident, state.path.direction, crossing.surface.normal,
+                                                       crossing.surface.geometric);
+        }
     } else if (m.total) {
         go_from(state, m, m.onward, false, false);
     } else {

@@ -29,6 +29,8 @@ layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]
 #include "techniques/visibility_layers/path_light.glsl"
 #include "techniques/visibility_layers/microfacets.glsl"
 #include "gpu/opaque_surface.glsl"
+layout(constant_id = 41) const bool kPhotons = false;  // lights throw caustics
+#include "light/photon_lookup.glsl"
 #ifdef PELLUCID_LIT
 #include "techniques/ihrke_2007/lights_on_surfaces.glsl"
 #endif
@@ -209,6 +211,10 @@ bool end_at_surface(ivec2 texel, PathState state) {
                      irradiance_of_lights(state.path.position, point.normal);
 #endif
         add_light(texel, state.mark, state.path.transmittance * light);
+    }
+    if (kPhotons && !point.unlit) {
+        vec3 caustic = photon_irradiance(state.path.position, point.normal);
+        add_light(texel, state.mark, state.path.transmittance * diffuse_albedo(point) * caustic / (3.14159265 * point.ior * point.ior));
     }
     // Light that goes through translucent surfaces is drawn with them (shade/transmit_light.comp), and what they reflect.
     if (kLightsSurfaces && !point.unlit && !(drawn && point.translucent)) look_at_lights(texel, state, point);

@@ -60,6 +60,22 @@ void pass_pane(inout Path path, Surface surface) {
     path.transmittance *= mix(vec3(1.0), (1.0 - 2.0 * once / (1.0 + once)) * tint.rgb, tint.a);
 }
 
+// A photon passes a pane or is reflected by it, at random.
+void pass_pane_as_photon(inout PathState state, Surface surface) {
+    float cosine = abs(dot(state.path.direction, surface.normal));
+    float once = fresnel_dielectric(cosine, 1.0 / materials[surface.material].ior);
+    vec4 tint = surface_tint(surface);
+    float reflected = tint.a * 2.0 * once / (1.0 + once);
+    if (random_number(state.seed ^ (surface.corner + 1u) * 0x51ed270bu, state.path.events) < reflected) {
+        state.path.direction = reflect_direction(state.path.direction, faceforward(surface.normal, state.path.direction, surface.normal));
+        ++state.path.events;
+        choose_spacing(state.path, reflected);
+    } else {
+        state.path.transmittance *= mix(vec3(1.0), (1.0 - 2.0 * once / (1.0 + once)) * tint.rgb, tint.a) / (1.0 - reflected);
+        choose_spacing(state.path, 1.0 - reflected);
+    }
+}
+
 // Whether the way goes on through an object's box, and the ball around it, beyond the edge of the view's map.
 bool meets_boxes(vec3 position, vec3 direction) {
     bool any_met = false;
@@ -279,7 +295,9 @@ bool go_on(inout PathState state) {
         state.path.status = kStatusEventLimit;
         return false;
     }
-    if (body != kAir) travel(state.path, straight, filling_material(body).sigma_a.rgb);
+    if (kFromLight) widen_spacing(state.path, straight);
+    if (kFromLight && body != kAir) state.path.transmittance *= beer_lambert(filling_material(body).sigma_a.rgb, straight);
+    else if (body != kAir) travel(state.path, straight, filling_material(body).sigma_a.rgb);
     state.path.position = met.surface.position;
     state.standing = met.hit.triangle;
     bool ends = (met.hit.traits & kKindMask) == kOpaqueKind;
@@ -287,6 +305,7 @@ bool go_on(inout PathState state) {
     if (ends) state.mark |= kMetOpaque;
     else if (meets && to_light) pass_shadow(state, met, before, beyond);
     else if (meets) pass_glass(state, met, here, before, beyond);
+    else if (!refractive(met.hit.traits) && kFromLight) pass_pane_as_photon(state, met.surface);
     else if (!refractive(met.hit.traits)) pass_pane(state.path, met.surface);
     return !ends && !(to_light && state.path.transmittance == vec3(0.0));
 }

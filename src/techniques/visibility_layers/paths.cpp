@@ -133,7 +133,9 @@ private:
                 {"kFoundOnHost", finder_ != nullptr},
                 {"kLightsSurfaces", task_.lights_surfaces},
                 {"kFullLight", task_.full_light},
-                {"kVisibleLights", frame_.light.visible_lights()}};
+                {"kVisibleLights", frame_.light.visible_lights()},
+                {"kFromLight", task_.from_light},
+                {"kPhotons", frame_.photons != nullptr}};
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 

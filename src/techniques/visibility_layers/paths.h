@@ -85,6 +85,7 @@ struct PathTask {
     /// max_events, most_branches, threshold, whole_picture, eye_differs, eye_depth; follow() fills in the rest.
     PathPush push{};
     const PathVolumes* volumes = nullptr;
+    bool from_light = false;  ///< paths are photons: weights are flux, W, and count as the reversed paths would
 };
 
 /// Follows a path per pixel, and its branches, from surface to surface until all have ended.

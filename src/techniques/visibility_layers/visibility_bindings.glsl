@@ -18,6 +18,7 @@ layout(constant_id = 14) const bool kCrossing = false;    // some shell crosses 
 layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is one map of all the scene
 layout(constant_id = 9) const bool kTouching = false;     // surfaces of two shells may lie at one place
 layout(constant_id = 15) const bool kFoundOnHost = false; // surfaces are found by the host, in no map
+layout(constant_id = 40) const bool kFromLight = false;   // paths are photons: weights are flux, W
 layout(constant_id = 29) const bool kLightsSurfaces = false;  // paths look from opaque surfaces to lights, and to each other
 layout(constant_id = 31) const bool kFullLight = false;       // what facets of opaque surfaces reflect is followed, too
 layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend

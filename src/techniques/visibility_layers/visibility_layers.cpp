@@ -1,5 +1,6 @@
 #include "techniques/visibility_layers/visibility_layers.h"
 
+#include "light/photon_store.h"
 #include "techniques/shaders.h"
 
 namespace pellucid {
@@ -52,9 +53,13 @@ PathTask view_task(const Frame& frame, const ParameterValues& parameters, const 
     return task;
 }
 
-std::vector<Binding> view_bindings(const Layers& layers, const Refraction& refraction, const GpuImage& reflected) {
-    return {layers.bindings(), refraction.bindings(), updates("path_radiance", *refraction.radiance),
-            updates("reflected_radiance", reflected), updates("surface_radiance", layers.opaque.radiance)};
+std::vector<Binding> view_bindings(const Frame& frame, const Layers& layers, const Refraction& refraction,
+                                   const GpuImage& reflected) {
+    std::vector<Binding> bindings = photon_bindings(frame);
+    bindings.insert(bindings.end(),
+                    {layers.bindings(), refraction.bindings(), updates("path_radiance", *refraction.radiance),
+                     updates("reflected_radiance", reflected), updates("surface_radiance", layers.opaque.radiance)});
+    return bindings;
 }
 
 Refraction follow_view_rays(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceFinder& finder,
@@ -65,7 +70,7 @@ Refraction follow_view_rays(Recorder& recorder, const Frame& frame, const Layers
         frame.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame.extent);
     PathTask task = view_task(frame, parameters, volumes, finder);
     if (task.begin.name == shaders::begin_paths_comp.name) task.beginning = &layers.covered;
-    task.bindings = view_bindings(layers, refraction, reflected);
+    task.bindings = view_bindings(frame, layers, refraction, reflected);
     follow(recorder, frame, layers.source, finder, task);
     if (task.ways != Ways::kTransmitted || task.push.whole_picture != 0) refraction.reflected = &reflected;
     if (task.push.whole_picture != 0) refraction.picture = refraction.radiance;
@@ -124,7 +129,7 @@ void light_surfaces(Recorder& recorder, const Frame& frame, const Layers& layers
     const Refraction refraction = allocate_refraction(frame, true);
     const GpuImage& reflected =
         frame.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame.extent);
-    task.bindings = view_bindings(layers, refraction, reflected);
+    task.bindings = view_bindings(frame, layers, refraction, reflected);
     follow(recorder, frame, layers.source, finder, task);
 }
 

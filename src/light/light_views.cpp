@@ -1,7 +1,7 @@
-#include "render/light_views.h"
+#include "light/light_views.h"
 
 #include "core/math.h"
-#include "render/camera_constants.h"
+#include "gpu/camera_constants.h"
 
 #include <algorithm>
 #include <array>
@@ -55,11 +55,12 @@ LightView view_of(std::uint32_t number, std::uint32_t face, std::uint32_t resolu
     return view;
 }
 
-LightView directional_view(const Light& light, std::uint32_t number, const GpuScene& scene, std::uint32_t resolution) {
-    const float radius = std::max(scene.bounds.radius, std::numeric_limits<float>::min());
+LightView directional_view(const Light& light, std::uint32_t number, std::span<const glm::vec3> targets,
+                           const Bounds& bounds, std::uint32_t resolution) {
+    const float radius = std::max(bounds.radius, std::numeric_limits<float>::min());
     const glm::mat4 world_from_view =
-        looking(scene.bounds.center - 1.01f * radius * glm::normalize(light.direction), light.direction);
-    const FilmWindow window = *window_around(scene.translucent_corners, glm::affineInverse(world_from_view), true);
+        looking(bounds.center - 1.01f * radius * glm::normalize(light.direction), light.direction);
+    const FilmWindow window = *window_around(targets, glm::affineInverse(world_from_view), true);
     return view_of(number, LightView::kWhole, resolution,
                    {world_from_view, true, with_margin(window, resolution, 1e-5f * radius), 0.0f, 2.02f * radius});
 }
@@ -78,36 +79,35 @@ bool misses_face(std::span<const glm::vec3> corners, const glm::mat4& view_from_
     return std::any_of(beyond.begin(), beyond.end(), [](bool all) { return all; });
 }
 
-std::vector<LightView> cube_views(const Light& light, std::uint32_t number, const GpuScene& scene,
-                                  std::uint32_t resolution, float far_plane) {
+std::vector<LightView> cube_views(const Light& light, std::uint32_t number, std::span<const glm::vec3> targets,
+                                  const Bounds& bounds, std::uint32_t resolution, float far_plane) {
     constexpr std::array<glm::vec3, 6> kFaces = {glm::vec3(1, 0, 0),  glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0),
                                                  glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),  glm::vec3(0, 0, -1)};
     std::vector<LightView> views;
     for (std::uint32_t face = 0; face < kFaces.size(); ++face) {
         const glm::mat4 world_from_view = looking(light.position, kFaces[face]);
-        if (misses_face(scene.translucent_corners, glm::affineInverse(world_from_view))) continue;
+        if (misses_face(targets, glm::affineInverse(world_from_view))) continue;
         const FilmWindow whole{glm::vec2(-1.0f), glm::vec2(1.0f)};
         views.push_back(view_of(
             number, face, resolution,
-            {world_from_view, false, with_margin(whole, resolution, 0.0f), kNearest * scene.bounds.radius, far_plane}));
+            {world_from_view, false, with_margin(whole, resolution, 0.0f), kNearest * bounds.radius, far_plane}));
     }
     return views;
 }
 
 }  // namespace
 
-std::vector<LightView> light_views(const Light& light, std::uint32_t number, const GpuScene& scene,
-                                   std::uint32_t resolution) {
-    if (scene.translucent_corners.empty()) return {};
-    if (light.kind == Light::Kind::kDirectional) return {directional_view(light, number, scene, resolution)};
-    const float radius = std::max(scene.bounds.radius, std::numeric_limits<float>::min());
-    const float distance = glm::distance(light.position, scene.bounds.center), far_plane = distance + 1.01f * radius;
+std::vector<LightView> light_views(const Light& light, std::uint32_t number, std::span<const glm::vec3> targets,
+                                   const Bounds& bounds, std::uint32_t resolution) {
+    if (targets.empty()) return {};
+    if (light.kind == Light::Kind::kDirectional) return {directional_view(light, number, targets, bounds, resolution)};
+    const float radius = std::max(bounds.radius, std::numeric_limits<float>::min());
+    const float distance = glm::distance(light.position, bounds.center), far_plane = distance + 1.01f * radius;
     glm::vec3 middle(0.0f);
-    for (const glm::vec3& corner : scene.translucent_corners)
-        middle += corner / float(scene.translucent_corners.size());
+    for (const glm::vec3& corner : targets) middle += corner / float(targets.size());
     if (glm::distance(middle, light.position) > kNearest * radius) {
         const glm::mat4 world_from_view = looking(light.position, middle - light.position);
-        if (const auto window = window_around(scene.translucent_corners, glm::affineInverse(world_from_view), false)) {
+        if (const auto window = window_around(targets, glm::affineInverse(world_from_view), false)) {
             // Nothing is nearer along the axis than by the cosine of the widest angle, along a diagonal.
             const float near_plane = std::max(0.37f * (distance - 1.01f * radius), kNearest * radius);
             return {view_of(number, LightView::kWhole, resolution,
@@ -115,7 +115,7 @@ std::vector<LightView> light_views(const Light& light, std::uint32_t number, con
                              near_plane, far_plane})};
         }
     }
-    return cube_views(light, number, scene, resolution, far_plane);
+    return cube_views(light, number, targets, bounds, resolution, far_plane);
 }
 
 }  // namespace pellucid

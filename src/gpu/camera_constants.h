@@ -31,6 +31,9 @@ struct ViewVolume {
 /// Fills the camera part of `constants` for a picture of such a view.
 void set_view(gpu::FrameConstants& constants, const ViewVolume& view, std::uint32_t width, std::uint32_t height);
 
+/// Moves the view plane's points by `texels` (right and down).
+void shift_film(gpu::FrameConstants& constants, glm::vec2 texels);
+
 /// Offset of sample `index` within the pixel: the R2 low-discrepancy sequence (Roberts 2018), -0.5..0.5.
 glm::vec2 sample_jitter(std::uint32_t index);
 

@@ -1,4 +1,4 @@
-#include "render/camera_constants.h"
+#include "gpu/camera_constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +104,12 @@ void set_view(gpu::FrameConstants& constants, const ViewVolume& view, std::uint3
     constants.near_plane = constants.glass_near = view.near_plane;
     constants.far_plane = constants.glass_far = view.far_plane;
     constants.depth_scale = std::exp2(-std::ceil(std::log2(view.far_plane)) - 1.0f);
+    constants.clip_from_view = clip_matrix(constants);
+}
+
+void shift_film(gpu::FrameConstants& constants, glm::vec2 texels) {
+    constants.film.x += texels.x * constants.film.z;
+    constants.film.y -= texels.y * constants.film.w;
     constants.clip_from_view = clip_matrix(constants);
 }
 

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "layers/layers.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace pellucid {
+
+/// Light where it ends on an opaque surface, after glass or metal has bent its path; twin in photons.glsl.
+struct Photon {
+    glm::vec3 position;    ///< m, world
+    float radius;          ///< m, of its kernel
+    glm::vec3 flux;        ///< W
+    std::uint32_t normal;  ///< of the surface, on the side that the photon came from; packed
+    std::uint32_t level;   ///< of the grid; kStraightPhoton: not in the grid
+    std::uint32_t object;  ///< it landed on; PELLUCID_NO_TRIANGLE: it left the scene
+    std::uint32_t texel;   ///< of the light's view that sent it: no two photons share one
+    std::uint32_t reserved;
+};
+static_assert(sizeof(Photon) == 48);
+inline constexpr std::uint32_t kStraightPhoton = ~0u;
+/// Bytes before the first in a list, whose first word counts them.
+inline constexpr std::size_t kPhotonListHeader = 16;
+
+/// Sizes by which photons are sorted and counted.
+struct PhotonScale {
+    float least_radius;  ///< m, of kernels
+    float most_flux;     ///< W, of a photon as the light sends it
+};
+
+/// Photons of one frame in a hashed grid that the device builds. Two builds of the same photons give the same look-ups, bit
+/// for bit, whatever the order of the photons.
+class PhotonStore {
+public:
+    /// An empty list for a shader to append to ("Photons"), for `guess` photons. `source` keeps its capacity.
+    const Buffer& begin(Recorder& recorder, const Frame& frame, LayerSource& source, std::uint64_t guess);
+    /// Sorts the photons of the list into the grid.
+    void build(Recorder& recorder, const Frame& frame, LayerSource& source, const PhotonScale& scale);
+    /// By the names of photon_lookup.glsl; after build().
+    const std::vector<Binding>& bindings() const { return bindings_; }
+    const Buffer& photons() const { return *photons_; }
+
+private:
+    const Buffer* photons_ = nullptr;
+    std::vector<Binding> bindings_;
+};
+
+/// What light/photon_lookup.glsl binds; where a frame has no photons, what stands for them.
+std::vector<Binding> photon_bindings(const Frame& frame);
+
+}  // namespace pellucid

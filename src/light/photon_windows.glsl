@@ -1,0 +1,34 @@
+#ifndef PELLUCID_LIGHT_PHOTON_WINDOWS_GLSL
+#define PELLUCID_LIGHT_PHOTON_WINDOWS_GLSL
+
+// The views from which lights send photons. Their texels lie side by side, as those of one image: windows of `side` by `side`
+// texels, `columns` in a row. Needs: gpu/structs.h.
+#include "gpu/punctual_light.glsl"
+
+// Twin of PhotonWindow in photon_windows.h.
+struct PhotonWindow {
+    mat4 world_from_view;
+    vec4 film;  // as FrameConstants::film
+    PunctualLight light;
+    uint orthographic;
+    float target_depth;  // m, of the middle of what is aimed at
+    uint reserved0, reserved1;
+};
+layout(std430, set = 0, binding = 50) readonly buffer PhotonWindows {
+    uint window_side, window_columns, window_count;
+    float kernel_width;  // of the spacing of photons
+    float least_radius;  // m, of kernels
+    uint lists_straight; // 1: photons that nothing has bent are listed, too
+    uint window_reserved0, window_reserved1;
+    PhotonWindow windows[];
+};
+
+// False: no window has this texel. `within`: texel of its window.
+bool window_of(ivec2 texel, out uint window, out uvec2 within) {
+    uvec2 at = uvec2(texel) / window_side;
+    window = at.y * window_columns + at.x;
+    within = uvec2(texel) % window_side;
+    return at.x < window_columns && window < window_count;
+}
+
+#endif

@@ -1,0 +1,43 @@
+#version 460
+// Photons where they leave their light: a texel of a light's view each, jittered alike in all texels of a frame.
+#extension GL_GOOGLE_include_directive : require
+#define PELLUCID_MAKES_LISTS_ONLY
+#include "techniques/visibility_layers/visibility_bindings.glsl"
+#include "techniques/visibility_layers/path_walk.glsl"
+#include "light/photon_windows.glsl"
+#include "techniques/photons/sent_light.glsl"
+PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
+
+// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018: R2; 0..1.
+vec2 jitter_of(uint sample_index) {
+    return vec2(uvec2(sample_index + 1u) * uvec2(3242174889u, 2447445414u)) / 4294967296.0;
+}
+
+// A point of the unit disc; those of neighbours are spread evenly.
+vec2 disc_point(uvec2 texel, uint sample_index) {
+    vec2 u = fract(vec2(texel) * mat2(0.7548776662, 0.5698402910, 0.8191725134, 0.6710436067) +
+                   vec2(hash(uvec3(sample_index, 5u, 9u)).xy >> 8u) / 16777216.0);
+    return sqrt(u.x) * vec2(cos(6.283185307 * u.y), sin(6.283185307 * u.y));
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= int(frame.width) || texel.y >= int(frame.height)) return;
+    uint number = uint(texel.y) * frame.width + uint(texel.x), window;
+    uvec2 within;
+    waiting[number] = uvec2(0u);
+    if (!window_of(texel, window, within)) return;
+    SentLight sent = sent_light(windows[window], vec2(within) + jitter_of(frame.sample_index),
+                                disc_point(within, frame.sample_index));
+    if (!(max(sent.flux.r, max(sent.flux.g, sent.flux.b)) > 0.0)) return;
+    PathState state;
+    state.path = Path(sent.origin, normalize(sent.direction), sent.flux, 0.0, 0u, 0u, kStatusOk, false);
+    set_photon_spacing(state.path, sent.spacing);
+    clear_media(state.media);
+    if (eye_differs != 0u && !kFoundOnHost) find_media(state.path.position, state.path.direction, state.media);
+    state.standing = PELLUCID_NO_TRIANGLE;
+    state.mark = 0u;
+    state.pixel = number;
+    save_path(state);
+    append_next(texel);
+}

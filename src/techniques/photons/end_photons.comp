@@ -1,0 +1,134 @@
+#version 460
+// Photons that have come to an opaque surface: what glass or metal has bent on its way is stored; metal that mirrors sends
+// them on.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "techniques/visibility_layers/visibility_bindings.glsl"
+
+layout(std430, set = 0, binding = 3) readonly buffer Textures { TextureRecord textures[]; };
+layout(set = 0, binding = 4) uniform texture2DArray texture_pages;
+layout(std430, set = 0, binding = 17) readonly buffer Appearance { float appearance[]; };
+PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
+#include "gpu/appearance.glsl"
+#include "gpu/octahedral.glsl"
+#include "gpu/texture.glsl"
+#include "gpu/vertices.glsl"
+#include "light/photon_windows.glsl"
+#include "light/photons.glsl"
+#include "techniques/visibility_layers/path_state.glsl"
+#include "techniques/visibility_layers/microfacets.glsl"
+#include "techniques/visibility_layers/photon_paths.glsl"
+layout(std430, set = 0, binding = 53) buffer Photons { uint photon_count, photon_reserved[3]; Photon photons[]; };
+
+const float kMirrorRoughness = 0.3;  // photons follow metal below
+
+// The opaque surface that a photon stands on.
+struct Landing {
+    uint object;
+    vec3 normal;     // unit, interpolated, on the photon's side
+    vec3 geometric;  // unit, of the triangle, likewise
+    vec4 base;
+};
+
+Landing landing_of(PathState state) {
+    uint object = object_of(state.standing);
+    ObjectRecord o = objects[object];
+    uint corner = o.first_corner + 3u * (state.standing - o.first_triangle);
+    uvec3 v = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);
+    vec3 a = (o.world_from_object * vec4(vertex_position(v.x), 1.0)).xyz;
+    vec3 edge_b = (o.world_from_object * vec4(vertex_position(v.y), 1.0)).xyz - a;
+    vec3 edge_c = (o.world_from_object * vec4(vertex_position(v.z), 1.0)).xyz - a;
+    vec3 direction = state.path.direction, w = corner_weights(direction, a - state.path.position, edge_b, edge_c);
+    vec3 geometric = normalize(cross(edge_b, edge_c));
+    vec3 normal = mat3(o.world_from_object_normal) *
+                  (w.x * vertex_normal(v.x) + w.y * vertex_normal(v.y) + w.z * vertex_normal(v.z));
+    normal = dot(normal, normal) > 1e-30 ? normalize(normal) : geometric;
+    vec4 texcoords = vec4(0.0), color = vec4(0.0);
+    for (int k = 0; k < 3; ++k) {
+        texcoords += w[k] * vertex_texcoords(v[k]);
+        color += w[k] * vertex_color_of(v[k]);
+    }
+    MaterialRecord material = materials[o.material];
+    vec4 base = material.base_color * color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
+    return Landing(object, faceforward(normal, direction, normal), faceforward(geometric, direction, geometric), base);
+}
+
+bool mirrors(MaterialRecord material) {
+    return material.metallic > 0.0 && material.roughness < kMirrorRoughness &&
+           material.metallic_roughness_texture == PELLUCID_NO_TEXTURE && (material.flags & PELLUCID_MATERIAL_UNLIT) == 0u;
+}
+
+// Sends a photon on from metal, by a facet that it can see. False: the facet sends it below the surface.
+bool reflect_photon(inout PathState state, Landing landing, MaterialRecord material) {
+    vec3 n = landing.normal, incident = state.path.direction;
+    vec3 across = normalize(abs(n.z) < 0.9 ? cross(n, vec3(0.0, 0.0, 1.0)) : cross(n, vec3(1.0, 0.0, 0.0)));
+    mat3 world_from_surface = mat3(across, cross(n, across), n);
+    float alpha = max(material.roughness * material.roughness, 1e-4);
+    vec3 wi = -incident * world_from_surface;
+    wi.z = max(wi.z, 1e-4);
+    vec3 facet = visible_normal(normalize(wi), alpha, random_numbers(state.seed, state.path.events));
+    vec3 wo = reflect(-normalize(wi), facet);
+    if (wo.z <= 0.0) return false;
+    float grazing = pow(clamp(1.0 - dot(wo, facet), 0.0, 1.0), 5.0);
+    float lambda_i = smith_lambda(wi, alpha), lambda_o = smith_lambda(wo, alpha);
+    vec3 direction = normalize(world_from_surface * wo);
+    if (dot(direction, landing.geometric) <= 0.0) return false;
+    state.path.transmittance *= mix(landing.base.rgb, vec3(1.0), grazing) * ((1.0 + lambda_i) / (1.0 + lambda_i + lambda_o)) *
+                                adjoint_weight(incident, direction, n, landing.geometric);
+    state.path.direction = direction;
+    ++state.path.events;
+    return true;
+}
+
+// `straight`: nothing has bent its path.
+void store_photon(ivec2 texel, PathState state, uint object, vec3 normal, bool straight) {
+    uint number = atomicAdd(photon_count, 1u);
+    if (number >= uint(photons.length())) return;  // counted: the frame is drawn again
+    float cosine = max(abs(dot(normal, state.path.direction)), 0.05);
+    float radius = kernel_width * abs(photon_spacing(state.path).x) * inversesqrt(cosine);
+    radius = clamp(radius, least_radius, least_radius * float(1 << (kPhotonLevels - 1)));
+    uint level = straight ? kStraightPhoton : photon_level(least_radius, radius);
+    photons[number] = Photon(state.path.position, radius, state.path.transmittance, pack_direction(normal), level, object,
+                             list_word(texel), 0u);
+}
+
+void end_on_surface(ivec2 texel, PathState state, Landing landing) {
+    uint window;
+    uvec2 within;
+    window_of(texel, window, within);
+    PunctualLight light = windows[window].light;
+    float relative = distance(light.position, state.path.position) * light.inverse_range, squared = relative * relative;
+    if (light.kind != kDirectionalLight) state.path.transmittance *= clamp(1.0 - squared * squared, 0.0, 1.0);
+    bool straight = state.path.events == 0u;
+    if (!straight || lists_straight != 0u) store_photon(texel, state, landing.object, landing.geometric, straight);
+}
+
+void main() {
+    ivec2 texel;
+    if (!listed_pixel(texel)) return;
+    uint i = uint(texel.y) * frame.width + uint(texel.x);
+    PathState state;
+    load_path(i, sample_seed(texel), state);
+    bool lands = closing == 0u && has_mark(state, kMetOpaque);
+    if (!lands) {
+        if (lists_straight != 0u) store_photon(texel, state, PELLUCID_NO_TRIANGLE, state.path.direction, true);
+        return;
+    }
+    Landing landing = landing_of(state);
+    MaterialRecord material = materials[objects[landing.object].material];
+    bool goes_on = landing.base.a < material.alpha_cutoff;  // a hole
+    if (!goes_on && mirrors(material)) {
+        bool reflects = random_number(state.seed ^ 0x68bc21ebu, state.path.events) < material.metallic;
+        if (reflects && (state.path.events >= max_events || !reflect_photon(state, landing, material))) return;
+        goes_on = reflects;
+        if (!reflects) state.path.transmittance /= 1.0 - material.metallic;
+        choose_spacing(state.path, reflects ? material.metallic : 1.0 - material.metallic);
+    }
+    if (!goes_on) {
+        end_on_surface(texel, state, landing);
+        return;
+    }
+    state.mark &= ~kMetOpaque;
+    save_path(state);
+    append_next(texel);
+}

@@ -1,0 +1,258 @@
+#include "techniques/photons/photons.h"
+
+#include "gpu/camera_constants.h"
+#include "layers/host_finder.h"
+#include "light/photon_windows.h"
+#include "techniques/shaders.h"
+#include "techniques/visibility_layers/visibility_layers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <string>
+
+namespace pellucid {
+namespace {
+
+constexpr vk::DeviceSize kPhotonExitSize = 48;  ///< of photon_exits.glsl
+constexpr std::uint32_t kMostEvents = 64;
+/// Radius of a kernel, of the spacing of photons: a look-up finds 12 of those that are as far apart.
+constexpr float kKernelWidth = 2.0f;
+/// Photons draw other random numbers than pixels do.
+constexpr std::uint32_t kFirstTexel = 1u << 20;
+
+/// Twin of the block in photon_windows.glsl.
+struct WindowHeader {
+    std::uint32_t side, columns, count;
+    float kernel_width, least_radius;
+    std::uint32_t lists_straight;
+    std::uint32_t reserved[2];
+};
+
+/// Factor of radii in sample `sample` of a still (Knaus & Zwicker, "Progressive photon mapping: a probabilistic approach",
+/// 2011, equation 15, alpha = 2/3): the mean over the samples converges.
+float shrinkage(std::uint32_t sample) {
+    constexpr double kAlpha = 2.0 / 3.0;
+    double share = 1.0;
+    for (std::uint32_t i = 1; i <= sample; ++i) share *= (i + kAlpha) / (i + 1.0);
+    return float(std::sqrt(share));
+}
+
+std::uint32_t columns_of(std::size_t windows) { return std::uint32_t(std::ceil(std::sqrt(double(windows)))); }
+
+/// Of a view's texels where its targets are, m. Focused light is resolved so finely.
+float spacing_of(const LightView& view, const Bounds& bounds) {
+    const float texel = std::sqrt(view.constants.film.z * view.constants.film.w);
+    if (view.constants.orthographic != 0) return texel;
+    return texel * std::max(std::abs(view.target_depth), 1e-3f * bounds.radius);
+}
+
+float flux_of(const Light& light, const LightView& view) {
+    const glm::vec3 i = light.intensity;
+    return std::max({i.r, i.g, i.b}) * view.constants.film.z * view.constants.film.w;
+}
+
+/// What a light sends through a view, W, texel by texel as begin_at_light.comp has it.
+glm::dvec3 sent_flux(const Light& light, const LightView& view) {
+    const glm::dvec4 film(view.constants.film);
+    const std::uint32_t side = view.constants.width;
+    if (view.constants.orthographic != 0)
+        return glm::dvec3(light.intensity) * (film.z * film.w * double(side) * double(side));
+    const glm::dmat3 world_from_view(view.constants.world_from_view);
+    const PunctualLight own = punctual_light(light);
+    double sum = 0.0;
+    for (std::uint32_t y = 0; y < side; ++y) {
+        for (std::uint32_t x = 0; x < side; ++x) {
+            const glm::dvec3 way(film.x + (x + 0.5) * film.z, film.y - (y + 0.5) * film.w, -1.0);
+            const double cosine = 1.0 / glm::length(way);
+            double share = 1.0;
+            if (light.kind == Light::Kind::kSpot) {
+                const double cos_angle = glm::dot(world_from_view * way, glm::dvec3(own.direction)) * cosine;
+                share =
+                    std::clamp((cos_angle - double(own.cos_outer)) / double(own.cos_inner - own.cos_outer), 0.0, 1.0);
+            }
+            sum += share * share * cosine * cosine * cosine;
+        }
+    }
+    return glm::dvec3(light.intensity) * (film.z * film.w * sum);
+}
+
+bool in_solid(const GpuScene& scene, const Light& light) {
+    if (light.kind == Light::Kind::kDirectional) return false;
+    for (std::size_t first = 0; first < scene.refractive_corners.size(); first += 8) {
+        glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+        for (std::size_t i = first; i < first + 8; ++i) {
+            low = glm::min(low, scene.refractive_corners[i]);
+            high = glm::max(high, scene.refractive_corners[i]);
+        }
+        if (glm::all(glm::lessThanEqual(low, light.position)) && glm::all(glm::lessThanEqual(light.position, high)))
+            return true;
+    }
+    return false;
+}
+
+Frame light_view_frame(const Frame& frame, const Buffer& constants, vk::Extent2D extent) {
+    return {frame.workspace,        frame.scene, constants, frame.environment, frame.filtered_environment,
+            frame.environment_kind, extent};
+}
+
+SurfaceFinder finder_of(Recorder& recorder, const Frame& frame, LayerSource& source) {
+    if (frame.workspace.device().is_cpu())
+        return SurfaceFinder::on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
+    return {.map = source.map_meshes(recorder, frame, kMeshMapResolution)};
+}
+
+}  // namespace
+
+void Photons::begin(PhotonSetup setup) {
+    workspace_.trim();
+    setup_ = std::move(setup);
+    flux_ = {};
+}
+
+Frame Photons::light_frame(const Frame& frame) {
+    const std::uint32_t side = setup_.views.front().constants.width, columns = columns_of(setup_.views.size());
+    const std::uint32_t rows = (std::uint32_t(setup_.views.size()) + columns - 1) / columns;
+    gpu::FrameConstants values{};
+    std::memcpy(&values, frame.constants.mapped(), sizeof(values));
+    values.width = side * columns;
+    values.height = side * rows;
+    values.first_x = values.first_y = kFirstTexel;
+    const Buffer& constants = workspace_.buffer("photon constants", sizeof(values), true);
+    std::memcpy(constants.mapped(), &values, sizeof(values));
+    return {workspace_,
+            frame.scene,
+            constants,
+            frame.environment,
+            frame.filtered_environment,
+            frame.environment_kind,
+            {values.width, values.height}};
+}
+
+const Buffer& Photons::upload_windows(const Frame& frame) {
+    gpu::FrameConstants constants{};
+    std::memcpy(&constants, frame.constants.mapped(), sizeof(constants));
+    const float width = kKernelWidth * shrinkage(frame.samples > 1 ? constants.sample_index : 0);
+    scale_ = {std::numeric_limits<float>::max(), 0.0f};
+    std::vector<PhotonWindow> windows;
+    for (const LightView& view : setup_.views) {
+        const Light& light = setup_.lights.at(view.light);
+        scale_.least_radius = std::min(scale_.least_radius, width * spacing_of(view, frame.scene.bounds));
+        scale_.most_flux = std::max(scale_.most_flux, flux_of(light, view));
+        windows.push_back({view.constants.world_from_view,
+                           view.constants.film,
+                           punctual_light(light),
+                           view.constants.orthographic,
+                           view.target_depth,
+                           {}});
+    }
+    const WindowHeader header{setup_.views.front().constants.width,
+                              columns_of(windows.size()),
+                              std::uint32_t(windows.size()),
+                              width,
+                              scale_.least_radius,
+                              counts_ ? 1u : 0u,
+                              {}};
+    const std::span bytes = std::as_bytes(std::span(windows));
+    const Buffer& buffer = workspace_.buffer("photon windows", sizeof(header) + bytes.size(), true);
+    std::memcpy(buffer.mapped(), &header, sizeof(header));
+    std::memcpy(buffer.mapped() + sizeof(header), bytes.data(), bytes.size());
+    return buffer;
+}
+
+const Buffer& Photons::gather_exits(Recorder& recorder, const Frame& from_light, const Buffer& windows) {
+    const ParameterValues parameters(setup_.by->info, setup_.parameters);
+    const std::uint64_t texels = std::uint64_t(from_light.extent.width) * from_light.extent.height;
+    const Buffer& exits = workspace_.buffer("photon exits", texels * kPhotonExitSize);
+    gpu::FrameConstants constants{};
+    std::memcpy(&constants, from_light.constants.mapped(), sizeof(constants));
+    recorder.fill(exits, 0);
+    for (std::uint32_t number = 0; number < setup_.views.size(); ++number) {
+        gpu::FrameConstants values = setup_.views[number].constants;
+        values.object_count = from_light.scene.object_count;
+        values.sample_index = constants.sample_index;
+        shift_film(values, sample_jitter(constants.sample_index));
+        const Buffer& own =
+            workspace_.buffer("constants of photon view " + std::to_string(number), sizeof(values), true);
+        std::memcpy(own.mapped(), &values, sizeof(values));
+        Frame view = light_view_frame(from_light, own, {values.width, values.height});
+        const Opaque opaque = setup_.draw_opaque(recorder, view);
+        const Layers hidden =
+            source_.build(recorder, view, opaque, {view.scene.refractive, setup_.by->layer_count(parameters)});
+        // The technique is to find where light leaves the glass, not where it ends.
+        const GpuImage& nowhere = workspace_.image("no opaque depth", vk::Format::eR32Sfloat, view.extent);
+        recorder.clear(nowhere, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
+        const Opaque none{opaque.radiance, nowhere, opaque.object, opaque.triangle};
+        const Layers layers{hidden.depth, hidden.triangle, hidden.normal, hidden.covered, hidden.count,
+                            none,         hidden.source};
+        const Refraction refraction = setup_.by->record(recorder, view, layers, parameters);
+        const Recorder::Scope scope(recorder, "photons");
+        recorder.compute(workspace_.compute(shaders::gather_exits_comp),
+                         {view.bindings(), layers.bindings(), refraction.bindings(), reads("PhotonWindows", windows),
+                          updates("PhotonExits", exits)},
+                         std::array{number, from_light.extent.width}, view.extent);
+    }
+    return exits;
+}
+
+void Photons::record(Recorder& recorder, const Frame& frame) {
+    const Frame from_light = light_frame(frame);
+    const Buffer& windows = upload_windows(frame);
+    source_.begin_frame(setup_.layer_builder);
+    const Buffer& exits = setup_.by != nullptr ? gather_exits(recorder, from_light, windows) : windows;
+    {
+        const SurfaceFinder finder = finder_of(recorder, from_light, source_);
+        const Recorder::Scope scope(recorder, "photons");
+        const std::uint64_t texels = std::uint64_t(from_light.extent.width) * from_light.extent.height;
+        const Buffer& list = store_.begin(recorder, from_light, source_, texels);
+        PathTask task{.begin = shaders::begin_at_light_comp,
+                      .end = shaders::end_photons_comp,
+                      .bindings = {reads("PhotonWindows", windows), updates("Photons", list)},
+                      .ways = Ways::kStochastic,
+                      .from_light = true};
+        if (setup_.by != nullptr) {
+            task.begin = shaders::begin_at_exit_comp;
+            task.bindings.push_back(updates("PhotonExits", exits));
+        }
+        task.push.max_events = kMostEvents;
+        task.push.whole_picture = 1;
+        task.push.eye_differs = std::any_of(setup_.lights.begin(), setup_.lights.end(),
+                                            [&](const Light& light) { return in_solid(frame.scene, light); });
+        follow(recorder, from_light, source_, finder, task);
+    }
+    if (counts_) count(recorder, from_light);
+    store_.build(recorder, from_light, source_, scale_);
+    bindings_ = store_.bindings();
+}
+
+bool Photons::must_repeat(const Frame& frame) { return any() && source_.must_repeat(light_frame(frame)); }
+
+void Photons::count(Recorder& recorder, const Frame& from_light) {
+    const Buffer& list = store_.photons();
+    const Buffer& copy = workspace_.buffer("photons on the host", list.size(), true);
+    recorder.copy(list, copy, list.size());
+    flux_ = {};
+    for (const LightView& view : setup_.views) flux_.sent += sent_flux(setup_.lights.at(view.light), view);
+    flux_.objects.assign(from_light.scene.object_count, {});
+    recorder.when_done([this, &copy] {
+        std::uint32_t count = 0;
+        std::memcpy(&count, copy.mapped(), sizeof(count));
+        const std::size_t capacity = (copy.size() - kPhotonListHeader) / sizeof(Photon);
+        std::vector<Photon> photons(std::min<std::size_t>(count, capacity));
+        std::memcpy(photons.data(), copy.mapped() + kPhotonListHeader, photons.size() * sizeof(Photon));
+        std::sort(photons.begin(), photons.end(), [](const Photon& a, const Photon& b) { return a.texel < b.texel; });
+        for (const Photon& photon : photons) {
+            const glm::dvec3 flux(photon.flux);
+            if (photon.object == PELLUCID_NO_TRIANGLE)
+                flux_.left += flux;
+            else
+                (photon.level == kStraightPhoton ? flux_.objects[photon.object].straight
+                                                 : flux_.objects[photon.object].bent) += flux;
+        }
+    });
+}
+
+}  // namespace pellucid

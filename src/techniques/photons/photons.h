@@ -1,0 +1,68 @@
+#pragma once
+
+#include "light/light_views.h"
+#include "light/photon_store.h"
+#include "techniques/technique.h"
+
+#include <pellucid/photon_flux.h>
+#include <pellucid/scene.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pellucid {
+
+/// What sends photons in a picture.
+struct PhotonSetup {
+    std::vector<Light> lights = {};
+    /// Finds where light leaves glass, by its frames from the views; null: paths do. Light that the first surface reflects
+    /// is left out, and metal sends none.
+    const Technique* by = nullptr;
+    ParameterMap parameters = {};  ///< of `by`
+    LayerBuilder layer_builder = LayerBuilder::kCompute;
+    /// Draws what stands between a light and the glass; `by` needs it.
+    Opaque (*draw_opaque)(Recorder& recorder, const Frame& frame) = nullptr;
+    std::vector<LightView> views = {};  ///< square, all of one resolution
+};
+
+/// Light that lights send through glass and from metal onto opaque surfaces (Jensen, "Global illumination using photon maps",
+/// 1996): every frame traces photons of its own from the lights' views, by the paths of visibility-layers, and sorts them
+/// for look-ups.
+class Photons {
+public:
+    explicit Photons(const Device& device) : workspace_(device) {}
+
+    /// Before the frames of a picture, when none is in flight. Photons need GpuScene::topology and, on a device that is a CPU,
+    /// GpuScene::host_finder.
+    void begin(PhotonSetup setup);
+    bool any() const { return !setup_.views.empty(); }
+    /// Traces the photons of a frame; `frame.photons` is bindings().
+    void record(Recorder& recorder, const Frame& frame);
+    /// What look-ups bind; its address does not change. Null: there are no photons.
+    const std::vector<Binding>* bindings() const { return any() ? &bindings_ : nullptr; }
+    /// As LayerSource::must_repeat().
+    bool must_repeat(const Frame& frame);
+    /// Forgets what it has learnt of a scene.
+    void forget() { source_ = LayerSource(); }
+    /// Whether frames from now on measure flux().
+    void count_flux(bool counts) { counts_ = counts; }
+    /// Of the last frame that has measured it.
+    const PhotonFlux& flux() const { return flux_; }
+
+private:
+    Frame light_frame(const Frame& frame);
+    const Buffer& upload_windows(const Frame& frame);
+    const Buffer& gather_exits(Recorder& recorder, const Frame& from_light, const Buffer& windows);
+    void count(Recorder& recorder, const Frame& from_light);
+
+    Workspace workspace_;
+    LayerSource source_;
+    PhotonSetup setup_;
+    PhotonStore store_;
+    std::vector<Binding> bindings_;
+    PhotonScale scale_{};
+    PhotonFlux flux_;
+    bool counts_ = false;
+};
+
+}  // namespace pellucid
