@@ -39,8 +39,11 @@ std::vector<std::string> light_left_out(const Scene& scene, const TechniqueInfo&
         return {fmt::format("{} light{} not drawn", count, count == 1 ? " is" : "s are")};
     if (!followed && translucent < scene.objects.size()) return {"lights light translucent objects only"};
     if (!followed || refractive == 0 || opaque == 0 || (photons && light.shadows == Shadows::kExact)) return {};
-    return {light.shadows == Shadows::kExact ? "glass casts shadows, but the light of lights that it bends is not drawn"
-                                             : "the light of lights goes straight through glass"};
+    if (light.shadows == Shadows::kTinted) return {"the light of lights goes straight through glass"};
+    const bool has_photons = std::any_of(technique.parameters.begin(), technique.parameters.end(),
+                                         [](const ParameterInfo& parameter) { return parameter.name == "photons"; });
+    return {fmt::format("glass casts shadows, but the light of lights that it bends is not drawn{}",
+                        has_photons ? " (--photons N draws it)" : "")};
 }
 
 }  // namespace

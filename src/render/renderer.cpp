@@ -46,10 +46,12 @@ static const Technique* caustics_of(const LightOptions& light, const Device& dev
     return info.whole_scene ? nullptr : technique;
 }
 
-/// Of every light in every frame.
-static std::uint32_t photons_asked(const FrameSettings& chosen) {
-    const bool known = chosen.technique != nullptr && chosen.parameters.has("photons");
-    return known ? chosen.parameters.whole("photons") : 0;
+/// Photons of every light in every frame.
+static std::uint32_t photons_of(const FrameSettings& chosen, LightTransport transport) {
+    constexpr std::uint32_t kDefault = 16384;
+    if (chosen.technique == nullptr || !chosen.parameters.has("photons")) return 0;
+    if (chosen.parameters["photons"] >= 0.0) return chosen.parameters.whole("photons");
+    return transport == LightTransport::kFull && !chosen.info.volumes ? kDefault : 0;
 }
 
 const GpuImage& Renderer::Impl::filtered_environment_for_scene() {
@@ -82,7 +84,9 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
                          .layer_builder = settings.layer_builder,
                          .view = settings.view};
     chosen.caustics = caustics_of(settings.light, device);
-    warnings = approximations(cpu.scene(), info, chosen_light(settings), photons_asked(chosen) > 0);
+    const LightOptions light = chosen_light(settings);
+    chosen.photons = photons_of(chosen, light.transport);
+    warnings = approximations(cpu.scene(), info, light, chosen.photons > 0);
     if (settings.view == View::kWavefront) {
         if (chosen.truth || chosen.technique->draw_light == nullptr)
             throw Error(fmt::format("view wavefront: {} traces no wavefronts of light; ihrke-2007 does", info.name));
@@ -127,7 +131,7 @@ void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& ligh
 void Renderer::Impl::aim_photons(const FrameSettings& chosen, const FrameLight& light) {
     // Tinted shadows have the light that glass lets through.
     const bool sends = light.lights > 0 && !light.tinted_shadows;
-    PhotonSetup setup = photon_setup(cpu.scene(), scene->bounds, sends ? photons_asked(chosen) : 0);
+    PhotonSetup setup = photon_setup(cpu.scene(), scene->bounds, sends ? chosen.photons : 0);
     setup.by = chosen.caustics;
     setup.layer_builder = chosen.layer_builder;
     setup.draw_opaque = draw_opaque;

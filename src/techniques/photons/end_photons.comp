@@ -20,7 +20,7 @@ PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, appe
 #include "techniques/visibility_layers/photon_paths.glsl"
 layout(std430, set = 0, binding = 53) buffer Photons { uint photon_count, photon_reserved[3]; Photon photons[]; };
 
-const float kMirrorRoughness = 0.3;  // photons follow metal below
+#include "light/photon_mirrors.glsl"
 
 // The opaque surface that a photon stands on.
 struct Landing {
@@ -51,11 +51,6 @@ Landing landing_of(PathState state) {
     MaterialRecord material = materials[o.material];
     vec4 base = material.base_color * color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
     return Landing(object, faceforward(normal, direction, normal), faceforward(geometric, direction, geometric), base);
-}
-
-bool mirrors(MaterialRecord material) {
-    return material.metallic > 0.0 && material.roughness < kMirrorRoughness &&
-           material.metallic_roughness_texture == PELLUCID_NO_TEXTURE && (material.flags & PELLUCID_MATERIAL_UNLIT) == 0u;
 }
 
 // Sends a photon on from metal, by a facet that it can see. False: the facet sends it below the surface.
@@ -117,7 +112,7 @@ void main() {
     Landing landing = landing_of(state);
     MaterialRecord material = materials[objects[landing.object].material];
     bool goes_on = landing.base.a < material.alpha_cutoff;  // a hole
-    if (!goes_on && mirrors(material)) {
+    if (!goes_on && reflects_photons(material)) {
         bool reflects = random_number(state.seed ^ 0x68bc21ebu, state.path.events) < material.metallic;
         if (reflects && (state.path.events >= max_events || !reflect_photon(state, landing, material))) return;
         goes_on = reflects;

@@ -31,6 +31,7 @@ layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]
 #include "gpu/opaque_surface.glsl"
 layout(constant_id = 41) const bool kPhotons = false;  // lights throw caustics
 #include "light/photon_lookup.glsl"
+#include "light/photon_mirrors.glsl"
 #ifdef PELLUCID_LIT
 #include "techniques/ihrke_2007/lights_on_surfaces.glsl"
 #endif
@@ -46,6 +47,7 @@ struct OpaquePoint {
     vec3 emission;  // radiance; of an unlit surface its base colour, which is all that is seen of it
     bool unlit;
     bool translucent;
+    bool reflects_photons;
     float alpha;    // less the cutoff: below 0 where there is a hole
     float ior;      // of the medium on the path's side
 };
@@ -77,6 +79,7 @@ OpaquePoint opaque_point(PathState state) {
     point.unlit = (material.flags & PELLUCID_MATERIAL_UNLIT) != 0u;
     point.emission = point.unlit ? base.rgb : emitted_radiance(material, texcoords.xy, texcoords.zw);
     point.translucent = material.translucent != 0u;
+    point.reflects_photons = reflects_photons(material);
     point.alpha = base.a - material.alpha_cutoff;
     point.ior = filling_iors(filling_body(state.media)).g;
     return point;

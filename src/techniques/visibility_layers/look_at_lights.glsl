@@ -20,8 +20,11 @@ vec3 unshadowed_light(uint number, ivec2 texel, PathState state, OpaquePoint poi
     if (number < direct_lights) light = sample_light(scene_lights[number], state.path.position, u);
     else light = sample_emitter(state.path.position, u, random_number(seed, state.path.events));
     if (light.irradiance == vec3(0.0)) return vec3(0.0);
+    OpaqueSurface surface = point.surface;
+    // Photons bring what metal throws on the surface from which the path has come: here it counts as a perfect mirror.
+    if (kPhotons && point.reflects_photons && number < direct_lights && has_mark(state, kBounced)) surface.roughness = 0.0;
     return state.path.transmittance * light.irradiance *
-           opaque_reflection(point.surface, point.normal, -state.path.direction, light.to_light);
+           opaque_reflection(surface, point.normal, -state.path.direction, light.to_light);
 }
 
 void push_shadow_ray(PathState state, LightSample light, vec3 weight) {

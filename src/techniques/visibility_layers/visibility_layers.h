@@ -21,9 +21,10 @@ inline constexpr std::array kPathParameters = {
                   "1: each sample takes one way at random, refracted or reflected, and through rough glass one facet"},
     ParameterInfo{"surfaces-per-pass", "", 0, 0, 64, true,
                   "surfaces that a path meets in one dispatch, a matter of time; 0: chosen for the device"},
-    ParameterInfo{
-        "photons", "", 0, 0, 4194304, true,
-        "photons of every light in every frame: light that glass or polished metal sends onto opaque surfaces"},
+    ParameterInfo{"photons", "", -1, -1, 4194304, true,
+                  "photons of every light in every frame: light that glass or polished metal sends onto opaque "
+                  "surfaces; -1: 16384 with "
+                  "--light full, none otherwise"},
     ParameterInfo{"layers", "", 1, 1, 64, true,
                   "surfaces along a view ray that the AOV `layers` counts at most; paths look at all that there are"},
 };
