@@ -236,7 +236,8 @@ class Aovs(CliTest):
             self.assertGreater(aovs["depth"].pixels[i], 0)
 
     def test_list_is_complete(self):
-        self.assertEqual(sorted(self.known_names("--aov", "?=out.exr")), sorted(AOVS))
+        of_path = ["emitted", "direct", "caustic", "indirect"]
+        self.assertEqual(sorted(self.known_names("--aov", "?=out.exr")), sorted([*AOVS, *of_path]))
 
     def test_syntax(self):
         for aov in ("depth", "depth=", "depth=a.png", "depth=a", "depth=.exr", "=a.exr", ""):
