@@ -10,7 +10,7 @@ void add_light_options(CLI::App& command, LightArguments& arguments) {
             "--light", arguments.transport,
             "Light that frames follow to opaque surfaces. environment: of the environment alone, unshadowed; direct: "
             "of lights, too, with shadows; full: also reflected between surfaces, with what hides the environment; "
-            "automatic: environment where there are no lights, full with several samples, direct with one")
+            "automatic: environment where there are no lights, full with 8 samples or more, direct with fewer")
         ->capture_default_str()
         ->type_name("NAME");
     command

@@ -10,7 +10,7 @@ namespace pellucid {
 
 /// Which light the frames of a technique follow to opaque surfaces. Truths follow all of it.
 enum class LightTransport {
-    /// kEnvironment in scenes without lights and emissive objects, kFull in stills of several samples, kDirect otherwise
+    /// kEnvironment in scenes without lights and emissive objects, kFull in stills of 8 samples or more, kDirect otherwise
     /// (default).
     kAutomatic,
     kEnvironment,  ///< the environment's, unshadowed, as if each surface stood alone; lights of the scene are left out

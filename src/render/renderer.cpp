@@ -152,7 +152,8 @@ void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& set
 LightOptions Renderer::Impl::chosen_light(const RenderSettings& settings) const {
     LightOptions light = settings.light;
     if (light.transport != LightTransport::kAutomatic) return light;
-    const bool several = settings.still && (settings.samples > 1 || settings.error > 0.0f);
+    constexpr std::uint32_t kEnough = 8;  // samples; with fewer, the noise of bounces is worse than what they bring
+    const bool several = settings.still && (settings.samples >= kEnough || settings.error > 0.0f);
     light.transport = !has_lights(cpu.scene()) ? LightTransport::kEnvironment
                       : several                ? LightTransport::kFull
                                                : LightTransport::kDirect;
