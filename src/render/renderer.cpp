@@ -22,21 +22,12 @@ double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool has_lights(const Scene& scene) {
-    return !scene.lights.empty() || std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-        const Material& material = scene.materials[std::size_t(object.material)];
-        return !material.transmissive() && !material.unlit && material.emission != glm::vec3(0.0f);
-    });
-}
-
 bool has_size(const Light& light) {
     return (light.kind == Light::Kind::kDirectional ? light.angular_diameter : light.radius) > 0.0f;
 }
 
-}  // namespace
-
 /// LightOptions::caustics; null: photons follow paths.
-static const Technique* caustics_of(const LightOptions& light, const Device& device) {
+const Technique* caustics_of(const LightOptions& light, const Device& device) {
     if (light.caustics.empty()) return nullptr;
     const TechniqueInfo& info = find_technique(light.caustics);
     const Technique* technique = technique_of(info);
@@ -47,12 +38,14 @@ static const Technique* caustics_of(const LightOptions& light, const Device& dev
 }
 
 /// Photons of every light in every frame.
-static std::uint32_t photons_of(const FrameSettings& chosen, LightTransport transport) {
+std::uint32_t photons_of(const FrameSettings& chosen, LightTransport transport) {
     constexpr std::uint32_t kDefault = 16384;
     if (chosen.technique == nullptr || !chosen.parameters.has("photons")) return 0;
     if (chosen.parameters["photons"] >= 0.0) return chosen.parameters.whole("photons");
     return transport == LightTransport::kFull && !chosen.info.volumes ? kDefault : 0;
 }
+
+}  // namespace
 
 const GpuImage& Renderer::Impl::filtered_environment_for_scene() {
     if (filtered_environment) return *filtered_environment;
@@ -154,9 +147,9 @@ LightOptions Renderer::Impl::chosen_light(const RenderSettings& settings) const 
     if (light.transport != LightTransport::kAutomatic) return light;
     constexpr std::uint32_t kEnough = 8;  // samples; with fewer, the noise of bounces is worse than what they bring
     const bool several = settings.still && (settings.samples >= kEnough || settings.error > 0.0f);
-    light.transport = !has_lights(cpu.scene()) ? LightTransport::kEnvironment
-                      : several                ? LightTransport::kFull
-                                               : LightTransport::kDirect;
+    light.transport = scene->light_count + scene->emitter_count == 0 ? LightTransport::kEnvironment
+                      : several                                      ? LightTransport::kFull
+                                                                     : LightTransport::kDirect;
     return light;
 }
 

@@ -1,7 +1,6 @@
 #include "techniques/photons/photons.h"
 
 #include "gpu/camera_constants.h"
-#include "layers/host_finder.h"
 #include "light/photon_windows.h"
 #include "techniques/shaders.h"
 #include "techniques/visibility_layers/visibility_layers.h"
@@ -97,12 +96,6 @@ bool in_solid(const GpuScene& scene, const Light& light) {
 Frame light_view_frame(const Frame& frame, const Buffer& constants, vk::Extent2D extent) {
     return {frame.workspace,        frame.scene, constants, frame.environment, frame.filtered_environment,
             frame.environment_kind, extent};
-}
-
-SurfaceFinder finder_of(Recorder& recorder, const Frame& frame, LayerSource& source) {
-    if (frame.workspace.device().is_cpu())
-        return SurfaceFinder::on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
-    return {.map = source.map_meshes(recorder, frame, kMeshMapResolution)};
 }
 
 }  // namespace
@@ -204,7 +197,7 @@ void Photons::record(Recorder& recorder, const Frame& frame) {
     source_.begin_frame(setup_.layer_builder);
     const Buffer& exits = setup_.by != nullptr ? gather_exits(recorder, from_light, windows) : windows;
     {
-        const SurfaceFinder finder = finder_of(recorder, from_light, source_);
+        const SurfaceFinder finder = SurfaceFinder::of_device(recorder, from_light, source_);
         const Recorder::Scope scope(recorder, "photons");
         const std::uint64_t texels = std::uint64_t(from_light.extent.width) * from_light.extent.height;
         const Buffer& list = store_.begin(recorder, from_light, source_, texels);

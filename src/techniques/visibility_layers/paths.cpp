@@ -295,6 +295,11 @@ private:
 
 }  // namespace
 
+SurfaceFinder SurfaceFinder::of_device(Recorder& recorder, const Frame& frame, LayerSource& source) {
+    if (frame.workspace.device().is_cpu()) return on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
+    return {.map = source.map_meshes(recorder, frame, kMeshMapResolution)};
+}
+
 SurfaceFinder SurfaceFinder::on_host(const HostFinder& finder) {
     return {.map = of_triangles(finder.triangles(), finder.normals()), .host = &finder};
 }

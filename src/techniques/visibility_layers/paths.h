@@ -52,6 +52,9 @@ public:
     virtual ShaderCode follow_shader() const = 0;
 };
 
+/// Texels of a mesh's maps along the longest side of its box, unless a parameter says otherwise.
+inline constexpr std::uint32_t kMeshMapResolution = 512;
+
 /// Who finds the surfaces that paths meet.
 struct SurfaceFinder {
     SurfaceMap map;                                    ///< that paths walk, or what stands for it (of_triangles())
@@ -60,6 +63,9 @@ struct SurfaceFinder {
     bool loses_paths = false;  ///< paths leave the map: they are counted, and end there where nothing finishes them
     std::optional<SurfaceMap> finishing = std::nullopt;  ///< takes them on
 
+    /// That of lights and photons: Embree on devices whose memory is the host's, where GpuScene::host_finder is up to date; maps
+    /// of the meshes elsewhere.
+    static SurfaceFinder of_device(Recorder& recorder, const Frame& frame, LayerSource& source);
     /// `finder` is up to date; needs a device whose memory is the host's.
     static SurfaceFinder on_host(const HostFinder& finder);
     /// The device traces rays through `hierarchy`, which is up to date. Needs Device::ray_tracing().
@@ -76,7 +82,7 @@ struct PathTask {
     const Buffer* beginning = nullptr;  ///< pixels that `begin` is dispatched over; null: all of the frame
     /// Begins paths at their first end, in a dispatch over all of the frame, besides those of `begin`; none if empty.
     ShaderCode begin_at_end = {};
-    bool full_light = false;  ///< what facets of opaque surfaces reflect is followed, too
+    bool full_light = false;       ///< what facets of opaque surfaces reflect is followed, too
     bool lights_surfaces = false;  ///< opaque surfaces at which paths end look to lights, and to what is around them
     std::vector<Binding> bindings = {};  ///< of `begin` and `end`, besides those of paths
     Ways ways = Ways::kTransmitted;

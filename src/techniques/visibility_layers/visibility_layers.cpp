@@ -87,13 +87,6 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     return follow_view_rays(recorder, frame, layers, finder, parameters);
 }
 
-/// Maps of the meshes; or, on devices whose memory is the host's, Embree.
-SurfaceFinder finder_of_device(Recorder& recorder, const Frame& frame, const Layers& layers) {
-    if (frame.scene.host_finder != nullptr)
-        return SurfaceFinder::on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
-    return {.map = layers.source.map_meshes(recorder, frame, kMeshMapResolution)};
-}
-
 constexpr auto kParameters = path_parameters_and(
     {"finish", "", 1, 0, 1, true,
      "1: paths that the view's map loses, as beyond the edge of the view, are finished by maps of the meshes"});
@@ -119,7 +112,7 @@ void prepare_light(const Preparation& preparation) {
 
 void light_surfaces(Recorder& recorder, const Frame& frame, const Layers& layers) {
     const Recorder::Scope scope(recorder, "light");
-    const SurfaceFinder finder = finder_of_device(recorder, frame, layers);
+    const SurfaceFinder finder = SurfaceFinder::of_device(recorder, frame, layers.source);
     PathTask task{.end = shaders::end_paths_comp, .begin_at_end = shaders::begin_on_opaque_comp};
     light_surfaces(task, frame);
     task.push.max_events = kEventsOfLight;

@@ -37,9 +37,6 @@ constexpr auto path_parameters_and(const ParameterInfo& own) {
     return all;
 }
 
-/// Texels of a mesh's maps along the longest side of its box, unless a parameter says otherwise.
-inline constexpr std::uint32_t kMeshMapResolution = 512;
-
 /// Technique::programs and Technique::prepare of techniques that call follow_paths().
 inline constexpr std::initializer_list<const ShaderCode*> kPathPrograms = {
     &shaders::begin_paths_comp, &shaders::begin_at_eye_comp, &shaders::begin_on_opaque_comp,
