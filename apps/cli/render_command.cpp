@@ -110,16 +110,16 @@ std::vector<PassTime> median_times(const std::vector<std::vector<PassTime>>& fra
     return medians;
 }
 
+nlohmann::ordered_json rgb(const glm::dvec3& watts) { return {watts.r, watts.g, watts.b}; }
+
 /// Light of lights on every object, by as many photons as the picture of the path tracer has, up to kMostPhotons.
 nlohmann::ordered_json describe_light_flux(const nlohmann::ordered_json& parameters, std::uint32_t samples,
-                                           std::uint32_t threads, const Scene& scene) {
+                                           const Tracer& tracer, const Scene& scene) {
     constexpr double kMostPhotons = 2e6;
     const double photons = std::min(parameters["photons"].get<double>() * samples, kMostPhotons);
-    const Tracer tracer(scene, {.threads = threads});
     const std::vector<LightFlux> flux =
         tracer.light_flux(std::uint32_t(photons), std::uint32_t(parameters["seed"].get<double>()));
     auto json = nlohmann::ordered_json::array();
-    const auto rgb = [](const glm::dvec3& watts) { return nlohmann::ordered_json{watts.r, watts.g, watts.b}; };
     for (std::size_t i = 0; i < flux.size(); ++i)
         json.push_back({{"object", scene.objects[i].name},
                         {"direct_w", rgb(flux[i].direct)},
@@ -128,7 +128,6 @@ nlohmann::ordered_json describe_light_flux(const nlohmann::ordered_json& paramet
 }
 
 nlohmann::ordered_json describe_flux(const PhotonFlux& flux, const Scene& scene) {
-    const auto rgb = [](const glm::dvec3& watts) { return nlohmann::ordered_json{watts.r, watts.g, watts.b}; };
     nlohmann::ordered_json json{{"sent", rgb(flux.sent)}, {"left", rgb(flux.left)}};
     for (std::size_t i = 0; i < flux.objects.size(); ++i) {
         const auto& [bent, straight] = flux.objects[i];
@@ -139,10 +138,10 @@ nlohmann::ordered_json describe_flux(const PhotonFlux& flux, const Scene& scene)
 }
 
 nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSettings& settings,
-                                const NamedTechnique& technique, const Scene& scene, const DeviceInfo& device,
+                                const NamedTechnique& technique, const Scene& scene, Renderer& renderer,
                                 const RenderResult& result, const std::vector<std::string>& warnings) {
-    nlohmann::ordered_json json{{"device", device.name},
-                                {"driver", device.driver},
+    nlohmann::ordered_json json{{"device", renderer.device().name},
+                                {"driver", renderer.device().driver},
                                 {"version", version()},
                                 {"scene", arguments.scene},
                                 {"environment", arguments.environment.name_or_file},
@@ -184,8 +183,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
     if (!technique.info().reference) json["frame_ms"] = frame_ms;
     if (!result.standard_error.pixels.empty()) json["cut_paths"] = result.cut_paths;
     if (technique.info().all_light && arguments.json && !scene.lights.empty())
-        json["light_flux"] =
-            describe_light_flux(json["parameters"], settings.samples, device_options(arguments.device).threads, scene);
+        json["light_flux"] = describe_light_flux(json["parameters"], settings.samples, renderer.tracer(), scene);
     json["frames"] = result.frames.size();
     json["layer_passes"] = result.layer_passes;
     json["cut_rays"] = result.cut_rays;
@@ -252,8 +250,7 @@ void render(const RenderArguments& arguments) {
     bar.clear();
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
 
-    write_outputs(arguments, result,
-                  describe(arguments, settings, technique, scene, renderer.device(), result, warnings));
+    write_outputs(arguments, result, describe(arguments, settings, technique, scene, renderer, result, warnings));
     print_warnings(warnings);
     check_validation(renderer);
 }

@@ -3,6 +3,7 @@
 
 // A point of a light, as a surface sees it. Suns are discs of even radiance, lamps and spots balls of even radiance.
 // Needs: gpu/punctual_light.glsl.
+#include "gpu/tangent_frame.glsl"
 
 struct LightSample {
     vec3 to_light;    // unit
@@ -19,8 +20,7 @@ float one_minus_cos(float sin_angle) { return sin_angle * sin_angle / (1.0 + sqr
 vec3 sample_cone(vec3 axis, float height, vec2 u, out float sine) {
     float q = u.x * height, angle = 6.283185307 * u.y;
     sine = sqrt(max(q * (2.0 - q), 0.0));
-    vec3 across = normalize(abs(axis.z) < 0.9 ? cross(axis, vec3(0.0, 0.0, 1.0)) : cross(axis, vec3(1.0, 0.0, 0.0)));
-    return normalize((1.0 - q) * axis + sine * (cos(angle) * across + sin(angle) * cross(axis, across)));
+    return normalize(tangent_frame(axis) * vec3(sine * cos(angle), sine * sin(angle), 1.0 - q));
 }
 
 // `u`: 0..1. Its irradiances have the mean that the whole light gives a surface which faces its middle.

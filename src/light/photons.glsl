@@ -7,6 +7,8 @@
 // their photons, and a photon is listed in every cell that its kernel touches, so a look-up reads one cell per level.
 // Teschner et al., "Optimized spatial hashing for collision detection of deformable objects", VMV 2003.
 
+#include "gpu/hash.glsl"
+
 // Twin of Photon in photon_store.h.
 struct Photon {
     vec3 position;  // m, world
@@ -45,17 +47,7 @@ ivec3 photon_cell(PhotonGrid grid, int level, vec3 position) {
 
 // x: of the slot, y: tells apart the cells that share it.
 uvec2 hash_of_cell(ivec3 cell, int level) {
-    // Jarzynski & Olano, "Hash functions for GPU rendering", JCGT 2020: pcg3d.
-    uvec3 v = uvec3(cell) + uvec3(level * 0x9e3779b9u);
-    v = v * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    return v.xy;
+    return hash(uvec3(cell) + uvec3(level * 0x9e3779b9u)).xy;
 }
 
 // Slots in which more photons want an entry keep a share of them, which then count for all: a look-up reads all entries.

@@ -56,19 +56,12 @@ Landing landing_of(PathState state) {
 // Sends a photon on from metal, by a facet that it can see. False: the facet sends it below the surface.
 bool reflect_photon(inout PathState state, Landing landing, MaterialRecord material) {
     vec3 n = landing.normal, incident = state.path.direction;
-    vec3 across = normalize(abs(n.z) < 0.9 ? cross(n, vec3(0.0, 0.0, 1.0)) : cross(n, vec3(1.0, 0.0, 0.0)));
-    mat3 world_from_surface = mat3(across, cross(n, across), n);
-    float alpha = max(material.roughness * material.roughness, 1e-4);
-    vec3 wi = -incident * world_from_surface;
-    wi.z = max(wi.z, 1e-4);
-    vec3 facet = visible_normal(normalize(wi), alpha, random_numbers(state.seed, state.path.events));
-    vec3 wo = reflect(-normalize(wi), facet);
-    if (wo.z <= 0.0) return false;
-    float grazing = pow(clamp(1.0 - dot(wo, facet), 0.0, 1.0), 5.0);
-    float lambda_i = smith_lambda(wi, alpha), lambda_o = smith_lambda(wo, alpha);
-    vec3 direction = normalize(world_from_surface * wo);
-    if (dot(direction, landing.geometric) <= 0.0) return false;
-    state.path.transmittance *= mix(landing.base.rgb, vec3(1.0), grazing) * ((1.0 + lambda_i) / (1.0 + lambda_i + lambda_o)) *
+    FacetReflection reflected = reflect_by_facet(n, -incident, max(material.roughness * material.roughness, 1e-4),
+                                                 random_numbers(state.seed, state.path.events));
+    vec3 direction = reflected.direction;
+    if (reflected.visible == 0.0 || dot(direction, landing.geometric) <= 0.0) return false;
+    float grazing = pow(clamp(1.0 - reflected.cosine, 0.0, 1.0), 5.0);
+    state.path.transmittance *= mix(landing.base.rgb, vec3(1.0), grazing) * reflected.visible *
                                 adjoint_weight(incident, direction, n, landing.geometric);
     state.path.direction = direction;
     ++state.path.events;

@@ -109,28 +109,19 @@ struct Bounce {
 
 Bounce diffuse_bounce(OpaquePoint point, vec2 u) {
     float radius = sqrt(u.x), angle = 6.283185307 * u.y;
-    vec3 across = normalize(abs(point.normal.z) < 0.9 ? cross(point.normal, vec3(0.0, 0.0, 1.0))
-                                                      : cross(point.normal, vec3(1.0, 0.0, 0.0)));
-    vec3 direction = radius * cos(angle) * across + radius * sin(angle) * cross(point.normal, across) +
-                    sqrt(max(1.0 - u.x, 0.0)) * point.normal;
+    vec3 direction = tangent_frame(point.normal) * vec3(radius * cos(angle), radius * sin(angle), sqrt(max(1.0 - u.x, 0.0)));
     return Bounce(direction, diffuse_albedo(point), kBounceRoughness * kBounceRoughness);
 }
 
 // By a facet that is visible from the path's side (Heitz 2018). The weight is 0 where the facet sends light into the surface.
 Bounce facet_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
     float alpha = point.surface.roughness * point.surface.roughness;
-    vec3 n = point.normal;
-    vec3 across = normalize(abs(n.z) < 0.9 ? cross(n, vec3(0.0, 0.0, 1.0)) : cross(n, vec3(1.0, 0.0, 0.0)));
-    mat3 world_from_surface = mat3(across, cross(n, across), n);
-    vec3 wo = to_viewer * world_from_surface;
-    vec3 m = alpha < kSmoothAlpha ? vec3(0.0, 0.0, 1.0) : visible_normal(wo, alpha, u);
-    vec3 wi = reflect(-wo, m);
+    if (alpha < kSmoothAlpha) alpha = 0.0;
+    FacetReflection reflected = reflect_by_facet(point.normal, to_viewer, alpha, u);
     float root = (point.surface.ior - 1.0) / (point.surface.ior + 1.0);
     vec3 at_normal = mix(vec3(root * root), point.surface.base_color, point.surface.metallic);
-    vec3 fresnel = mix(at_normal, vec3(greaterThan(at_normal, vec3(0.0))), schlick_weight(clamp(dot(wo, m), 0.0, 1.0)));
-    float hidden = alpha < kSmoothAlpha ? 1.0 : (1.0 + smith_lambda(wo, alpha)) /
-                                                (1.0 + smith_lambda(wo, alpha) + smith_lambda(wi, alpha));
-    return Bounce(world_from_surface * wi, wi.z > 0.0 ? fresnel * hidden : vec3(0.0), alpha < kSmoothAlpha ? 0.0 : alpha);
+    vec3 fresnel = mix(at_normal, vec3(greaterThan(at_normal, vec3(0.0))), schlick_weight(clamp(reflected.cosine, 0.0, 1.0)));
+    return Bounce(reflected.direction, fresnel * reflected.visible, alpha);
 }
 
 float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }

@@ -3,19 +3,8 @@
 
 // Random choices of a path, and the facets of rough glass: Heitz, "Sampling the GGX distribution of visible normals",
 // JCGT 2018. Needs: frame, optics/interface.glsl.
-
-// Jarzynski & Olano, "Hash functions for GPU rendering", JCGT 2020: pcg3d.
-uvec3 hash(uvec3 v) {
-    v = v * 1664525u + 1013904223u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    v ^= v >> 16u;
-    v.x += v.y * v.z;
-    v.y += v.z * v.x;
-    v.z += v.x * v.y;
-    return v;
-}
+#include "gpu/hash.glsl"
+#include "gpu/tangent_frame.glsl"
 
 uint sample_seed(ivec2 texel) { return hash(uvec3(texel + first_pixel(), 1u)).x; }
 
@@ -64,6 +53,24 @@ float smith_lambda(vec3 w, float alpha) {
     return 0.5 * t / (sqrt(1.0 + t) + 1.0);  // (sqrt(1 + t) - 1) / 2 without the cancellation
 }
 
+// What one facet of a mirror reflects.
+struct FacetReflection {
+    vec3 direction;  // unit, away from the surface
+    float cosine;    // to the facet's normal
+    float visible;   // share that no other facet catches; 0: the facet sends it into the surface
+};
+
+// A facet is chosen among those that are visible from `towards`, unit and away from the surface. alpha 0: the surface is flat.
+FacetReflection reflect_by_facet(vec3 normal, vec3 towards, float alpha, vec2 u) {
+    mat3 world_from_surface = tangent_frame(normal);
+    vec3 wo = towards * world_from_surface;
+    wo = normalize(vec3(wo.xy, max(wo.z, 1e-4)));
+    vec3 m = alpha > 0.0 ? visible_normal(wo, alpha, u) : vec3(0.0, 0.0, 1.0), wi = reflect(-wo, m);
+    float hidden_o = smith_lambda(wo, alpha), hidden_i = smith_lambda(wi, alpha);
+    return FacetReflection(normalize(world_from_surface * wi), dot(wo, m),
+                           wi.z > 0.0 ? (1.0 + hidden_o) / (1.0 + hidden_o + hidden_i) : 0.0);
+}
+
 // Moves light to the next facet on its way. False: it leaves the surface.
 bool reaches_facet(vec3 way, inout Facets facets) {
     float clear = 1.0 - next_random(facets);
@@ -81,8 +88,7 @@ bool reaches_facet(vec3 way, inout Facets facets) {
 // Takes a path to the first facet that it meets; its normal, in the world. False: it comes from below the surface, which
 // the interpolated normal may say.
 bool first_facet(vec3 normal, Path path, uint seed, float roughness, out Facets facets, out vec3 facet_normal) {
-    vec3 across = normalize(abs(normal.z) < 0.9 ? cross(normal, vec3(0.0, 0.0, 1.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
-    facets = Facets(mat3(across, cross(normal, across), normal), max(roughness * roughness, 1e-4), 1.0, seed, path.events, 0u);
+    facets = Facets(tangent_frame(normal), max(roughness * roughness, 1e-4), 1.0, seed, path.events, 0u);
     vec3 way = path.direction * facets.world_from_surface;
     facet_normal = normal;
     if (way.z >= 0.0) return false;
