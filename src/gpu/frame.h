@@ -59,4 +59,10 @@ struct Frame {
     Binding bindings() const { return all_of(group); }
 };
 
+/// The scene of a frame as another view sees it, without light on surfaces. `constants`: of that view.
+inline Frame seen_from(const Frame& frame, Workspace& workspace, const Buffer& constants, vk::Extent2D extent) {
+    return {workspace, frame.scene, constants, frame.environment, frame.filtered_environment, frame.environment_kind,
+            extent};
+}
+
 }  // namespace pellucid

@@ -46,13 +46,7 @@ void TransmittedLight::begin(TransmittedLightSetup setup) {
 void TransmittedLight::forget() { source_ = LayerSource(); }
 
 Frame TransmittedLight::light_frame(const Frame& frame, const Buffer& constants) const {
-    return {workspace_,
-            frame.scene,
-            constants,
-            frame.environment,
-            frame.filtered_environment,
-            frame.environment_kind,
-            {setup_.resolution, setup_.resolution}};
+    return seen_from(frame, workspace_, constants, {setup_.resolution, setup_.resolution});
 }
 
 TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, const Frame& frame,

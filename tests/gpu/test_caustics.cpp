@@ -1,4 +1,5 @@
 // Light that glass bends and metal reflects, in frames: photons against closed forms.
+#include "closed_form/lights.h"
 #include "gpu/gpu_test.h"
 #include "unit/built_scenes.h"
 
@@ -12,22 +13,6 @@ namespace pellucid::test {
 namespace {
 
 using std::numbers::pi;
-
-Light sun(glm::vec3 direction, float irradiance = 1.0f) {
-    Light light;
-    light.kind = Light::Kind::kDirectional;
-    light.direction = glm::normalize(direction);
-    light.intensity = glm::vec3(irradiance);
-    light.angular_diameter = 0.0f;
-    return light;
-}
-
-Light lamp(glm::vec3 position, float intensity = 3.0f) {
-    Light light;
-    light.position = position;
-    light.intensity = glm::vec3(intensity);
-    return light;
-}
 
 Material diffuse(float albedo) {
     Material material;
@@ -99,7 +84,7 @@ glm::dvec3 total(const PhotonFlux& flux) {
 }
 
 TEST_P(Caustics, ABlackBoxGetsWhatMeetsClearGlass) {
-    for (const Light& light : {sun({0.3f, -1.0f, 0.2f}), lamp({1.2f, 2.0f, -0.7f})}) {
+    for (const Light& light : {sun({0.3f, -1.0f, 0.2f}, 1.0f), lamp({1.2f, 2.0f, -0.7f}, 3.0f)}) {
         Scene scene = scene_of(with_flat_normals(load_scene("shape:sphere,segments=24").meshes[0]), glass());
         enclose(scene);
         scene.lights = {light};
@@ -130,7 +115,7 @@ double share_that_leaves(double ior, double depth) {
 TEST_P(Caustics, ABlackBoxGetsWhatAnAbsorbingBallLeaves) {
     // Interpolated normals: photons take the weight of Veach 1997, 5.3.
     Scene ball = load_scene("shape:sphere,segments=128");
-    ball.lights = {sun({0.3f, -1.0f, 0.2f})};
+    ball.lights = {sun({0.3f, -1.0f, 0.2f}, 1.0f)};
     const double entered = flux_onto(ball.meshes[0], ball.lights[0]);
     ball.materials[0].attenuation_color = {1.0f, 0.5f, 0.1f};
     ball.materials[0].attenuation_distance = 2.0f * scene_bounds(ball).half_size.x;
@@ -153,7 +138,7 @@ TEST_P(Caustics, APlateSharesOutASunAsItsSeriesSays) {
         add(scene, square(), black, upward_at(-2.0f, 3.0f));
         add(scene, square(), black, glm::rotate(upward_at(-2.0f, 3.0f), float(pi), {1, 0, 0}));
         scene.objects[2].world_from_object[3].y = 2.0f;
-        scene.lights = {sun({0, -1, 0})};
+        scene.lights = {sun({0, -1, 0}, 1.0f)};
         const PhotonFlux flux = flux_of(scene);
         const double n = double(ior), through = 2 * n / (n * n + 1), r = std::pow((n - 1) / (n + 1), 2);
         const glm::dvec3 base(1.0, 0.5, 0.25), down = base * through, up = r + base * (1 - through - r);
@@ -168,7 +153,7 @@ TEST_P(Caustics, ALampInGlassSendsAllOfItsLightOut) {
     // From the middle of a ball every ray leaves along the normal: 4% go back, and leave elsewhere.
     Scene scene = scene_of(load_scene("shape:sphere,segments=128").meshes[0], glass());
     enclose(scene);
-    scene.lights = {lamp({0.01f, 0.02f, -0.01f})};
+    scene.lights = {lamp({0.01f, 0.02f, -0.01f}, 3.0f)};
     const PhotonFlux flux = flux_of(scene);
     EXPECT_NEAR(flux.objects[1].bent.g, 4 * pi * 3.0, 0.01 * 4 * pi * 3.0);
     EXPECT_EQ(flux.objects[1].straight.g, 0.0);
@@ -190,43 +175,11 @@ TEST_P(Caustics, MetalSendsASunOnAsAMirrorDoes) {
     EXPECT_EQ(flux.objects[0].bent.g, 0.0);
 }
 
-/// Parallel light along -y on a ball of radius 1 around the origin, by rings of equal flux: the flux, per unit of
-/// irradiance, that crosses the plane y = -`depth` in rings of width `width` around the axis, after up to 6 reflections.
-std::vector<double> rings_below_ball(double ior, double depth, double width, std::size_t count) {
-    std::vector<double> rings(count);
-    constexpr int kRays = 200000;
-    const auto land = [&](const glm::dvec2& from, const glm::dvec2& direction, double weight) {
-        if (direction.y >= 0.0) return;
-        const double rho = std::abs(from.x + direction.x * (depth + from.y) / -direction.y);
-        if (rho < width * double(count)) rings[std::size_t(rho / width)] += weight * pi / kRays;
-    };
-    const auto fresnel = [&](double cos_i, double cos_t) {
-        const double s = (cos_i - ior * cos_t) / (cos_i + ior * cos_t),
-                     p = (ior * cos_i - cos_t) / (ior * cos_i + cos_t);
-        return 0.5 * (s * s + p * p);
-    };
-    for (int i = 0; i < kRays; ++i) {
-        const double h = std::sqrt((i + 0.5) / kRays), cos_i = std::sqrt(1 - h * h),
-                     cos_t = std::sqrt(1 - h * h / ior / ior);
-        const double theta_i = std::asin(h), theta_t = std::asin(h / ior), r = fresnel(cos_i, cos_t);
-        // Angles from +y, clockwise: of the point on the ball, and of the ray's direction.
-        const auto at = [](double angle) { return glm::dvec2(std::sin(angle), std::cos(angle)); };
-        land(at(theta_i), at(2 * theta_i), r);
-        double point = theta_i, weight = 1 - r;
-        for (int reflections = 0; reflections <= 6; ++reflections) {
-            point += pi - 2 * theta_t;
-            land(at(point), at(point + theta_i), weight * (1 - r));
-            weight *= r;
-        }
-    }
-    return rings;
-}
-
 TEST_P(Caustics, AFloorShowsTheCausticOfABallLens) {
     Scene scene = load_scene("shape:sphere,segments=128");
     const Bounds bounds = scene_bounds(scene);
     const double radius = double(bounds.half_size.x);
-    scene.lights = {sun({0, -1, 0})};
+    scene.lights = {sun({0, -1, 0}, 1.0f)};
     add(scene, square(), diffuse(0.1f), upward_at(float(double(bounds.center.y) - 1.6 * radius), 4.0f));
     const auto rings = rings_below_ball(double(scene.materials[0].ior), 1.6, 0.01, 60);
     for (const std::size_t ring : {15u, 30u, 45u}) {
@@ -251,7 +204,7 @@ TEST_P(Caustics, TwoRunsAreBitEqual) {
     Scene scene = load_scene("shape:sphere");
     const Bounds bounds = scene_bounds(scene);
     add(scene, square(), diffuse(0.8f), upward_at(bounds.center.y - bounds.half_size.y, 4.0f));
-    scene.lights = {sun({0.4f, -1.0f, 0.2f}), lamp({1.0f, 3.0f, 1.0f})};
+    scene.lights = {sun({0.4f, -1.0f, 0.2f}, 1.0f), lamp({1.0f, 3.0f, 1.0f}, 3.0f)};
     const Camera camera = orbit_camera(bounds, 20.0f, 50.0f, 12.0f, 0.5f);
     const Image first = draw(scene, 40000, camera, 2, 64).radiance, second = draw(scene, 40000, camera, 2, 64).radiance;
     const Image without = draw(scene, 0, camera, 2, 64).radiance;
@@ -269,7 +222,7 @@ TEST_P(CausticsByTechnique, APlatePassesASunTwiceRefracted) {
     Scene scene = scene_of(box(0.5f), glass());
     scene.materials[0].base_color = {1.0f, 0.5f, 0.25f, 1.0f};
     add(scene, square(), diffuse(0.5f), upward_at(-2.0f, 3.0f));
-    scene.lights = {sun({0, -1, 0})};
+    scene.lights = {sun({0, -1, 0}, 1.0f)};
     renderer().set_scene(scene);
     renderer().set_environment(uniform_environment(glm::vec3(0.0f)));
     RenderSettings settings;

@@ -1,4 +1,5 @@
 // Light of suns, lamps and spots on opaque surfaces in frames, against closed forms and the path tracer.
+#include "closed_form/lights.h"
 #include "gpu/gpu_test.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -27,23 +28,6 @@ Material glass(float attenuation = 1.0f) {
     material.attenuation_color = glm::vec3(attenuation);
     material.attenuation_distance = 1.0f;
     return material;
-}
-
-Light sun(glm::vec3 direction, float irradiance = 2.0f) {
-    Light light;
-    light.kind = Light::Kind::kDirectional;
-    light.direction = glm::normalize(direction);
-    light.intensity = glm::vec3(irradiance);
-    light.angular_diameter = 0.0f;
-    return light;
-}
-
-Light lamp(glm::vec3 position, float intensity, float radius = 0.0f) {
-    Light light;
-    light.position = position;
-    light.intensity = glm::vec3(intensity);
-    light.radius = radius;
-    return light;
 }
 
 struct Box {
@@ -92,6 +76,14 @@ protected:
         settings.light = light;
         return renderer().render(settings);
     }
+    /// The scene that draw() has set, by the path tracer.
+    RenderResult trace(std::uint32_t samples) {
+        RenderSettings settings;
+        settings.width = settings.height = kSize;
+        settings.technique = "path";
+        settings.samples = samples;
+        return renderer().render(settings);
+    }
     /// Calls check(x, y, position) for pixels that show the top of the floor, 0.05 m or more from all edges that are seen.
     template <class Check>
     int for_each_floor_pixel(Check check) const {
@@ -134,7 +126,7 @@ TEST_P(DirectLight, OpaqueAndGlassCastShadows) {
     add(glass(), {{0.7, -0.5, -0.5}, {1.5, 0.3, 0.5}});
     for (const bool is_lamp : {false, true}) {
         const glm::vec3 towards(1.5f, 1.0f, -0.4f), position(2.5f, 2.0f, -0.8f);
-        scene_.lights = {is_lamp ? lamp(position, 5.0f) : sun(-towards)};
+        scene_.lights = {is_lamp ? lamp(position, 5.0f) : sun(-towards, 2.0f)};
         const RenderResult drawn = draw();
         int lit = 0, dark = 0;
         for_each_floor_pixel([&](int x, int y, const glm::dvec3& p) {
@@ -155,7 +147,7 @@ TEST_P(DirectLight, OpaqueAndGlassCastShadows) {
 // Straight down through a glass slab: twice 1 - R of normal incidence, 0.04, and exp(-sigma d).
 TEST_P(DirectLight, TintedShadowsOfGlass) {
     add(glass(0.5f), {{-1.0, -0.5, -1.0}, {1.0, 0.0, 1.0}});
-    scene_.lights = {sun({0.0f, -1.0f, 0.0f})};
+    scene_.lights = {sun({0.0f, -1.0f, 0.0f}, 2.0f)};
     LightOptions light;
     light.shadows = Shadows::kTinted;
     const RenderResult drawn = draw(light);
@@ -176,7 +168,7 @@ TEST_P(DirectLight, PanesLetLightPass) {
     pane.thickness = 0.0f;
     pane.base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
     add(pane, {{-1.0, -0.5, -1.0}, {1.0, 0.0, 1.0}});  // two panes, one above the other
-    scene_.lights = {sun({0.0f, -1.0f, 0.0f})};
+    scene_.lights = {sun({0.0f, -1.0f, 0.0f}, 2.0f)};
     const RenderResult drawn = draw();
     int shadowed = 0;
     for_each_floor_pixel([&](int x, int y, const glm::dvec3& p) {
@@ -258,11 +250,7 @@ TEST_P(DirectLight, EmissiveSurfacesLightOthers) {
     LightOptions light;
     light.transport = LightTransport::kDirect;
     const RenderResult found = draw(light, 64);
-    RenderSettings settings;
-    settings.width = settings.height = kSize;
-    settings.technique = "path";
-    settings.samples = 256;
-    const RenderResult truth = renderer().render(settings);
+    const RenderResult truth = trace(256);
     glm::dvec3 sum_found(0.0), sum_truth(0.0);
     for_each_floor_pixel([&](int x, int y, const glm::dvec3&) {
         sum_found += rgb(found.radiance, x, y);
@@ -281,11 +269,7 @@ TEST_P(DirectLight, BouncesAgreeWithThePathTracer) {
     light.transport = LightTransport::kFull;
     light.bounces = 6;
     const RenderResult found = draw(light, 128);
-    RenderSettings settings;
-    settings.width = settings.height = kSize;
-    settings.technique = "path";
-    settings.samples = 128;
-    const RenderResult truth = renderer().render(settings);
+    const RenderResult truth = trace(128);
     glm::dvec3 sum_found(0.0), sum_truth(0.0);
     double difference = 0.0, light_of_all = 0.0;
     for (int y = 0; y < kSize; ++y)

@@ -1,4 +1,5 @@
 // Light that mirrors and refracts before it meets something that scatters, against known answers.
+#include "closed_form/lights.h"
 #include "reference/dielectric.h"
 #include "reference/photon_emission.h"
 #include "traced_scenes.h"
@@ -16,22 +17,6 @@ namespace {
 
 using namespace test;
 using std::numbers::pi;
-
-Light sun(glm::vec3 direction, float irradiance = 3.0f) {
-    Light light;
-    light.kind = Light::Kind::kDirectional;
-    light.direction = glm::normalize(direction);
-    light.intensity = glm::vec3(irradiance);
-    light.angular_diameter = 0.0f;
-    return light;
-}
-
-Light lamp(glm::vec3 position, float intensity = 3.0f) {
-    Light light;
-    light.position = position;
-    light.intensity = glm::vec3(intensity);
-    return light;
-}
 
 std::vector<Photon> photons_of(const Scene& scene, std::uint32_t count) {
     const Geometry geometry(scene, {});
@@ -110,7 +95,7 @@ TEST(PhotonMap, TheRadiusShrinksByItsLaw) {
 }
 
 TEST(Photons, ABlackBoxGetsWhatMeetsClearGlass) {
-    for (const Light& light : {sun({0.3f, -1, 0.2f}), lamp({1.2f, 2, -0.7f})}) {
+    for (const Light& light : {sun({0.3f, -1, 0.2f}, 3.0f), lamp({1.2f, 2, -0.7f}, 3.0f)}) {
         Mesh ball = load_scene("shape:sphere,segments=24").meshes[0];
         Scene scene = scene_of(with_flat_normals(ball), glass());
         scene.lights = {light};
@@ -138,7 +123,7 @@ double share_that_leaves(double ior, double depth) {
 TEST(Photons, ABlackBoxGetsWhatAnAbsorbingBallLeaves) {
     // Interpolated normals: photons take the weight of Veach 1997, 5.3.
     Scene ball = load_scene("shape:sphere,segments=128");
-    ball.lights = {sun({0.3f, -1, 0.2f})};
+    ball.lights = {sun({0.3f, -1, 0.2f}, 3.0f)};
     const double entered = flux_onto(ball.meshes[0], ball.lights[0]);
     const float diameter = 2.0f * scene_bounds(ball).half_size.x;
     ball.materials[0].attenuation_color = {1.0f, 0.5f, 0.1f};
@@ -196,38 +181,6 @@ TEST(Photons, InterpolatedNormalsLightWhatPathsFromTheEyeSee) {
     const double cos_out = std::sqrt(1.0 - across * across);
     const double expected = passes(std::cos(d)) * passes(cos_out) * std::cos(d) * std::cos(g) / std::cos(t);
     EXPECT_NEAR(irradiance, expected, 0.01 * expected);
-}
-
-/// Parallel light along -y on a ball of radius 1 around the origin, by rings of equal flux: the flux, per unit of
-/// irradiance, that crosses the plane y = -`depth` in rings of width `width` around the axis, after up to 6 reflections inside.
-std::vector<double> rings_below_ball(double ior, double depth, double width, std::size_t count) {
-    std::vector<double> rings(count);
-    constexpr int kRays = 200000;
-    const auto land = [&](const glm::dvec2& from, const glm::dvec2& direction, double weight) {
-        if (direction.y >= 0.0) return;
-        const double rho = std::abs(from.x + direction.x * (depth + from.y) / -direction.y);
-        if (rho < width * double(count)) rings[std::size_t(rho / width)] += weight * pi / kRays;
-    };
-    const auto fresnel = [&](double cos_i, double cos_t) {
-        const double s = (cos_i - ior * cos_t) / (cos_i + ior * cos_t),
-                     p = (ior * cos_i - cos_t) / (ior * cos_i + cos_t);
-        return 0.5 * (s * s + p * p);
-    };
-    for (int i = 0; i < kRays; ++i) {
-        const double h = std::sqrt((i + 0.5) / kRays), cos_i = std::sqrt(1 - h * h),
-                     cos_t = std::sqrt(1 - h * h / ior / ior);
-        const double theta_i = std::asin(h), theta_t = std::asin(h / ior), r = fresnel(cos_i, cos_t);
-        // Angles from +y, clockwise: of the point on the ball, and of the ray's direction.
-        const auto at = [](double angle) { return glm::dvec2(std::sin(angle), std::cos(angle)); };
-        land(at(theta_i), at(2 * theta_i), r);
-        double point = theta_i, weight = 1 - r;
-        for (int reflections = 0; reflections <= 6; ++reflections) {
-            point += pi - 2 * theta_t;
-            land(at(point), at(point + theta_i), weight * (1 - r));
-            weight *= r;
-        }
-    }
-    return rings;
 }
 
 TEST(Photons, ABallLensFocusesAsACountOfRaysSays) {
@@ -299,7 +252,7 @@ TEST(Photons, LightStraightThroughPanesCountsOnce) {
     pane.thickness = 0.0f;
     Scene scene = scene_of(floor_at(0.0f), matt(0.5f));
     add(scene, floor_at(1.0f, 2.0f), pane);
-    scene.lights = {lamp({0, 2, 0}), sun({0.1f, -1, 0})};
+    scene.lights = {lamp({0, 2, 0}, 3.0f), sun({0.1f, -1, 0}, 3.0f)};
     const Camera camera = parallel_camera(glm::vec3(0), {0, -1, 0}, 1.0f, 0.5f);
     const auto trace_with = [&](std::uint32_t photons) {
         return Tracer(scene).path_trace(camera, uniform(0.0f), settings_of(8, 4, photons)).radiance.pixels;
@@ -315,7 +268,7 @@ TEST(Photons, APaneMirrorsALampOntoTheFloor) {
     add(scene, square(), pane,
         glm::translate(glm::mat4(1.0f), glm::vec3(0, 1.01f, 0)) *
             glm::rotate(glm::mat4(1.0f), 1.5707963f, glm::vec3(0, 1, 0)));
-    scene.lights = {lamp({2, 2, 0})};
+    scene.lights = {lamp({2, 2, 0}, 3.0f)};
     const Camera camera = parallel_camera({1, 0, 0}, {0, -1, 0}, 0.01f);
     const PathTracedImage image = Tracer(scene).path_trace(camera, uniform(0.0f), settings_of(1, 2000, 4000));
     const double cosine = 3 / std::sqrt(13.0), f = incidence({0, 0, -cosine}, {0, 0, 1}, 1.0, 1.5).reflectance;
@@ -331,7 +284,7 @@ TEST(Photons, WhatLiesInGlassShowsTheLightThatComesIn) {
     Scene scene = scene_of(floor_at(0.0f, 0.4f), matt(0.002f));
     add(scene, with_flat_normals(cube()), glass());
     scene.materials[1].base_color = {0.5f, 0.5f, 0.5f, 1.0f};
-    scene.lights = {sun({0, -1, 0})};
+    scene.lights = {sun({0, -1, 0}, 3.0f)};
     const Camera camera = parallel_camera({0.1f, 0, 0.1f}, {0, -1, 0}, 1e-3f);
     const PathTracedImage image = Tracer(scene).path_trace(camera, uniform(0.0f), settings_of(1, 1000, 1000));
     const double expected = 0.5 * 0.002 / pi * 3 * 0.96 * 0.96 / 2.25, error = double(image.standard_error.pixels[0]);
@@ -342,7 +295,7 @@ TEST(Photons, WhatLiesInGlassShowsTheLightThatComesIn) {
 TEST(Photons, PicturesDependOnNeitherThreadsNorPortions) {
     Scene scene = load_scene("shape:sphere,segments=16");
     add(scene, floor_at(-1.5f, 2.0f), matt(0.5f));
-    scene.lights = {sun({0.2f, -1, 0}), lamp({1, 3, 0})};
+    scene.lights = {sun({0.2f, -1, 0}, 3.0f), lamp({1, 3, 0}, 3.0f)};
     const auto trace_on = [&](std::uint32_t threads, std::uint32_t first, std::uint32_t samples) {
         PathTraceSettings settings = settings_of(20, samples, 60000);
         settings.first_sample = first;

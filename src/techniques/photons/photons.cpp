@@ -93,11 +93,6 @@ bool in_solid(const GpuScene& scene, const Light& light) {
     return false;
 }
 
-Frame light_view_frame(const Frame& frame, const Buffer& constants, vk::Extent2D extent) {
-    return {frame.workspace,        frame.scene, constants, frame.environment, frame.filtered_environment,
-            frame.environment_kind, extent};
-}
-
 }  // namespace
 
 void Photons::begin(PhotonSetup setup) {
@@ -116,13 +111,7 @@ Frame Photons::light_frame(const Frame& frame) {
     values.first_x = values.first_y = kFirstTexel;
     const Buffer& constants = workspace_.buffer("photon constants", sizeof(values), true);
     std::memcpy(constants.mapped(), &values, sizeof(values));
-    return {workspace_,
-            frame.scene,
-            constants,
-            frame.environment,
-            frame.filtered_environment,
-            frame.environment_kind,
-            {values.width, values.height}};
+    return seen_from(frame, workspace_, constants, {values.width, values.height});
 }
 
 const Buffer& Photons::upload_windows(const Frame& frame) {
@@ -171,7 +160,7 @@ const Buffer& Photons::gather_exits(Recorder& recorder, const Frame& from_light,
         const Buffer& own =
             workspace_.buffer("constants of photon view " + std::to_string(number), sizeof(values), true);
         std::memcpy(own.mapped(), &values, sizeof(values));
-        Frame view = light_view_frame(from_light, own, {values.width, values.height});
+        Frame view = seen_from(from_light, from_light.workspace, own, {values.width, values.height});
         const Opaque opaque = setup_.draw_opaque(recorder, view);
         const Layers hidden =
             source_.build(recorder, view, opaque, {view.scene.refractive, setup_.by->layer_count(parameters)});
