@@ -175,6 +175,34 @@ TEST_P(Caustics, MetalSendsASunOnAsAMirrorDoes) {
     EXPECT_EQ(flux.objects[0].bent.g, 0.0);
 }
 
+// Rough metal throws light on a wall that gets no other. In full light a path from the wall can meet the metal's highlight of the
+// sun, too: photons alone have it. The path tracer has no photons there. 2%: its noise, and kernels of the photons.
+TEST_P(Caustics, RoughMetalThrowsItsLightOnce) {
+    Scene scene;
+    Material metal = diffuse(0.8f);
+    metal.metallic = 1.0f;
+    metal.roughness = 0.25f;
+    add(scene, square(), metal, glm::rotate(glm::mat4(1.0f), -float(0.25 * pi), {1, 0, 0}));
+    add(scene, square(), diffuse(0.5f), glm::scale(glm::translate(glm::mat4(1.0f), {0, 0, 3}), glm::vec3(2.0f)));
+    scene.lights = {sun({0, -1, 0}, 2.0f)};
+    Camera camera;
+    camera.world_from_view = glm::rotate(glm::translate(glm::mat4(1.0f), {0, 0, 2}), float(pi), {0, 1, 0});
+    camera.vertical_fov = 0.4f;
+    const auto mean = [](const Image& image) {
+        double sum = 0.0;
+        for (const float value : image.pixels) sum += double(value);
+        return sum / double(image.pixels.size());
+    };
+    const double found = mean(draw(scene, 100000, camera, 16).radiance);
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    settings.technique = "path";
+    settings.samples = 8192;
+    const double truth = mean(renderer().render(settings).radiance);
+    EXPECT_GT(truth, 0.1);
+    EXPECT_NEAR(found, truth, 0.02 * truth);
+}
+
 TEST_P(Caustics, AFloorShowsTheCausticOfABallLens) {
     Scene scene = load_scene("shape:sphere,segments=128");
     const Bounds bounds = scene_bounds(scene);
