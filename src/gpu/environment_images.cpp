@@ -72,6 +72,9 @@ GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Envi
                      {reads_layer("pyramid", pyramid, 0), writes("filtered_environment", filtered)}, filtered.extent());
     recorder.compute(workspace.compute(shaders::tabulate_facets_comp), {writes("filtered_environment", filtered)},
                      {PELLUCID_FACET_TABLE_SIZE, PELLUCID_FACET_TABLE_SIZE});
+    recorder.compute(workspace.compute(shaders::tabulate_irradiance_comp),
+                     {reads_layer("pyramid", pyramid, 0), writes("filtered_environment", filtered)},
+                     {PELLUCID_FACET_TABLE_SIZE, PELLUCID_FACET_TABLE_SIZE});
     recorder.submit_and_wait();
     return filtered;
 }

@@ -21,4 +21,8 @@ ivec2 filter_level_corner(int level) {
 const int kFacetTableSize = PELLUCID_FACET_TABLE_SIZE;
 const ivec2 kFacetTableCorner = ivec2(7 * PELLUCID_FILTER_SIZE / 4, PELLUCID_FILTER_SIZE >> kFilterHalvings);
 
+// Beside it: irradiance / pi, an octahedral map of the normal; see tabulate_irradiance.comp.
+const int kIrradianceTableSize = PELLUCID_FACET_TABLE_SIZE;
+const ivec2 kIrradianceTableCorner = kFacetTableCorner + ivec2(kFacetTableSize, 0);
+
 #endif

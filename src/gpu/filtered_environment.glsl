@@ -21,4 +21,9 @@ vec3 filtered_environment_radiance(vec3 direction, float roughness) {
     return mix(sharper, filter_level_radiance(level + 1, direction), position - float(level));
 }
 
+// Irradiance / pi of the environment on a surface with that unit normal, in more detail than diffuse_radiance() has.
+vec3 detailed_diffuse_radiance(vec3 normal) {
+    return octahedral_map_value(filtered_environment, kIrradianceTableCorner, kIrradianceTableSize, normal).rgb;
+}
+
 #endif

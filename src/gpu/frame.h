@@ -41,6 +41,8 @@ struct Frame {
     FrameLight light = {};
     std::optional<WantedSamples> wanted_samples = std::nullopt;
     const std::vector<Binding>* photons = nullptr;       ///< for look-ups (light/photon_store.h); null: there are none
+    const std::vector<Binding>* irradiance = nullptr;    ///< of a cache, for look-ups; null: there is none
+    std::uint32_t bounces_before_cache = 0;              ///< that paths follow before the cache stands for the rest
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
 
     std::vector<Binding> group = {reads("Frame", constants),

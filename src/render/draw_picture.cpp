@@ -37,6 +37,20 @@ const GpuImage& upload_counts(const Frame& frame, const std::vector<std::uint32_
 
 }  // namespace
 
+void Renderer::Impl::light_frame(const Frame& frame, bool first, std::vector<PassTime>& times) {
+    if (!photons.any() && !irradiance.any()) return;
+    for (bool again = true; again;) {
+        if (photons.any()) photons.record(recorder, frame);
+        if (irradiance.any()) irradiance.gather(recorder, frame, first);
+        times = with_missing_passes(recorder.submit_and_wait(), times);
+        again = photons.must_repeat(frame);
+        again = irradiance.must_repeat() || again;
+    }
+    if (!irradiance.any()) return;
+    irradiance.store(recorder);
+    times = with_missing_passes(std::move(times), recorder.submit_and_wait());
+}
+
 std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameSettings& chosen,
                                                 const RenderSettings& settings, std::optional<std::uint32_t> sample,
                                                 const Progress& progress, std::optional<FrameImages>& images) {
@@ -46,14 +60,13 @@ std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameS
     std::optional<TracedView> traced;
     if (chosen.truth) traced.emplace(traced_view(settings, jitter, progress));
     std::vector<PassTime> times;
+    light_frame(frame, sample.value_or(0) == 0, times);
     for (;;) {
         TransmittedLight& transmitted = solid_lighting.transmitted();
-        images.emplace(
-            record_frame(recorder, frame, chosen, layer_source, transmitted, photons, traced ? &*traced : nullptr));
+        images.emplace(record_frame(recorder, frame, chosen, layer_source, transmitted, traced ? &*traced : nullptr));
         times = with_missing_passes(recorder.submit_and_wait(), times);
         const bool transmitted_again = transmitted.must_repeat(frame);
-        const bool light_again = photons.must_repeat(frame) || transmitted_again;
-        if (!layer_source.must_repeat(frame) && !light_again) return times;
+        if (!layer_source.must_repeat(frame) && !transmitted_again) return times;
     }
 }
 

@@ -4,10 +4,9 @@
 
 namespace pellucid {
 FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source,
-                         TransmittedLight& transmitted, Photons& photons, const TracedView* traced) {
+                         TransmittedLight& transmitted, const TracedView* traced) {
     const std::uint32_t layer_count = settings.technique ? settings.technique->layer_count(settings.parameters) : 1;
     source.begin_frame(settings.layer_builder);
-    if (photons.any()) photons.record(recorder, frame);
     const Opaque opaque = draw_opaque(recorder, frame);
     transmitted.add(recorder, frame, opaque);
     const Layers layers = source.build(recorder, frame, opaque, {frame.scene.refractive, layer_count});

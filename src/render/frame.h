@@ -2,6 +2,7 @@
 
 #include "shade/shade.h"
 #include "shade/transmitted_light.h"
+#include "techniques/irradiance/irradiance_cache.h"
 #include "techniques/photons/photons.h"
 #include "techniques/truth.h"
 
@@ -26,9 +27,9 @@ struct FrameImages {
     const GpuImage& radiance;  ///< RGBA32F, scene-linear
 };
 
-/// Records one frame: the whole renderer in a few lines. To be recorded again if `source`, `transmitted` or `photons` must_repeat().
+/// Records one frame: the whole renderer in a few lines. To be recorded again if `source` or `transmitted` must_repeat().
 /// `traced`: for truths.
 FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source,
-                         TransmittedLight& transmitted, Photons& photons, const TracedView* traced);
+                         TransmittedLight& transmitted, const TracedView* traced);
 
 }  // namespace pellucid

@@ -57,6 +57,18 @@ std::vector<LightView> views_of(const Light& light, std::uint32_t number, const 
 
 }  // namespace
 
+float scene_brightness(const Scene& scene, const Bounds& bounds, const gpu::FrameConstants& environment) {
+    constexpr float kMean = 0.282095f;  // irradiance of the first harmonic
+    const auto largest = [](const glm::vec3& color) { return std::max({color.r, color.g, color.b}); };
+    float sum = kMean * largest(glm::abs(glm::vec3(environment.irradiance[0])));
+    const float radius = std::max(bounds.radius, 1e-6f);
+    for (const Light& light : scene.lights)
+        sum += largest(light.intensity) / (light.kind == Light::Kind::kDirectional ? 1.0f : radius * radius);
+    for (const Object& object : scene.objects)
+        sum = std::max(sum, largest(scene.materials[std::size_t(object.material)].emission));
+    return std::max(sum, 1e-20f);
+}
+
 PhotonSetup photon_setup(const Scene& scene, const Bounds& bounds, std::uint32_t count) {
     PhotonSetup setup{.lights = scene.lights};
     if (count == 0) return setup;

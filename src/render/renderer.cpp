@@ -37,6 +37,9 @@ const Technique* caustics_of(const LightOptions& light, const Device& device) {
     return info.whole_scene ? nullptr : technique;
 }
 
+/// Stills of more samples gather irradiance at every pixel: their noise is then below the cache's blur.
+constexpr std::uint32_t kSamplesOfCache = 32;
+
 /// Photons of every light in every frame.
 std::uint32_t photons_of(const FrameSettings& chosen, LightTransport transport) {
     constexpr std::uint32_t kDefault = 16384;
@@ -103,6 +106,8 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
 void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& light, const Camera& view,
                              const Progress& progress, std::vector<std::string>& warnings) {
     aim_photons(chosen, light);
+    const bool caches = chosen.technique != nullptr && light.bounces > 0 && !scene->opaque.empty();
+    irradiance.begin(caches ? scene_brightness(cpu.scene(), scene->bounds, environment_constants) : 0.0f);
     if (chosen.truth) return;
     if (!chosen.info.whole_scene) {
         if (!scene->topology) scene->prepare_topology(device, cpu.scene());
@@ -113,7 +118,7 @@ void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& ligh
     bake::BakeCache passing{std::filesystem::path()};
     bake::BakeCache& cache = scene->moves > 0 ? passing : bake_cache;
     const Preparation preparation{device, cpu.scene(), *scene, cache, options.threads, progress, warnings};
-    if (photons.any() || (!chosen.info.whole_scene && light.any() && !scene->opaque.empty()))
+    if (photons.any() || irradiance.any() || (!chosen.info.whole_scene && light.any() && !scene->opaque.empty()))
         prepare_light(preparation);
     if (chosen.technique->prepare != nullptr) chosen.technique->prepare(preparation, chosen.parameters);
     if (photons.any() && chosen.caustics != nullptr && chosen.caustics->prepare != nullptr)
@@ -200,6 +205,7 @@ void Renderer::set_scene(const Scene& scene) {
     impl_->layer_source = LayerSource();
     impl_->solid_lighting.forget();
     impl_->photons.forget();
+    impl_->irradiance.forget();
     impl_->cpu.set_scene(Scene{});
     impl_->scene_camera.reset();
     try {
@@ -250,6 +256,9 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
     Frame frame = impl.frame_of(settings);
     frame.photons = impl.photons.bindings();
+    frame.irradiance = impl.irradiance.bindings();
+    frame.bounces_before_cache =
+        settings.still && (settings.samples > kSamplesOfCache || settings.error > 0.0f) ? 1 : 0;
     if (settings.view == View::kWavefront) frame.front_exposure = std::exp2(settings.exposure_ev);
     impl.workspace.trim();
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
@@ -271,6 +280,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
         impl.layer_source = LayerSource();
         impl.solid_lighting.forget();
         impl.photons.forget();
+        impl.irradiance.forget();
         throw;
     }
     return result;
@@ -317,6 +327,7 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
         impl.solid_lighting.forget();
         impl.photons.forget();
+        impl.irradiance.forget();
         throw;
     }
     result.cut_rays = transmitted.cut_rays();

@@ -26,7 +26,7 @@ inline bool draws_picture(const FrameSettings& chosen) {
 struct Renderer::Impl {
     explicit Impl(const DeviceOptions& given)
         : device(given), workspace(device), recorder(device), cpu(given.threads), options(given),
-          solid_lighting(device), photons(device), adaptation(device) {}
+          solid_lighting(device), photons(device), irradiance(device), adaptation(device) {}
 
     Device device;
     Workspace workspace;
@@ -36,6 +36,7 @@ struct Renderer::Impl {
     bake::BakeCache bake_cache;
     SolidLighting solid_lighting;
     Photons photons;
+    IrradianceCache irradiance;
     Adaptation adaptation;
     LayerSource layer_source;
     vk::Extent2D layer_extent;  // the size that `layer_source` has learnt from
@@ -103,6 +104,8 @@ struct Renderer::Impl {
         solid_lighting.begin(settings, lights, cpu.scene(), *scene, scene->moves > 0 ? passing : bake_cache,
                              options.threads, progress, warnings);
     }
+    /// Sends photons and gathers irradiance for a frame, and waits until both are there. Adds its times to `times`.
+    void light_frame(const Frame& frame, bool first, std::vector<PassTime>& times);
     /// For a picture of a technique whose parameter `photons` asks for some of every light.
     void aim_photons(const FrameSettings& chosen, const FrameLight& light);
     gpu::FrameConstants current_constants() const {

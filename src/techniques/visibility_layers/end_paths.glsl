@@ -36,10 +36,6 @@ layout(constant_id = 41) const bool kPhotons = false;  // lights throw caustics
 #include "techniques/ihrke_2007/lights_on_surfaces.glsl"
 #endif
 
-// A diffuse reflection sees the environment blurred, so that a small sun does not show as noise.
-const float kBounceRoughness = 0.5;
-const float kSmoothAlpha = 1e-4;  // below, a surface counts as a perfect mirror
-
 // The opaque surface at which a path has ended.
 struct OpaquePoint {
     OpaqueSurface surface;
@@ -93,77 +89,14 @@ vec3 light_of(OpaquePoint point, vec3 direction, bool emits) {
     return opaque_radiance(point.surface, point.normal, -direction) + emission;
 }
 
-vec3 diffuse_albedo(OpaquePoint point) {
-    float root = (point.surface.ior - 1.0) / (point.surface.ior + 1.0);
-    return point.unlit ? vec3(0.0) : (1.0 - point.surface.metallic) * (1.0 - root * root) * point.surface.base_color;
-}
-
-uint bounces(PathState state) { return (state.mark & kBounceMask) >> kBounceShift; }
-
-// A direction in which a surface looks to what is around it.
-struct Bounce {
-    vec3 direction;  // unit
-    vec3 weight;     // of the radiance from there
-    float alpha;     // of the lobe from which it was chosen; 0: a perfect mirror's
-};
-
-Bounce diffuse_bounce(OpaquePoint point, vec2 u) {
-    float radius = sqrt(u.x), angle = 6.283185307 * u.y;
-    vec3 direction = tangent_frame(point.normal) * vec3(radius * cos(angle), radius * sin(angle), sqrt(max(1.0 - u.x, 0.0)));
-    return Bounce(direction, diffuse_albedo(point), kBounceRoughness * kBounceRoughness);
-}
-
-// By a facet that is visible from the path's side (Heitz 2018). The weight is 0 where the facet sends light into the surface.
-Bounce facet_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
-    float alpha = point.surface.roughness * point.surface.roughness;
-    if (alpha < kSmoothAlpha) alpha = 0.0;
-    FacetReflection reflected = reflect_by_facet(point.normal, to_viewer, alpha, u);
-    float root = (point.surface.ior - 1.0) / (point.surface.ior + 1.0);
-    vec3 at_normal = mix(vec3(root * root), point.surface.base_color, point.surface.metallic);
-    vec3 fresnel = mix(at_normal, vec3(greaterThan(at_normal, vec3(0.0))), schlick_weight(clamp(reflected.cosine, 0.0, 1.0)));
-    return Bounce(reflected.direction, fresnel * reflected.visible, alpha);
-}
-
-float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
-
-// One of the two, at random by their weights; facets only where all light is followed.
-Bounce choose_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, float choice) {
-    Bounce diffuse = diffuse_bounce(point, u);
-    if (!kFullLight || point.unlit) return diffuse;
-    Bounce facet = facet_bounce(point, to_viewer, u);
-    float share = largest(facet.weight) / max(largest(facet.weight) + largest(diffuse.weight), 1e-20);
-    bool by_facet = choice < share;
-    if (by_facet) diffuse = facet;
-    diffuse.weight /= by_facet ? share : 1.0 - share;
-    return diffuse;
-}
-
-// One direction of those from which the surface has been lit, to see what is there instead of the environment. What it
-// then finds counts, less what was assumed: surfaces that stand alone stay as they are, without noise.
-void bounce(ivec2 texel, PathState state, OpaquePoint point) {
-    uint branches_before = waiting[state.pixel].y, before = bounces(state);
-    if (before >= most_bounces || branches_before >= max(most_branches, most_bounces)) return;
-    uint seed = hash(uvec3(texel + first_pixel(), 77u + branches_before + 256u * before)).x;
-    Bounce chosen = choose_bounce(point, -state.path.direction, random_numbers(seed, state.path.events),
-                                  random_number(seed, state.path.events));
-    vec3 weight = state.path.transmittance * chosen.weight;
-    if (!(largest(weight) > threshold)) return;
-    uint mark = state.mark;
-    state.path.direction = chosen.direction;
-    state.path.transmittance = weight;
-    state.mark = (mark & 0xffffu & ~(kMainPath | kMetOpaque | kBounceMask | kBounced | kUnbent)) | (before + 1u) << kBounceShift;
-    // A mirror's path sees lights; others leave these to shadow rays.
-    if (chosen.alpha > 0.0) state.mark = widened(state.mark | kBounced | kUnbent, chosen.alpha);
-    float roughness = sqrt(spread_of(state.mark));
-    if (push_branch(state, branch_capacity, true))
-        add_light(texel, mark, -weight * filtered_environment_radiance(chosen.direction, roughness));
-}
-
+#include "techniques/visibility_layers/bounces.glsl"
 #include "techniques/visibility_layers/look_at_lights.glsl"
 
 // What the environment sends along a path.
 vec3 environment_light(PathState state) {
     vec3 direction = state.path.direction;
+    // What glass and mirrors throw on a diffuse surface is sharp.
+    if (has_mark(state, kBounced) && !has_mark(state, kUnbent)) return state.path.transmittance * environment_radiance(direction);
     float spread = kRough || has_mark(state, kBounced) ? spread_of(state.mark) : 0.0;
     if (spread > 0.0) return state.path.transmittance * filtered_environment_radiance(direction, sqrt(spread));
     return state.path.transmittance * (environment_radiance(direction) + suns_ahead(direction));
@@ -193,6 +126,10 @@ bool end_at_surface(ivec2 texel, PathState state) {
     OpaquePoint point = opaque_point(state);
     if (point.alpha < 0.0) return false;
     if (kLightsSurfaces && has_mark(state, kToLight)) return true;  // the surface is in the light's way
+    if (kGathers && has_mark(state, kMainPath)) {
+        gather(texel, state, point);
+        return true;
+    }
     bool drawn = has_mark(state, kOpaquePixel) && has_mark(state, kMainPath);  // by the rasteriser
     if (!drawn) {
         if (has_mark(state, kMainPath)) store_result(texel, state);
@@ -201,14 +138,14 @@ bool end_at_surface(ivec2 texel, PathState state) {
         vec3 light = light_of(point, state.path.direction, emits);
 #ifdef PELLUCID_LIT
         if (!point.unlit)
-            light += diffuse_albedo(point) / (3.14159265 * point.ior * point.ior) *
+            light += diffuse_albedo(point, -state.path.direction) / (3.14159265 * point.ior * point.ior) *
                      irradiance_of_lights(state.path.position, point.normal);
 #endif
         add_light(texel, state.mark, state.path.transmittance * light);
     }
     if (kPhotons && !point.unlit) {
         vec3 caustic = photon_irradiance(state.path.position, point.normal);
-        add_light(texel, state.mark, state.path.transmittance * diffuse_albedo(point) * caustic / (3.14159265 * point.ior * point.ior));
+        add_light(texel, state.mark, state.path.transmittance * diffuse_albedo(point, -state.path.direction) * caustic / (3.14159265 * point.ior * point.ior));
     }
     // Light that goes through translucent surfaces is drawn with them (shade/transmit_light.comp), and what they reflect.
     if (kLightsSurfaces && !point.unlit && !(drawn && point.translucent)) look_at_lights(texel, state, point);
@@ -224,6 +161,7 @@ void end_in_the_open(ivec2 texel, PathState state) {
         add_light(texel, state.mark, state.path.transmittance / (ior * ior));
         return;
     }
+    if (kGathers && has_mark(state, kMainPath)) return;
     if (closing != 0u && has_mark(state, kMainPath)) state.path.status = kStatusEventLimit;
     if (has_mark(state, kMainPath)) store_result(texel, state);
     if (kVisibleLights > 0u && has_mark(state, kMetLamp)) {

@@ -26,6 +26,9 @@ constexpr std::uint32_t kVolumesPerPath = 16;
 constexpr std::uint32_t kSurfacesPerPass = 16;
 constexpr std::uint32_t kSurfacesPerPassOnCpu = 4;
 
+/// More bounces than any path has.
+constexpr std::uint32_t kNeverCached = 8;
+
 constexpr std::array<const char*, 2> kListNames = {"paths 0", "paths 1"};
 
 /// Words of PathMedia per path.
@@ -135,7 +138,9 @@ private:
                 {"kFullLight", task_.full_light},
                 {"kVisibleLights", frame_.light.visible_lights()},
                 {"kFromLight", task_.from_light},
-                {"kPhotons", frame_.photons != nullptr}};
+                {"kPhotons", frame_.photons != nullptr},
+                {"kGathers", task_.gathers},
+                {"kCachedFrom", frame_.irradiance != nullptr ? frame_.bounces_before_cache : kNeverCached}};
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
 

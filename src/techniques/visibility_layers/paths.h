@@ -83,6 +83,7 @@ struct PathTask {
     /// Begins paths at their first end, in a dispatch over all of the frame, besides those of `begin`; none if empty.
     ShaderCode begin_at_end = {};
     bool full_light = false;       ///< what facets of opaque surfaces reflect is followed, too
+    bool gathers = false;          ///< paths sample the irradiance of the first diffuse surface that they meet
     bool lights_surfaces = false;  ///< opaque surfaces at which paths end look to lights, and to what is around them
     std::vector<Binding> bindings = {};  ///< of `begin` and `end`, besides those of paths
     Ways ways = Ways::kTransmitted;

@@ -53,12 +53,26 @@ PathTask view_task(const Frame& frame, const ParameterValues& parameters, const 
     return task;
 }
 
+/// What the ends of paths bind besides what they write: caches of light, or what stands for them.
+std::vector<Binding> light_bindings(const Frame& frame) {
+    constexpr vk::DeviceSize kLeast = 96;  // a grid and a node
+    std::vector<Binding> bindings = photon_bindings(frame);
+    const Buffer& none = frame.workspace.buffer("no irradiance", kLeast);
+    if (frame.irradiance == nullptr)
+        bindings.push_back(reads("IrradianceNodes", none));
+    else
+        bindings.insert(bindings.end(), frame.irradiance->begin(), frame.irradiance->end());
+    return bindings;
+}
+
 std::vector<Binding> view_bindings(const Frame& frame, const Layers& layers, const Refraction& refraction,
                                    const GpuImage& reflected) {
-    std::vector<Binding> bindings = photon_bindings(frame);
+    std::vector<Binding> bindings = light_bindings(frame);
     bindings.insert(bindings.end(),
-                    {layers.bindings(), refraction.bindings(), updates("path_radiance", *refraction.radiance),
-                     updates("reflected_radiance", reflected), updates("surface_radiance", layers.opaque.radiance)});
+                    {layers.bindings(), refraction.bindings(),
+                     updates("IrradiancePoints", frame.workspace.buffer("no points of irradiance", 16)),
+                     updates("path_radiance", *refraction.radiance), updates("reflected_radiance", reflected),
+                     updates("surface_radiance", layers.opaque.radiance)});
     return bindings;
 }
 
@@ -124,6 +138,30 @@ void light_surfaces(Recorder& recorder, const Frame& frame, const Layers& layers
         frame.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame.extent);
     task.bindings = view_bindings(frame, layers, refraction, reflected);
     follow(recorder, frame, layers.source, finder, task);
+}
+
+const GpuImage& gather_irradiance(Recorder& recorder, const Frame& frame, LayerSource& source, const Buffer& points) {
+    const SceneTopology& topology = *frame.scene.topology;
+    const SurfaceFinder finder = SurfaceFinder::of_device(recorder, frame, source);
+    PathTask task{.begin = shaders::begin_gather_comp,
+                  .end = shaders::end_paths_comp,
+                  .gathers = true,
+                  .ways = Ways::kStochastic};
+    light_surfaces(task, frame);
+    task.push.max_events = kEventsOfLight;
+    task.push.threshold = kThresholdOfLight;
+    task.push.whole_picture = 1;
+    task.push.eye_differs = topology.eye_differs ? 1 : 0;
+    task.push.eye_depth = topology.eye_depth;
+    const Refraction refraction = allocate_refraction(frame, true);
+    const GpuImage& unused = frame.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame.extent);
+    task.bindings = light_bindings(frame);
+    task.bindings.insert(
+        task.bindings.end(),
+        {refraction.bindings(), updates("path_radiance", *refraction.radiance), updates("reflected_radiance", unused),
+         updates("surface_radiance", unused), updates("IrradiancePoints", points)});
+    follow(recorder, frame, source, finder, task);
+    return *refraction.radiance;
 }
 
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,

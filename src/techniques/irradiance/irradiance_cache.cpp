@@ -1,0 +1,117 @@
+#include "techniques/irradiance/irradiance_cache.h"
+
+#include "gpu/camera_constants.h"
+#include "techniques/shaders.h"
+#include "techniques/visibility_layers/visibility_layers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace pellucid {
+namespace {
+
+/// Pixels along a side for one that gathers: a quarter of a frame's pixels do.
+constexpr std::uint32_t kGatherStep = 2;
+/// Spacing of nodes in the first frame, pixels: a node of a surface that faces the eye then has 144 samples.
+constexpr float kNodeSpacing = 24.0f;
+/// Spacing falls with this power of the number of frames, so that a still's blur vanishes, and slowly enough for noise to.
+constexpr float kShrinking = -1.0f / 6.0f;
+/// Units of a sum in the scene's brightness.
+constexpr float kUnits = 16777216.0f;
+
+/// Twins in light/irradiance_cells.glsl.
+struct IrradianceGrid {
+    glm::vec4 eye;
+    float spacing, unit;
+    std::uint32_t orthographic, slot_mask;
+};
+constexpr vk::DeviceSize kNodeSize = 32;
+
+gpu::FrameConstants constants_of(const Frame& frame) {
+    gpu::FrameConstants values{};
+    std::memcpy(&values, frame.constants.mapped(), sizeof(values));
+    return values;
+}
+
+/// The same view with fewer pixels, each around a point that changes from frame to frame.
+gpu::FrameConstants coarse_view(gpu::FrameConstants values) {
+    const glm::vec2 first(values.first_x, values.first_y);
+    values.film.x += first.x * values.film.z;
+    values.film.y -= first.y * values.film.w;
+    values.film.z *= float(kGatherStep);
+    values.film.w *= float(kGatherStep);
+    values.first_x = values.first_y = 0;
+    values.width = (values.width + kGatherStep - 1) / kGatherStep;
+    values.height = (values.height + kGatherStep - 1) / kGatherStep;
+    shift_film(values, sample_jitter(values.sample_index));
+    return values;
+}
+
+/// Slots for the nodes of `points` samples a frame: each adds two at most, and surfaces share most of theirs.
+std::uint32_t slots_for(std::uint64_t points) {
+    return std::uint32_t(std::bit_ceil(std::max<std::uint64_t>(8 * points, 4096)));
+}
+
+}  // namespace
+
+void IrradianceCache::begin(float brightness) {
+    workspace_.trim();
+    gathered_.reset();
+    brightness_ = brightness;
+}
+
+void IrradianceCache::write_grid(Recorder& recorder, const Frame& frame, bool first) {
+    const gpu::FrameConstants view = constants_of(frame);
+    const std::uint32_t slots = slots_for(std::uint64_t(frame.extent.width) * frame.extent.height / 4);
+    nodes_ = &workspace_.buffer("nodes of irradiance", sizeof(IrradianceGrid) + slots * kNodeSize);
+    if (first) {
+        recorder.fill(*nodes_, 0);
+        frames_ = 0;
+    }
+    ++frames_;
+    const IrradianceGrid grid{
+        view.world_from_view[3],
+        kNodeSpacing * std::pow(float(frames_), kShrinking) * std::sqrt(view.film.z * view.film.w),
+        brightness_ / kUnits, view.orthographic, slots - 1};
+    const Buffer& header = workspace_.buffer("grid of irradiance", sizeof(grid), true);
+    std::memcpy(header.mapped(), &grid, sizeof(grid));
+    recorder.copy(header, *nodes_, sizeof(grid));
+}
+
+void IrradianceCache::gather(Recorder& recorder, const Frame& frame, bool first) {
+    const bool again = gathered_.has_value();
+    const gpu::FrameConstants values = coarse_view(constants_of(frame));
+    const Buffer& constants = workspace_.buffer("constants of gathering", sizeof(values), true);
+    std::memcpy(constants.mapped(), &values, sizeof(values));
+    gathered_.emplace(seen_from(frame, workspace_, constants, {values.width, values.height}));
+    gathered_->light = frame.light;
+    gathered_->photons = frame.photons;
+    if (!again) write_grid(recorder, frame, first);
+    bindings_ = {reads("IrradianceNodes", *nodes_)};
+    // Surfaces that rays find send on what earlier frames have brought them.
+    if (frames_ > 1) {
+        gathered_->irradiance = &bindings_;
+        gathered_->bounces_before_cache = 1;
+    }
+    source_.begin_frame(LayerBuilder::kCompute);
+    const std::uint64_t texels = std::uint64_t(values.width) * values.height;
+    points_ = &workspace_.buffer("points of irradiance", texels * 16);
+    const Recorder::Scope scope(recorder, "irradiance");
+    radiance_ = &gather_irradiance(recorder, *gathered_, source_, *points_);
+}
+
+void IrradianceCache::store(Recorder& recorder) {
+    const Recorder::Scope scope(recorder, "irradiance");
+    // The first frame had no cache to look at, so its samples lack light; the second's take their place.
+    if (frames_ == 2) recorder.fill(*nodes_, sizeof(IrradianceGrid), VK_WHOLE_SIZE, 0);
+    recorder.compute(workspace_.compute(shaders::store_irradiance_comp),
+                     {gathered_->bindings(), reads("path_radiance", *radiance_), updates("IrradiancePoints", *points_),
+                      updates("IrradianceNodes", *nodes_)},
+                     gathered_->extent);
+    gathered_.reset();
+}
+
+}  // namespace pellucid

@@ -1,0 +1,113 @@
+#ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_BOUNCES_GLSL
+#define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_BOUNCES_GLSL
+
+// Light that opaque surfaces send to each other: branches of the path, or a cache of irradiance.
+// Needs: end_paths.glsl as far as struct OpaquePoint.
+layout(constant_id = 44) const bool kGathers = false;  // paths sample the irradiance of the first diffuse surface they meet
+layout(constant_id = 45) const uint kCachedFrom = 8u;  // bounces after which the cache stands for those that follow; 8: never
+#include "light/irradiance_lookup.glsl"
+#include "light/irradiance_points.glsl"
+
+// A diffuse reflection sees the environment a little blurred, against noise of small suns: by 2 degrees. A wider blur brings
+// light from above a horizon to surfaces that see only what is below it.
+const float kBounceRoughness = 1.0 / float(PELLUCID_FILTER_LEVELS);
+const float kSmoothAlpha = 1e-4;  // below, a surface counts as a perfect mirror
+
+// As opaque_radiance() has it.
+vec3 diffuse_albedo(OpaquePoint point, vec3 to_viewer) {
+    float coat = coat_reflectance(point.surface.ior, clamp(dot(point.normal, to_viewer), 1e-4, 1.0));
+    return point.unlit ? vec3(0.0) : (1.0 - point.surface.metallic) * (1.0 - coat) * point.surface.base_color;
+}
+
+uint bounces(PathState state) { return (state.mark & kBounceMask) >> kBounceShift; }
+
+// A direction in which a surface looks to what is around it.
+struct Bounce {
+    vec3 direction;  // unit
+    vec3 weight;     // of the radiance from there
+    float alpha;     // of the lobe from which it was chosen; 0: a perfect mirror's
+    bool diffuse;
+};
+
+Bounce diffuse_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
+    float radius = sqrt(u.x), angle = 6.283185307 * u.y;
+    vec3 direction = tangent_frame(point.normal) * vec3(radius * cos(angle), radius * sin(angle), sqrt(max(1.0 - u.x, 0.0)));
+    return Bounce(direction, diffuse_albedo(point, to_viewer), kBounceRoughness * kBounceRoughness, true);
+}
+
+// By a facet that is visible from the path's side (Heitz 2018). The weight is 0 where the facet sends light into the surface.
+Bounce facet_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
+    float alpha = point.surface.roughness * point.surface.roughness;
+    if (alpha < kSmoothAlpha) alpha = 0.0;
+    FacetReflection reflected = reflect_by_facet(point.normal, to_viewer, alpha, u);
+    float root = (point.surface.ior - 1.0) / (point.surface.ior + 1.0);
+    vec3 at_normal = mix(vec3(root * root), point.surface.base_color, point.surface.metallic);
+    vec3 fresnel = mix(at_normal, vec3(greaterThan(at_normal, vec3(0.0))), schlick_weight(clamp(reflected.cosine, 0.0, 1.0)));
+    return Bounce(reflected.direction, fresnel * reflected.visible, alpha, false);
+}
+
+float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
+
+// One of the two, at random by their weights; facets only where all light is followed.
+Bounce choose_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, float choice) {
+    Bounce diffuse = diffuse_bounce(point, to_viewer, u);
+    if (!kFullLight || point.unlit) return diffuse;
+    Bounce facet = facet_bounce(point, to_viewer, u);
+    float share = largest(facet.weight) / max(largest(facet.weight) + largest(diffuse.weight), 1e-20);
+    bool by_facet = choice < share;
+    if (by_facet) diffuse = facet;
+    diffuse.weight /= by_facet ? share : 1.0 - share;
+    return diffuse;
+}
+
+// Sends a branch from the surface to what is there instead of the environment. What it finds counts, less what was assumed:
+// surfaces that stand alone stay as they are, without noise.
+void send_bounce(ivec2 texel, PathState state, Bounce chosen, vec3 weight) {
+    uint mark = state.mark, count = bounces(state) + 1u;
+    state.path.direction = chosen.direction;
+    state.path.transmittance = weight;
+    state.mark = (mark & 0xffffu & ~(kMainPath | kMetOpaque | kBounceMask | kBounced | kUnbent)) | count << kBounceShift;
+    // A mirror's path sees lights; others leave these to shadow rays.
+    if (chosen.alpha > 0.0) state.mark = widened(state.mark | kBounced | kUnbent, chosen.alpha);
+    float roughness = sqrt(spread_of(state.mark));
+    if (push_branch(state, branch_capacity, true))
+        add_light(texel, mark, -weight * filtered_environment_radiance(chosen.direction, roughness));
+}
+
+// Light from other surfaces, of one direction or, where there is a cache, of all.
+void bounce(ivec2 texel, PathState state, OpaquePoint point) {
+    uint branches_before = waiting[state.pixel].y, before = bounces(state);
+    if (before >= most_bounces) return;
+    uint seed = hash(uvec3(texel + first_pixel(), 77u + branches_before + 256u * before)).x;
+    vec2 u = random_numbers(seed, state.path.events);
+    bool cached = kCachedFrom <= before;
+    vec3 diffuse = state.path.transmittance * diffuse_albedo(point, -state.path.direction);
+    if (kFullLight && largest(diffuse) > 0.0) {
+        // The environment that nothing hides was drawn by nine harmonics. What directions take from it adds up to more detail.
+        vec3 light = detailed_diffuse_radiance(point.normal) - diffuse_radiance(vec3(1.0), point.normal);
+        if (cached) light += cached_irradiance(state.path.position, point.normal, u.x) / 3.14159265;
+        add_light(texel, state.mark, diffuse * light);
+    }
+    if (branches_before >= max(most_branches, most_bounces)) return;
+    Bounce chosen = choose_bounce(point, -state.path.direction, u, random_number(seed, state.path.events));
+    vec3 weight = state.path.transmittance * chosen.weight;
+    if (largest(weight) > threshold && !(cached && chosen.diffuse)) send_bounce(texel, state, chosen, weight);
+}
+
+// A sample of the irradiance of the first diffuse surface that the path meets, which may be seen in others.
+void gather(ivec2 texel, PathState state, OpaquePoint point) {
+    uint seed = hash(uvec3(texel + first_pixel(), 76u)).x;
+    Bounce chosen = choose_bounce(point, -state.path.direction, random_numbers(seed, state.path.events),
+                                  random_number(seed, state.path.events));
+    if (!(largest(chosen.weight) > 0.0)) return;
+    if (chosen.diffuse) {
+        points[state.pixel] = IrradiancePoint(state.path.position, pack_direction(point.normal));
+        send_bounce(texel, state, chosen, vec3(3.14159265));
+    } else if (++state.path.events < max_events) {
+        state.path.direction = chosen.direction;
+        state.mark &= ~kMetOpaque;
+        push_branch(state, branch_capacity, true);
+    }
+}
+
+#endif
