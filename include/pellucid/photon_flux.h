@@ -6,7 +6,7 @@
 
 namespace pellucid {
 
-/// Where the light goes that lights send towards glass and metal in one frame: W, RGB, before any kernel. What is sent and
+/// Where the light goes that lights, emissive surfaces and the environment send towards glass and metal in one frame: W, RGB, before any kernel. What is sent and
 /// arrives nowhere was absorbed, or followed no further.
 struct PhotonFlux {
     /// What an opaque object gets.

@@ -5,10 +5,6 @@
 namespace pellucid {
 namespace {
 
-bool emits(const Material& material) {
-    return !material.transmissive() && !material.unlit && material.emission != glm::vec3(0.0f);
-}
-
 double area_of(const Mesh& mesh, const glm::mat4& world_from_object, const glm::uvec3& corners) {
     const auto at = [&](std::uint32_t vertex) {
         return glm::dvec3(world_from_object * glm::vec4(mesh.positions[vertex], 1.0f));
@@ -19,6 +15,10 @@ double area_of(const Mesh& mesh, const glm::mat4& world_from_object, const glm::
 
 }  // namespace
 
+bool emits_light(const Material& material) {
+    return !material.transmissive() && !material.unlit && material.emission != glm::vec3(0.0f);
+}
+
 std::vector<EmitterRecord> emitters_of(const Scene& scene, std::span<const std::uint32_t> first_triangles) {
     std::vector<EmitterRecord> emitters;
     std::vector<double> emissions, powers;  // per triangle; a power without factors that all have
@@ -26,7 +26,7 @@ std::vector<EmitterRecord> emitters_of(const Scene& scene, std::span<const std::
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         const Material& material = scene.materials[std::size_t(object.material)];
-        if (!emits(material)) continue;
+        if (!emits_light(material)) continue;
         const Mesh& mesh = scene.meshes[std::size_t(object.mesh)];
         const double emission = double(material.emission.r) + double(material.emission.g) + double(material.emission.b);
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

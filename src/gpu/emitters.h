@@ -17,6 +17,9 @@ struct EmitterRecord {
 };
 static_assert(sizeof(EmitterRecord) == 16);
 
+/// Whether an object of that material is among emitters_of().
+bool emits_light(const Material& material);
+
 /// The triangles of opaque objects whose material emits, in order, by area times the mean of the emission's channels; textures
 /// count as white. `first_triangles`: per object. Empty if nothing emits.
 std::vector<EmitterRecord> emitters_of(const Scene& scene, std::span<const std::uint32_t> first_triangles);

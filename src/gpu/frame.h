@@ -17,11 +17,13 @@ struct WantedSamples {
 
 /// The light that a frame follows to opaque surfaces, beyond that of an environment which nothing hides.
 struct FrameLight {
-    std::uint32_t lights = 0;     ///< of GpuScene::lights; 0: none is followed
-    std::uint32_t emitters = 0;   ///< of GpuScene::emitters, likewise
-    bool visible = false;         ///< some of them have a size, and are seen
-    bool tinted_shadows = false;  ///< glass lets the straight ray pass, weakened, instead of blocking it
-    std::uint32_t bounces = 0;    ///< diffuse reflections along a path, 0 to 7
+    std::uint32_t lights = 0;             ///< of GpuScene::lights; 0: none is followed
+    std::uint32_t emitters = 0;           ///< of GpuScene::emitters, likewise
+    bool visible = false;                 ///< some of them have a size, and are seen
+    bool tinted_shadows = false;          ///< glass lets the straight ray pass, weakened, instead of blocking it
+    std::uint32_t bounces = 0;            ///< diffuse reflections along a path, 0 to 7
+    bool photons_of_emitters = false;     ///< Frame::photons has what glass and metal make of their light,
+    bool photons_of_environment = false;  ///< and of the environment's
 
     bool any() const { return lights > 0 || emitters > 0 || bounces > 0; }
     std::uint32_t visible_lights() const { return visible ? lights : 0; }
@@ -40,7 +42,9 @@ struct Frame {
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
     FrameLight light = {};
     std::optional<WantedSamples> wanted_samples = std::nullopt;
-    const std::vector<Binding>* photons = nullptr;       ///< for look-ups (light/photon_store.h); null: there are none
+    const std::vector<Binding>* photons = nullptr;  ///< for look-ups (light/photon_store.h); null: there are none
+    const Buffer* environment_shares =
+        nullptr;  ///< gpu/environment_shares.h, where surfaces look for what hides it; null: none do
     const std::vector<Binding>* irradiance = nullptr;    ///< of a cache, for look-ups; null: there is none
     std::uint32_t bounces_before_cache = 0;              ///< that paths follow before the cache stands for the rest
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows

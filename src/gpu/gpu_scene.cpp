@@ -215,6 +215,12 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
 void GpuScene::list_emitters(const Device& device, const Scene& scene) {
     std::vector<EmitterRecord> records = emitters_of(scene, first_triangles);
     emitter_count = std::uint32_t(records.size());
+    emitted_power = 0.0f;
+    if (!records.empty()) {
+        const Object& first = scene.objects[records.front().object];
+        const glm::vec3 emission = scene.materials[std::size_t(first.material)].emission;
+        emitted_power = (emission.r + emission.g + emission.b) / records.front().density;
+    }
     if (records.empty()) records.push_back({});  // something has to be bound
     emitters = upload_buffer(device, "emissive triangles", records, vk::BufferUsageFlagBits::eStorageBuffer);
 }

@@ -61,6 +61,7 @@ struct GpuScene {
     std::uint32_t light_count = 0;
     Buffer emitters;  ///< EmitterRecord[] (emitters.h)
     std::uint32_t emitter_count = 0;
+    float emitted_power = 0.0f;  ///< W/sr, of all triangles and channels along the normals; textures count as white
 
     std::uint32_t object_count = 0;
     std::uint64_t triangle_count = 0;

@@ -6,6 +6,7 @@
 // Needs: what gpu/filtered_environment.glsl and gpu/texture.glsl need.
 #include "gpu/coat.glsl"
 #include "gpu/diffuse.glsl"
+#include "gpu/emitted_radiance.glsl"
 #include "gpu/filtered_environment.glsl"
 #include "gpu/texture.glsl"
 
@@ -26,6 +27,12 @@ vec3 facet_reflection(float cos_theta, float roughness) {
                    texelFetch(filtered_environment, at + ivec2(1, 1), 0), weight.x), weight.y).rgb;
 }
 
+// What the diffuse layer alone scatters towards the viewer.
+vec3 opaque_diffuse_radiance(OpaqueSurface surface, vec3 normal, float cos_theta) {
+    float coat = coat_reflectance(surface.ior, cos_theta);
+    return diffuse_radiance((1.0 - surface.metallic) * (1.0 - coat) * surface.base_color, normal);
+}
+
 // Radiance towards the viewer; `normal` is on the viewer's side. Both directions are unit, in world space.
 vec3 opaque_radiance(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
     float cos_theta = clamp(dot(normal, to_viewer), 1e-4, 1.0);
@@ -33,9 +40,7 @@ vec3 opaque_radiance(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
     vec3 at_normal = mix(vec3(coat_at_normal), surface.base_color, surface.metallic);
     // Where nothing is reflected head-on there is no boundary to reflect at grazing angles either.
     vec3 at_grazing = vec3(greaterThan(at_normal, vec3(0.0)));
-    float coat = coat_reflectance(surface.ior, cos_theta);
-
-    vec3 radiance = diffuse_radiance((1.0 - surface.metallic) * (1.0 - coat) * surface.base_color, normal);
+    vec3 radiance = opaque_diffuse_radiance(surface, normal, cos_theta);
     if (at_grazing == vec3(0.0)) return radiance;
     vec3 facets = facet_reflection(cos_theta, surface.roughness);
     vec3 mirrored = 2.0 * dot(normal, to_viewer) * normal - to_viewer;
@@ -69,10 +74,6 @@ vec3 opaque_reflection(OpaqueSurface surface, vec3 normal, vec3 to_viewer, vec3 
     vec3 at_normal = mix(vec3(coat_at_normal), surface.base_color, surface.metallic);
     vec3 fresnel = mix(at_normal, vec3(greaterThan(at_normal, vec3(0.0))), schlick_weight(min(dot(to_viewer, m), 1.0)));
     return reflected + fresnel * (a2 / (kPi * d * d) / (4.0 * cos_viewer * (1.0 + lambda.x + lambda.y)));
-}
-
-vec3 emitted_radiance(MaterialRecord material, vec2 first_set, vec2 second_set) {
-    return material.emission.rgb * sample_texture(material.emission_texture, first_set, second_set).rgb;
 }
 
 // Of a material at texture coordinates of two sets; `base` is its base colour with textures.

@@ -16,12 +16,12 @@ struct Photon {
     glm::vec3 flux;        ///< W
     std::uint32_t normal;  ///< of the surface, on the side that the photon came from; packed
     std::uint32_t level;   ///< of the grid; kStraightPhoton: not in the grid
-    std::uint32_t object;  ///< it landed on; PELLUCID_NO_TRIANGLE: it left the scene
-    std::uint32_t texel;   ///< of the light's view that sent it: no two photons share one
+    std::uint32_t object;  ///< it landed on; PELLUCID_NO_TRIANGLE: it left the scene; kNotYetLanded: as it was sent
+    std::uint32_t texel;   ///< of the light's view that sent it: no two photons that landed share one
     std::uint32_t reserved;
 };
 static_assert(sizeof(Photon) == 48);
-inline constexpr std::uint32_t kStraightPhoton = ~0u;
+inline constexpr std::uint32_t kStraightPhoton = ~0u, kNotYetLanded = ~1u;
 /// Bytes before the first in a list, whose first word counts them.
 inline constexpr std::size_t kPhotonListHeader = 16;
 

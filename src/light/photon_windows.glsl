@@ -2,17 +2,22 @@
 #define PELLUCID_LIGHT_PHOTON_WINDOWS_GLSL
 
 // The views from which lights send photons. Their texels lie side by side, as those of one image: windows of `side` by `side`
-// texels, `columns` in a row. Needs: gpu/structs.h.
+// texels, `columns` in a row. A window of emissive surfaces or the environment is no view, but holds as many photons.
+// Needs: gpu/structs.h.
 #include "gpu/punctual_light.glsl"
+
+// Twins of PhotonWindow::Source.
+const uint kFromLights = 0u, kFromEmitters = 1u, kFromEnvironment = 2u;
 
 // Twin of PhotonWindow in photon_windows.h.
 struct PhotonWindow {
     mat4 world_from_view;
     vec4 film;  // as FrameConstants::film
-    PunctualLight light;
+    PunctualLight light;  // kFromEmitters, kFromEnvironment: position and radius of the sphere around all targets
     uint orthographic;
-    float target_depth;  // m, of the middle of what is aimed at
-    uint reserved0, reserved1;
+    float target_depth;  // m, of the middle of what is aimed at; kFromEnvironment: from there to beyond the scene
+    uint source;         // kFromLights, ...
+    uint reserved0;
 };
 layout(std430, set = 0, binding = 50) readonly buffer PhotonWindows {
     uint window_side, window_columns, window_count;

@@ -16,11 +16,12 @@ struct Photon {
     vec3 flux;      // W
     uint normal;    // of the surface, on the side that the photon came from; packed
     uint level;     // of the grid; kStraightPhoton: not in the grid
-    uint object;    // it landed on, PELLUCID_NO_TRIANGLE: it left the scene
+    uint object;    // it landed on; PELLUCID_NO_TRIANGLE: it left the scene; kNotYetLanded: as it was sent
     uint texel;     // of the light's view that sent it: no two photons share one
     uint reserved;
 };
 const uint kStraightPhoton = 0xffffffffu;  // nothing has bent its path: shadow rays have its light
+const uint kNotYetLanded = 0xfffffffeu;
 const int kPhotonLevels = 24;
 
 // Twin of PhotonGrid in photon_store.cpp.

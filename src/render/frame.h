@@ -17,7 +17,7 @@ struct FrameSettings {
     const Technique* caustics = nullptr;  ///< finds where photons leave glass; null: paths do
     LayerBuilder layer_builder;
     View view;
-    std::uint32_t photons = 0;  ///< of every light in every frame
+    std::uint32_t photons = 0;  ///< of every source in every frame
 };
 
 /// What a frame leaves behind on the device.

@@ -1,9 +1,11 @@
 #include "render/photon_lighting.h"
 
+#include "gpu/emitters.h"
 #include "gpu/gpu_scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace pellucid {
 namespace {
@@ -14,15 +16,54 @@ bool mirrors(const Material& material) {
            material.metallic_roughness_texture.image < 0;
 }
 
-/// Corners of the boxes of what bends light, eight each.
-std::vector<glm::vec3> target_corners(const Scene& scene) {
+bool bends_light(const Material& material) { return material.refractive() || mirrors(material); }
+
+/// Corners of the boxes of objects, eight each.
+std::vector<glm::vec3> corners_of(const Scene& scene, bool (*wanted)(const Material&)) {
     std::vector<glm::vec3> corners;
     for (const Object& object : scene.objects) {
-        const Material& material = scene.materials[std::size_t(object.material)];
-        if (material.refractive() || mirrors(material))
+        if (wanted(scene.materials[std::size_t(object.material)]))
             append_box_corners(scene.meshes[std::size_t(object.mesh)], object.world_from_object, corners);
     }
     return corners;
+}
+
+struct Box {
+    glm::vec3 low, high;
+};
+Box box_around(std::span<const glm::vec3> points) {
+    Box box{points.front(), points.front()};
+    for (const glm::vec3& p : points) box.low = glm::min(box.low, p), box.high = glm::max(box.high, p);
+    return box;
+}
+
+/// Around all that bends light.
+PhotonSetup::Sphere sphere_around(const Scene& scene, const Box& box) {
+    PhotonSetup::Sphere sphere{0.5f * (box.low + box.high), 0.0f};
+    for (const Object& object : scene.objects) {
+        if (!bends_light(scene.materials[std::size_t(object.material)])) continue;
+        for (const glm::vec3& p : scene.meshes[std::size_t(object.mesh)].positions) {
+            const glm::vec3 at(object.world_from_object * glm::vec4(p, 1.0f));
+            sphere.radius = std::max(sphere.radius, glm::distance(at, sphere.center));
+        }
+    }
+    sphere.radius *= 1.0001f;  // surfaces that touch it are hit, too
+    return sphere;
+}
+
+/// Whether some emissive object's box meets a refracting object's.
+bool emits_in_solids(const Scene& scene) {
+    const auto refractive = corners_of(scene, [](const Material& material) { return material.refractive(); });
+    const auto emissive = corners_of(scene, emits_light);
+    for (std::size_t i = 0; i < emissive.size(); i += 8) {
+        const Box own = box_around(std::span(emissive).subspan(i, 8));
+        for (std::size_t j = 0; j < refractive.size(); j += 8) {
+            const Box other = box_around(std::span(refractive).subspan(j, 8));
+            if (glm::all(glm::lessThanEqual(own.low, other.high)) && glm::all(glm::lessThanEqual(other.low, own.high)))
+                return true;
+        }
+    }
+    return false;
 }
 
 /// Boxes that are wider by `margin`, m, on all sides.
@@ -43,14 +84,13 @@ float margin_of(const Light& light, const glm::vec3& low, const glm::vec3& high)
 
 std::vector<LightView> views_of(const Light& light, std::uint32_t number, const std::vector<glm::vec3>& targets,
                                 const Bounds& bounds, std::uint32_t side) {
-    glm::vec3 low = targets.front(), high = low;
-    for (const glm::vec3& corner : targets) low = glm::min(low, corner), high = glm::max(high, corner);
-    auto views = light_views(light, number, widened(targets, margin_of(light, low, high)), bounds, side);
+    const Box box = box_around(targets);
+    auto views = light_views(light, number, widened(targets, margin_of(light, box.low, box.high)), bounds, side);
     for (LightView& view : views) {
         // Faces of a cube meet at their edges.
         if (view.face != LightView::kWhole)
             view.constants.film = glm::vec4(-1.0f, 1.0f, 2.0f / float(side), 2.0f / float(side));
-        view.target_depth = -(view.constants.view_from_world * glm::vec4(0.5f * (low + high), 1.0f)).z;
+        view.target_depth = -(view.constants.view_from_world * glm::vec4(0.5f * (box.low + box.high), 1.0f)).z;
     }
     return views;
 }
@@ -69,25 +109,30 @@ float scene_brightness(const Scene& scene, const Bounds& bounds, const gpu::Fram
     return std::max(sum, 1e-20f);
 }
 
-PhotonSetup photon_setup(const Scene& scene, const Bounds& bounds, std::uint32_t count) {
-    PhotonSetup setup{.lights = scene.lights};
-    if (count == 0) return setup;
-    const std::vector<glm::vec3> targets = target_corners(scene);
-    if (targets.empty()) return setup;
-    // One side for all views: a light that needs several shares its photons out among them.
+PhotonSetup photon_setup(const Scene& scene, const Bounds& bounds, const PhotonSources& sources, std::uint32_t count) {
+    PhotonSetup setup;
+    const std::vector<glm::vec3> targets = corners_of(scene, bends_light);
+    if (count == 0 || targets.empty()) return setup;
+    if (sources.lights) setup.lights = scene.lights;
+    setup.emitters = sources.emitters;
+    setup.emitters_in_solids = sources.emitters && emits_in_solids(scene);
+    setup.environment = sources.environment;
+    setup.targets = sphere_around(scene, box_around(targets));
+    // One side for all windows: a light that needs several views shares its photons out among them.
     const auto all_views = [&](std::uint32_t side) {
         std::vector<LightView> views;
-        for (std::uint32_t light = 0; light < scene.lights.size(); ++light) {
-            const auto own = views_of(scene.lights[light], light, targets, bounds, side);
+        for (std::uint32_t light = 0; light < setup.lights.size(); ++light) {
+            const auto own = views_of(setup.lights[light], light, targets, bounds, side);
             views.insert(views.end(), own.begin(), own.end());
         }
         return views;
     };
-    const auto side_for = [&](std::size_t views) {
-        const double texels = double(count) * double(scene.lights.size()) / double(std::max<std::size_t>(views, 1));
-        return std::max(std::uint32_t(std::sqrt(texels)), 2u);
-    };
-    setup.views = all_views(side_for(all_views(2).size()));
+    setup.views = all_views(2);
+    const std::size_t windows = setup.window_count(), others = windows - setup.views.size();
+    const double texels =
+        double(count) * double(setup.lights.size() + others) / double(std::max<std::size_t>(windows, 1));
+    setup.side = std::max(std::uint32_t(std::sqrt(texels)), 2u);
+    setup.views = all_views(setup.side);
     return setup;
 }
 

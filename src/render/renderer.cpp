@@ -40,7 +40,7 @@ const Technique* caustics_of(const LightOptions& light, const Device& device) {
 /// Stills of more samples gather irradiance at every pixel: their noise is then below the cache's blur.
 constexpr std::uint32_t kSamplesOfCache = 32;
 
-/// Photons of every light in every frame.
+/// Photons of every source in every frame.
 std::uint32_t photons_of(const FrameSettings& chosen, LightTransport transport) {
     constexpr std::uint32_t kDefault = 16384;
     if (chosen.technique == nullptr || !chosen.parameters.has("photons")) return 0;
@@ -127,13 +127,20 @@ void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& ligh
 }
 
 void Renderer::Impl::aim_photons(const FrameSettings& chosen, const FrameLight& light) {
+    const bool by_paths = chosen.caustics == nullptr;
+    PhotonSources sources{.lights = light.lights > 0, .emitters = light.emitters > 0 && by_paths};
+    if (light.bounces > 0 && by_paths && chosen.photons > 0) sources.environment = shares_of_environment();
     // Tinted shadows have the light that glass lets through.
-    const bool sends = light.lights > 0 && !light.tinted_shadows;
-    PhotonSetup setup = photon_setup(cpu.scene(), scene->bounds, sends ? chosen.photons : 0);
+    PhotonSetup setup = photon_setup(cpu.scene(), scene->bounds, sources, light.tinted_shadows ? 0 : chosen.photons);
     setup.by = chosen.caustics;
     setup.layer_builder = chosen.layer_builder;
     setup.draw_opaque = draw_opaque;
     photons.begin(std::move(setup));
+}
+
+const EnvironmentShares* Renderer::Impl::shares_of_environment() {
+    if (!environment_shares) environment_shares.emplace(tabulate_environment(device, environment));
+    return *environment_shares ? &**environment_shares : nullptr;
 }
 
 void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& settings, glm::vec2 jitter,
@@ -234,6 +241,8 @@ void Renderer::set_lights(const std::vector<Light>& lights) {
 void Renderer::set_environment(const Environment& environment) {
     check_environment(environment);
     impl_->filtered_environment.reset();
+    impl_->photons.begin({});
+    impl_->environment_shares.reset();
     impl_->environment_map = upload_environment(impl_->device, environment);
     impl_->environment = environment;
     pellucid::set_environment(impl_->environment_constants, environment);
@@ -257,8 +266,12 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     Frame frame = impl.frame_of(settings);
     frame.photons = impl.photons.bindings();
     frame.irradiance = impl.irradiance.bindings();
+    if (const auto* shares = frame.light.bounces > 0 ? impl.shares_of_environment() : nullptr)
+        frame.environment_shares = &shares->buffer;
     frame.bounces_before_cache =
         settings.still && (settings.samples > kSamplesOfCache || settings.error > 0.0f) ? 1 : 0;
+    frame.light.photons_of_emitters = impl.photons.of_emitters();
+    frame.light.photons_of_environment = impl.photons.of_environment();
     if (settings.view == View::kWavefront) frame.front_exposure = std::exp2(settings.exposure_ev);
     impl.workspace.trim();
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();

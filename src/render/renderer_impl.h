@@ -2,6 +2,7 @@
 
 // What a Renderer holds, and how it draws a picture: tile by tile, sample by sample, frame by frame.
 #include "gpu/environment_images.h"
+#include "gpu/environment_shares.h"
 #include "render/aovs.h"
 #include "render/cpu_tracing.h"
 #include "render/display.h"
@@ -43,8 +44,9 @@ struct Renderer::Impl {
     std::optional<GpuScene> scene;
     Environment environment;
     std::optional<GpuImage> environment_map;
-    std::optional<GpuImage> filtered_environment;     // of `environment`; made once a scene needs it
-    std::optional<GpuImage> no_filtered_environment;  // for scenes that do not
+    std::optional<GpuImage> filtered_environment;                        // of `environment`; made once a scene needs it
+    std::optional<GpuImage> no_filtered_environment;                     // for scenes that do not
+    std::optional<std::optional<EnvironmentShares>> environment_shares;  // once photons need them; none: it is black
     std::optional<Buffer> constants;
     std::optional<Camera> camera;        // set by the caller
     std::optional<Camera> scene_camera;  // the scene's first
@@ -108,6 +110,7 @@ struct Renderer::Impl {
     void light_frame(const Frame& frame, bool first, std::vector<PassTime>& times);
     /// For a picture of a technique whose parameter `photons` asks for some of every light.
     void aim_photons(const FrameSettings& chosen, const FrameLight& light);
+    const EnvironmentShares* shares_of_environment();
     gpu::FrameConstants current_constants() const {
         gpu::FrameConstants values{};
         std::memcpy(&values, constants->mapped(), sizeof(values));

@@ -89,6 +89,7 @@ void IrradianceCache::gather(Recorder& recorder, const Frame& frame, bool first)
     gathered_.emplace(seen_from(frame, workspace_, constants, {values.width, values.height}));
     gathered_->light = frame.light;
     gathered_->photons = frame.photons;
+    gathered_->environment_shares = frame.environment_shares;
     if (!again) write_grid(recorder, frame, first);
     bindings_ = {reads("IrradianceNodes", *nodes_)};
     // Surfaces that rays find send on what earlier frames have brought them.

@@ -65,6 +65,7 @@ bool reflect_photon(inout PathState state, Landing landing, MaterialRecord mater
                                 adjoint_weight(incident, direction, n, landing.geometric);
     state.path.direction = direction;
     ++state.path.events;
+    state.mark &= ~kUnbent;
     return true;
 }
 

@@ -1,7 +1,6 @@
 #include "techniques/photons/photons.h"
 
 #include "gpu/camera_constants.h"
-#include "light/photon_windows.h"
 #include "techniques/shaders.h"
 #include "techniques/visibility_layers/visibility_layers.h"
 
@@ -102,8 +101,8 @@ void Photons::begin(PhotonSetup setup) {
 }
 
 Frame Photons::light_frame(const Frame& frame) {
-    const std::uint32_t side = setup_.views.front().constants.width, columns = columns_of(setup_.views.size());
-    const std::uint32_t rows = (std::uint32_t(setup_.views.size()) + columns - 1) / columns;
+    const std::uint32_t side = setup_.side, columns = columns_of(setup_.window_count());
+    const std::uint32_t rows = (std::uint32_t(setup_.window_count()) + columns - 1) / columns;
     gpu::FrameConstants values{};
     std::memcpy(&values, frame.constants.mapped(), sizeof(values));
     values.width = side * columns;
@@ -114,29 +113,51 @@ Frame Photons::light_frame(const Frame& frame) {
     return seen_from(frame, workspace_, constants, {values.width, values.height});
 }
 
+std::vector<PhotonWindow> Photons::windows_of(const Frame& frame) const {
+    using Source = PhotonWindow::Source;
+    std::vector<PhotonWindow> windows;
+    for (const LightView& view : setup_.views) {
+        windows.push_back({view.constants.world_from_view, view.constants.film,
+                           punctual_light(setup_.lights.at(view.light)), view.constants.orthographic, view.target_depth,
+                           Source::kLights, 0});
+    }
+    const Bounds& bounds = frame.scene.bounds;
+    PhotonWindow all{};
+    all.light.position = setup_.targets.center;
+    all.light.radius = setup_.targets.radius;
+    all.target_depth = 1.01f * (glm::distance(bounds.center, setup_.targets.center) + bounds.radius);
+    for (const Source source : {Source::kEmitters, Source::kEnvironment}) {
+        all.source = source;
+        if (source == Source::kEmitters ? setup_.emitters : setup_.environment != nullptr) windows.push_back(all);
+    }
+    return windows;
+}
+
+/// `width`: of kernels, over the spacing of photons.
+void Photons::set_scale(const Frame& frame, float width) {
+    scale_ = {std::numeric_limits<float>::max(), 0.0f};
+    for (const LightView& view : setup_.views) {
+        scale_.least_radius = std::min(scale_.least_radius, width * spacing_of(view, frame.scene.bounds));
+        scale_.most_flux = std::max(scale_.most_flux, flux_of(setup_.lights.at(view.light), view));
+    }
+    if (!setup_.emitters && setup_.environment == nullptr) return;
+    const float count = float(setup_.side) * float(setup_.side),
+                area = kPi * setup_.targets.radius * setup_.targets.radius;
+    scale_.least_radius = std::min(scale_.least_radius, width * std::sqrt(area / count));
+    if (setup_.emitters) scale_.most_flux = std::max(scale_.most_flux, 4.0f * kPi * frame.scene.emitted_power / count);
+    // Where a cell of the environment has one bright texel, its photons carry more than this mean.
+    if (setup_.environment != nullptr)
+        scale_.most_flux = std::max(scale_.most_flux, 8.0f * setup_.environment->luminance * area / count);
+}
+
 const Buffer& Photons::upload_windows(const Frame& frame) {
     gpu::FrameConstants constants{};
     std::memcpy(&constants, frame.constants.mapped(), sizeof(constants));
     const float width = kKernelWidth * shrinkage(frame.samples > 1 ? constants.sample_index : 0);
-    scale_ = {std::numeric_limits<float>::max(), 0.0f};
-    std::vector<PhotonWindow> windows;
-    for (const LightView& view : setup_.views) {
-        const Light& light = setup_.lights.at(view.light);
-        scale_.least_radius = std::min(scale_.least_radius, width * spacing_of(view, frame.scene.bounds));
-        scale_.most_flux = std::max(scale_.most_flux, flux_of(light, view));
-        windows.push_back({view.constants.world_from_view,
-                           view.constants.film,
-                           punctual_light(light),
-                           view.constants.orthographic,
-                           view.target_depth,
-                           {}});
-    }
-    const WindowHeader header{setup_.views.front().constants.width,
-                              columns_of(windows.size()),
-                              std::uint32_t(windows.size()),
-                              width,
-                              scale_.least_radius,
-                              counts_ ? 1u : 0u,
+    set_scale(frame, width);
+    const std::vector<PhotonWindow> windows = windows_of(frame);
+    const WindowHeader header{setup_.side, columns_of(windows.size()), std::uint32_t(windows.size()),
+                              width,       scale_.least_radius,        counts_ ? 1u : 0u,
                               {}};
     const std::span bytes = std::as_bytes(std::span(windows));
     const Buffer& buffer = workspace_.buffer("photon windows", sizeof(header) + bytes.size(), true);
@@ -192,7 +213,9 @@ void Photons::record(Recorder& recorder, const Frame& frame) {
         const Buffer& list = store_.begin(recorder, from_light, source_, texels);
         PathTask task{.begin = shaders::begin_at_light_comp,
                       .end = shaders::end_photons_comp,
-                      .bindings = {reads("PhotonWindows", windows), updates("Photons", list)},
+                      .bindings = {reads("PhotonWindows", windows), updates("Photons", list),
+                                   reads("EnvironmentShares",
+                                         setup_.environment != nullptr ? setup_.environment->buffer : windows)},
                       .ways = Ways::kStochastic,
                       .from_light = true};
         if (setup_.by != nullptr) {
@@ -201,8 +224,10 @@ void Photons::record(Recorder& recorder, const Frame& frame) {
         }
         task.push.max_events = kMostEvents;
         task.push.whole_picture = 1;
-        task.push.eye_differs = std::any_of(setup_.lights.begin(), setup_.lights.end(),
-                                            [&](const Light& light) { return in_solid(frame.scene, light); });
+        task.push.emitter_count = setup_.emitters ? frame.scene.emitter_count : 0;
+        task.push.eye_differs =
+            setup_.emitters_in_solids || std::any_of(setup_.lights.begin(), setup_.lights.end(),
+                                                     [&](const Light& light) { return in_solid(frame.scene, light); });
         follow(recorder, from_light, source_, finder, task);
     }
     if (counts_) count(recorder, from_light);
@@ -228,7 +253,9 @@ void Photons::count(Recorder& recorder, const Frame& from_light) {
         std::sort(photons.begin(), photons.end(), [](const Photon& a, const Photon& b) { return a.texel < b.texel; });
         for (const Photon& photon : photons) {
             const glm::dvec3 flux(photon.flux);
-            if (photon.object == PELLUCID_NO_TRIANGLE)
+            if (photon.object == kNotYetLanded)
+                flux_.sent += flux;
+            else if (photon.object == PELLUCID_NO_TRIANGLE)
                 flux_.left += flux;
             else
                 (photon.level == kStraightPhoton ? flux_.objects[photon.object].straight

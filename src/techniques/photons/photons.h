@@ -1,7 +1,9 @@
 #pragma once
 
+#include "gpu/environment_shares.h"
 #include "light/light_views.h"
 #include "light/photon_store.h"
+#include "light/photon_windows.h"
 #include "techniques/technique.h"
 
 #include <pellucid/photon_flux.h>
@@ -14,6 +16,16 @@ namespace pellucid {
 
 /// What sends photons in a picture.
 struct PhotonSetup {
+    /// Emissive surfaces and the environment aim at this sphere around everything that bends light.
+    struct Sphere {
+        glm::vec3 center{0.0f};  ///< m, world
+        float radius = 0.0f;     ///< m; 0: nothing bends light
+    };
+
+    bool any() const { return !views.empty() || emitters || environment != nullptr; }
+    /// Views, and one window each for emissive surfaces and the environment.
+    std::size_t window_count() const { return views.size() + (emitters ? 1 : 0) + (environment != nullptr ? 1 : 0); }
+
     std::vector<Light> lights = {};
     /// Finds where light leaves glass, by its frames from the views; null: paths do. Light that the first surface reflects
     /// is left out, and metal sends none.
@@ -22,10 +34,16 @@ struct PhotonSetup {
     LayerBuilder layer_builder = LayerBuilder::kCompute;
     /// Draws what stands between a light and the glass; `by` needs it.
     Opaque (*draw_opaque)(Recorder& recorder, const Frame& frame) = nullptr;
-    std::vector<LightView> views = {};  ///< square, all of one resolution
+    std::vector<LightView> views = {};  ///< of `side` texels along each side
+    std::uint32_t side = 0;
+    Sphere targets = {};
+    bool emitters = false;            ///< emissive surfaces send photons
+    bool emitters_in_solids = false;  ///< some of them may lie in glass
+    const EnvironmentShares* environment =
+        nullptr;  ///< directions from which the environment sends photons; null: none
 };
 
-/// Light that lights send through glass and from metal onto opaque surfaces (Jensen, "Global illumination using photon maps",
+/// Light that lights, emissive surfaces and the environment send through glass and from metal onto opaque surfaces (Jensen, "Global illumination using photon maps",
 /// 1996): every frame traces photons of its own from the lights' views, by the paths of visibility-layers, and sorts them
 /// for look-ups.
 class Photons {
@@ -35,7 +53,9 @@ public:
     /// Before the frames of a picture, when none is in flight. Photons need GpuScene::topology and, on a device that is a CPU,
     /// GpuScene::host_finder.
     void begin(PhotonSetup setup);
-    bool any() const { return !setup_.views.empty(); }
+    bool any() const { return setup_.any(); }
+    bool of_emitters() const { return setup_.emitters; }
+    bool of_environment() const { return setup_.environment != nullptr; }
     /// Traces the photons of a frame; `frame.photons` is bindings().
     void record(Recorder& recorder, const Frame& frame);
     /// What look-ups bind; its address does not change. Null: there are no photons.
@@ -51,6 +71,8 @@ public:
 
 private:
     Frame light_frame(const Frame& frame);
+    std::vector<PhotonWindow> windows_of(const Frame& frame) const;
+    void set_scale(const Frame& frame, float width);
     const Buffer& upload_windows(const Frame& frame);
     const Buffer& gather_exits(Recorder& recorder, const Frame& from_light, const Buffer& windows);
     void count(Recorder& recorder, const Frame& from_light);

@@ -33,7 +33,8 @@ HostFinder& finder_of(const GpuScene& scene) { return static_cast<HostFinder&>(*
 void prepare(const Preparation& preparation, const ParameterValues& parameters) {
     prepare_paths(preparation, parameters);
     const GpuScene& scene = preparation.gpu_scene;
-    host_finder_of(preparation).bring_up_to_date(preparation.device, preparation.scene, scene, parameters["rebuild"] != 0.0);
+    host_finder_of(preparation)
+        .bring_up_to_date(preparation.device, preparation.scene, scene, parameters["rebuild"] != 0.0);
 }
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {

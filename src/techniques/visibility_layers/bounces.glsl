@@ -5,6 +5,7 @@
 // Needs: end_paths.glsl as far as struct OpaquePoint.
 layout(constant_id = 44) const bool kGathers = false;  // paths sample the irradiance of the first diffuse surface they meet
 layout(constant_id = 45) const uint kCachedFrom = 8u;  // bounces after which the cache stands for those that follow; 8: never
+layout(constant_id = 46) const bool kEnvironmentRays = false;  // shadow rays find what hides the environment
 #include "light/irradiance_lookup.glsl"
 #include "light/irradiance_points.glsl"
 
@@ -60,17 +61,31 @@ Bounce choose_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, float choice) {
     return diffuse;
 }
 
+// Marks of a path that leaves a surface.
+uint mark_of_bounce(PathState state, OpaquePoint point, Bounce chosen) {
+    uint mark = without_spread(state.mark) & ~(kMainPath | kMetOpaque | kBounceMask | kBounced | kUnbent | kFromDiffuse);
+    mark |= (bounces(state) + 1u) << kBounceShift;
+    bool as_photon = !chosen.diffuse && mirrors_photons(state, point);
+    if (chosen.diffuse || as_photon) mark |= kFromDiffuse;
+    // A mirror's path sees lights; others leave these to shadow rays.
+    if (chosen.alpha > 0.0) mark = widened(mark | kBounced, chosen.alpha);
+    bool bent = as_photon && (kPhotonsOfEmitters || kPhotonsOfEnvironment);
+    return chosen.alpha > 0.0 && !bent ? mark | kUnbent : mark;
+}
+
+// Whether shadow rays follow the environment to the surface which the path has left.
+bool shadow_rays_have(PathState state) { return kEnvironmentRays && has_mark(state, kFromDiffuse) && has_mark(state, kUnbent); }
+
 // Sends a branch from the surface to what is there instead of the environment. What it finds counts, less what was assumed:
 // surfaces that stand alone stay as they are, without noise.
-void send_bounce(ivec2 texel, PathState state, Bounce chosen, vec3 weight) {
-    uint mark = state.mark, count = bounces(state) + 1u;
+void send_bounce(ivec2 texel, PathState state, OpaquePoint point, Bounce chosen, vec3 weight) {
+    uint mark = state.mark;
     state.path.direction = chosen.direction;
     state.path.transmittance = weight;
-    state.mark = (mark & 0xffffu & ~(kMainPath | kMetOpaque | kBounceMask | kBounced | kUnbent)) | count << kBounceShift;
-    // A mirror's path sees lights; others leave these to shadow rays.
-    if (chosen.alpha > 0.0) state.mark = widened(state.mark | kBounced | kUnbent, chosen.alpha);
+    state.mark = mark_of_bounce(state, point, chosen);
     float roughness = sqrt(spread_of(state.mark));
-    if (push_branch(state, branch_capacity, true))
+    bool assumed = !(kPhotonsOfEnvironment && photons_have(state)) && !shadow_rays_have(state);
+    if (push_branch(state, branch_capacity, true) && assumed)
         add_light(texel, mark, -weight * filtered_environment_radiance(chosen.direction, roughness));
 }
 
@@ -91,7 +106,7 @@ void bounce(ivec2 texel, PathState state, OpaquePoint point) {
     if (branches_before >= max(most_branches, most_bounces)) return;
     Bounce chosen = choose_bounce(point, -state.path.direction, u, random_number(seed, state.path.events));
     vec3 weight = state.path.transmittance * chosen.weight;
-    if (largest(weight) > threshold && !(cached && chosen.diffuse)) send_bounce(texel, state, chosen, weight);
+    if (largest(weight) > threshold && !(cached && chosen.diffuse)) send_bounce(texel, state, point, chosen, weight);
 }
 
 // A sample of the irradiance of the first diffuse surface that the path meets, which may be seen in others.
@@ -102,7 +117,7 @@ void gather(ivec2 texel, PathState state, OpaquePoint point) {
     if (!(largest(chosen.weight) > 0.0)) return;
     if (chosen.diffuse) {
         points[state.pixel] = IrradiancePoint(state.path.position, pack_direction(point.normal));
-        send_bounce(texel, state, chosen, vec3(3.14159265));
+        send_bounce(texel, state, point, chosen, vec3(3.14159265));
     } else if (++state.path.events < max_events) {
         state.path.direction = chosen.direction;
         state.mark &= ~kMetOpaque;

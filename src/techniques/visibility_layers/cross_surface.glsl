@@ -9,7 +9,9 @@
 #include "techniques/visibility_layers/photon_paths.glsl"
 
 // Of the surfaces' textures.
+#ifndef PELLUCID_GPU_VERTICES_GLSL
 layout(std430, set = 0, binding = 40) readonly buffer Indices { uint indices[]; };
+#endif
 layout(std430, set = 0, binding = 41) readonly buffer Appearance { float appearance[]; };
 layout(std430, set = 0, binding = 42) readonly buffer Textures { TextureRecord textures[]; };
 layout(set = 0, binding = 43) uniform texture2DArray texture_pages;

@@ -2,7 +2,10 @@
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_EMITTERS_GLSL
 
 // Points of emissive surfaces, chosen by power. Twin of EmitterRecord in gpu/emitters.h.
-// Needs: end_paths.glsl as far as struct OpaquePoint; gpu/light_sample.glsl.
+// Needs: objects, materials, emitter_count, coincidence (visibility_bindings.glsl); gpu/vertices.glsl, gpu/appearance.glsl,
+// gpu/light_sample.glsl.
+#include "gpu/emitted_radiance.glsl"
+
 struct EmitterRecord {
     uint object;
     uint triangle;     // over all objects
@@ -22,8 +25,17 @@ uint chosen_emitter(float choice) {
     return low;
 }
 
-// `u`, `choice`: 0..1. Emission from both faces, unless the material is single-sided.
-LightSample sample_emitter(vec3 position, vec2 u, float choice) {
+struct EmitterPoint {
+    vec3 position;   // m, world
+    vec3 outward;    // unit, of the triangle
+    vec3 emission;   // radiance
+    float density;   // of such points, 1/m2
+    bool both_faces; // emit
+    uint triangle;
+};
+
+// `u`, `choice`: 0..1.
+EmitterPoint emitter_point(vec2 u, float choice) {
     EmitterRecord emitter = emitters[chosen_emitter(choice)];
     ObjectRecord o = objects[emitter.object];
     uint corner = o.first_corner + 3u * (emitter.triangle - o.first_triangle);
@@ -36,15 +48,25 @@ LightSample sample_emitter(vec3 position, vec2 u, float choice) {
     vec4 texcoords = vec4(0.0);
     for (int k = 0; k < 3; ++k) texcoords += w[k] * vertex_texcoords(v[k]);
     MaterialRecord material = materials[o.material];
-    vec3 to_point = w.x * a + w.y * b + w.z * c - position;
-    float d2 = max(dot(to_point, to_point), 1e-20), distance_ = sqrt(d2);
     vec3 outward = normalize(cross(b - a, c - a)) * (o.mirrored != 0u ? -1.0 : 1.0);
-    float cos_theta = -dot(outward, to_point) / distance_;
-    if ((material.flags & PELLUCID_MATERIAL_SINGLE_SIDED) == 0u) cos_theta = abs(cos_theta);
-    vec3 emission = emitted_radiance(material, texcoords.xy, texcoords.zw);
+    return EmitterPoint(w.x * a + w.y * b + w.z * c, outward, emitted_radiance(material, texcoords.xy, texcoords.zw),
+                        emitter.density, (material.flags & PELLUCID_MATERIAL_SINGLE_SIDED) == 0u, emitter.triangle);
+}
+
+// Cosine of emission in a unit direction; 0: the face that looks there is dark.
+float emission_cosine(EmitterPoint point, vec3 direction) {
+    float cos_theta = dot(point.outward, direction);
+    return point.both_faces ? abs(cos_theta) : max(cos_theta, 0.0);
+}
+
+LightSample sample_emitter(vec3 position, vec2 u, float choice) {
+    EmitterPoint point = emitter_point(u, choice);
+    vec3 to_point = point.position - position;
+    float d2 = max(dot(to_point, to_point), 1e-20), distance_ = sqrt(d2);
+    to_point /= distance_;
     // The shadow ray ends before the surface that emits.
-    return LightSample(to_point / distance_, 0.9999 * distance_ - coincidence,
-                       emission * (max(cos_theta, 0.0) / (d2 * emitter.density)));
+    return LightSample(to_point, 0.9999 * distance_ - coincidence,
+                       point.emission * (emission_cosine(point, -to_point) / (d2 * point.density)));
 }
 
 #endif

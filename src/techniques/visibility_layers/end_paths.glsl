@@ -29,7 +29,6 @@ layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]
 #include "techniques/visibility_layers/path_light.glsl"
 #include "techniques/visibility_layers/microfacets.glsl"
 #include "gpu/opaque_surface.glsl"
-layout(constant_id = 41) const bool kPhotons = false;  // lights throw caustics
 #include "light/photon_lookup.glsl"
 #include "light/photon_mirrors.glsl"
 #ifdef PELLUCID_LIT
@@ -81,12 +80,24 @@ OpaquePoint opaque_point(PathState state) {
     return point;
 }
 
-// Of an opaque surface, what it reflects of an environment that nothing hides and, if `emits`, what it emits. Paths carry
+// Whether photons have brought the light of emissive surfaces and the environment that such a path meets by chance.
+bool photons_have(PathState state) { return has_mark(state, kFromDiffuse) && !has_mark(state, kUnbent); }
+
+// Whether photons bring what the point's facets throw on the diffuse surface from which the path has come.
+bool mirrors_photons(PathState state, OpaquePoint point) { return point.reflects_photons && has_mark(state, kFromDiffuse); }
+
+// Of an opaque surface, what it reflects of an environment that nothing hides, and what it emits. Paths carry
 // radiance over n^2: what a surface emits into a medium, and what lamps in it throw, is divided by that.
-vec3 light_of(OpaquePoint point, vec3 direction, bool emits) {
+vec3 light_of(PathState state, OpaquePoint point) {
     if (point.unlit) return point.emission;
+    // Shadow rays have brought what is met straight from an opaque surface.
+    bool emits = emitter_count == 0u || !(has_mark(state, kUnbent) || (kPhotonsOfEmitters && has_mark(state, kFromDiffuse)));
     vec3 emission = emits ? point.emission / (point.ior * point.ior) : vec3(0.0);
-    return opaque_radiance(point.surface, point.normal, -direction) + emission;
+    if (kPhotonsOfEnvironment && mirrors_photons(state, point)) {
+        float cos_theta = clamp(-dot(point.normal, state.path.direction), 1e-4, 1.0);
+        return opaque_diffuse_radiance(point.surface, point.normal, cos_theta) + emission;
+    }
+    return opaque_radiance(point.surface, point.normal, -state.path.direction) + emission;
 }
 
 #include "techniques/visibility_layers/bounces.glsl"
@@ -94,12 +105,16 @@ vec3 light_of(OpaquePoint point, vec3 direction, bool emits) {
 
 // What the environment sends along a path.
 vec3 environment_light(PathState state) {
+    // Glass that lets shadow rays pass bends none of this light.
+    bool bent_elsewhere = kPhotonsOfEnvironment || (kEnvironmentRays && tinted_shadows != 0u);
+    if ((bent_elsewhere && photons_have(state)) || shadow_rays_have(state)) return vec3(0.0);
     vec3 direction = state.path.direction;
     // What glass and mirrors throw on a diffuse surface is sharp.
     if (has_mark(state, kBounced) && !has_mark(state, kUnbent)) return state.path.transmittance * environment_radiance(direction);
     float spread = kRough || has_mark(state, kBounced) ? spread_of(state.mark) : 0.0;
     if (spread > 0.0) return state.path.transmittance * filtered_environment_radiance(direction, sqrt(spread));
-    return state.path.transmittance * (environment_radiance(direction) + suns_ahead(direction));
+    vec3 suns = kPhotons && has_mark(state, kFromDiffuse) ? vec3(0.0) : suns_ahead(direction);
+    return state.path.transmittance * (environment_radiance(direction) + suns);
 }
 
 void store_result(ivec2 texel, PathState state) {
@@ -133,9 +148,7 @@ bool end_at_surface(ivec2 texel, PathState state) {
     bool drawn = has_mark(state, kOpaquePixel) && has_mark(state, kMainPath);  // by the rasteriser
     if (!drawn) {
         if (has_mark(state, kMainPath)) store_result(texel, state);
-        // Shadow rays have brought what is met straight from an opaque surface.
-        bool emits = emitter_count == 0u || !has_mark(state, kUnbent);
-        vec3 light = light_of(point, state.path.direction, emits);
+        vec3 light = light_of(state, point);
 #ifdef PELLUCID_LIT
         if (!point.unlit)
             light += diffuse_albedo(point, -state.path.direction) / (3.14159265 * point.ior * point.ior) *

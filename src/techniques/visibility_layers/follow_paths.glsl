@@ -69,6 +69,7 @@ void pass_pane_as_photon(inout PathState state, Surface surface) {
     if (random_number(state.seed ^ (surface.corner + 1u) * 0x51ed270bu, state.path.events) < reflected) {
         state.path.direction = reflect_direction(state.path.direction, faceforward(surface.normal, state.path.direction, surface.normal));
         ++state.path.events;
+        state.mark &= ~kUnbent;
         choose_spacing(state.path, reflected);
     } else {
         state.path.transmittance *= mix(vec3(1.0), (1.0 - 2.0 * once / (1.0 + once)) * tint.rgb, tint.a) / (1.0 - reflected);
@@ -237,6 +238,7 @@ void pass_shadow(inout PathState state, MetSurface met, uint before, uint beyond
 // Whether a lamp of some size lies on the way to a surface at `t`, and if so ends the path there.
 bool meets_lamp(inout PathState state, uint body, float t) {
     if (kVisibleLights == 0u || has_mark(state, kToLight | kBounced) || spread_of(state.mark) > 0.0) return false;
+    if (kPhotons && has_mark(state, kFromDiffuse)) return false;
     vec3 radiance;
     float straight = lamp_ahead(state.path.position, state.path.direction, t, radiance);
     if (straight >= t) return false;
@@ -295,7 +297,7 @@ bool go_on(inout PathState state) {
         state.path.status = kStatusEventLimit;
         return false;
     }
-    if (kFromLight) widen_spacing(state.path, straight);
+    if (kFromLight && !has_mark(state, kUnbent)) widen_spacing(state.path, straight);
     if (kFromLight && body != kAir) state.path.transmittance *= beer_lambert(filling_material(body).sigma_a.rgb, straight);
     else if (body != kAir) travel(state.path, straight, filling_material(body).sigma_a.rgb);
     state.path.position = met.surface.position;

@@ -40,7 +40,7 @@ struct PathState {
     Path path;      // world space
     Media media;
     uint standing;  // the triangle that it stands on
-    uint mark;      // bits of the kinds below, and how far rough surfaces have spread it
+    uint mark;      // bits of the kinds below, and how far rough surfaces have spread it (kSpreadShift)
     uint pixel;     // its number
     uint seed;      // of its random choices
 };
@@ -56,16 +56,21 @@ const uint kLost = 256u;        // the map cannot say what it meets: another wil
 const uint kToLight = 512u;     // a shadow ray: it goes straight to a light, `length_inside` metres away
 const uint kOpaquePixel = 1024u;  // its light is that of the opaque surface which the pixel shows
 const uint kMetLamp = 16384u;     // it has ended on a lamp, whose radiance its transmittance includes
-const uint kUnbent = 32768u;    // scattered by an opaque surface, and in no mirror or refraction since
+const uint kUnbent = 32768u;    // scattered by an opaque surface, and in no mirror or refraction since. Photons: not bent yet, as
+                                // far apart as they are at their targets
+const uint kFromDiffuse = 65536u;  // reflected diffusely; since then by nothing but what photons follow
 const uint kBounceShift = 11u, kBounceMask = 7u << kBounceShift;  // diffuse reflections so far
 
 bool has_mark(PathState state, uint bits) { return (state.mark & bits) != 0u; }
 
+const uint kSpreadShift = 17u;
+
 // Alpha of the lobe that a mark stands for, 0..1.
-float spread_of(uint mark) { return float(mark >> 16) / 65535.0; }
+float spread_of(uint mark) { return float(mark >> kSpreadShift) / 32767.0; }
+uint without_spread(uint mark) { return mark & ((1u << kSpreadShift) - 1u); }
 uint widened(uint mark, float alpha) {
     float sum = min(sqrt(spread_of(mark) * spread_of(mark) + alpha * alpha), 1.0);
-    return (mark & 0xffffu) | uint(sum * 65535.0 + 0.5) << 16;
+    return without_spread(mark) | uint(sum * 32767.0 + 0.5) << kSpreadShift;
 }
 
 Path unpack_path(vec4 place, vec4 way, vec4 weight) {

@@ -108,7 +108,9 @@ private:
                    push_.most_branches * kSurfacesPerBranch;
         const std::uint32_t branches = std::max(push_.most_branches, push_.most_bounces);
         const std::uint32_t shadow_rays =
-            std::min(push_.direct_lights + (push_.emitter_count > 0 ? 1 : 0), kMostShadowRays) * (1 + branches);
+            (std::min(push_.direct_lights + (push_.emitter_count > 0 ? 1 : 0), kMostShadowRays) +
+             (frame_.environment_shares != nullptr ? 1 : 0)) *
+            (1 + branches);
         return in_passes(surfaces) + branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1) +
                shadow_rays * in_passes(kSurfacesPerShadowRay + surfaces_per_pass_ - 1);
     }
@@ -139,6 +141,10 @@ private:
                 {"kVisibleLights", frame_.light.visible_lights()},
                 {"kFromLight", task_.from_light},
                 {"kPhotons", frame_.photons != nullptr},
+                {"kPhotonsOfEmitters", frame_.light.photons_of_emitters},
+                {"kPhotonsOfEnvironment", frame_.light.photons_of_environment},
+
+                {"kEnvironmentRays", frame_.environment_shares != nullptr && task_.full_light},
                 {"kGathers", task_.gathers},
                 {"kCachedFrom", frame_.irradiance != nullptr ? frame_.bounces_before_cache : kNeverCached}};
     }

@@ -19,6 +19,9 @@ layout(constant_id = 8) const bool kMapPerMesh = false;   // otherwise there is 
 layout(constant_id = 9) const bool kTouching = false;     // surfaces of two shells may lie at one place
 layout(constant_id = 15) const bool kFoundOnHost = false; // surfaces are found by the host, in no map
 layout(constant_id = 40) const bool kFromLight = false;   // paths are photons: weights are flux, W
+layout(constant_id = 41) const bool kPhotons = false;     // lights throw caustics,
+layout(constant_id = 42) const bool kPhotonsOfEmitters = false;     // emissive surfaces,
+layout(constant_id = 43) const bool kPhotonsOfEnvironment = false;  // and the environment
 layout(constant_id = 29) const bool kLightsSurfaces = false;  // paths look from opaque surfaces to lights, and to each other
 layout(constant_id = 31) const bool kFullLight = false;       // what facets of opaque surfaces reflect is followed, too
 layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend

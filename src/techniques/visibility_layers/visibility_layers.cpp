@@ -58,6 +58,7 @@ std::vector<Binding> light_bindings(const Frame& frame) {
     constexpr vk::DeviceSize kLeast = 96;  // a grid and a node
     std::vector<Binding> bindings = photon_bindings(frame);
     const Buffer& none = frame.workspace.buffer("no irradiance", kLeast);
+    bindings.push_back(reads("EnvironmentShares", frame.environment_shares ? *frame.environment_shares : none));
     if (frame.irradiance == nullptr)
         bindings.push_back(reads("IrradianceNodes", none));
     else

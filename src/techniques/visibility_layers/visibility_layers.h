@@ -22,7 +22,8 @@ inline constexpr std::array kPathParameters = {
     ParameterInfo{"surfaces-per-pass", "", 0, 0, 64, true,
                   "surfaces that a path meets in one dispatch, a matter of time; 0: chosen for the device"},
     ParameterInfo{"photons", "", -1, -1, 4194304, true,
-                  "photons of every light in every frame: light that glass or polished metal sends onto opaque "
+                  "photons of every light, of emissive surfaces and of the environment in every frame: light that "
+                  "glass or polished metal sends onto opaque "
                   "surfaces; -1: 16384 with "
                   "--light full, none otherwise"},
     ParameterInfo{"layers", "", 1, 1, 64, true,
