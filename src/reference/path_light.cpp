@@ -1,4 +1,5 @@
 // The part of PathWalk that meets lights, by chance and by aiming at them.
+#include "reference/boundaries.h"
 #include "reference/path_walk.h"
 
 #include <cmath>
@@ -29,6 +30,18 @@ double PathWalk::weight_of_chance(const Light& light) const {
     if (pdf_ > 0.0) return power_heuristic(pdf_, arriving_pdf(light, scattered_at_));
     const bool photons_have_it = world_.photons && scatters_ > 0 && bent_;
     return photons_have_it ? 0.0 : 1.0;
+}
+
+/// Weight of an emissive surface that the path meets by chance.
+double PathWalk::weight_of_chance(const Hit& emitter) const {
+    if (!(pdf_ > 0.0) || !world_.emitters) return 1.0;
+    return power_heuristic(pdf_, world_.emitters->pdf(scattered_at_, emitter));
+}
+
+void PathWalk::emit(const Vertex& vertex) {
+    const glm::dvec3 light(emission(world_.scene, vertex.material, vertex.attributes));
+    if (light == glm::dvec3(0.0)) return;
+    receive(part(), throughput_ * light * (emitted_share() * weight_of_chance(vertex.hit)));
 }
 
 /// The path leaves the scene. In an open mesh it may seem to be inside glass of no end, which then does
@@ -86,6 +99,19 @@ void PathWalk::add_light(const Light& light, const Vertex& vertex, const Bsdf& b
                 visibility(vertex.hit, arriving->direction, arriving->distance, &light));
 }
 
+/// Light of an emissive surface, from a point that was chosen.
+void PathWalk::add_emission(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random) {
+    const std::optional<EmitterSampler::Sample> chosen = world_.emitters->sample(vertex.hit.position, random);
+    if (!chosen) return;
+    const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, chosen->direction, random);
+    if (!(bsdf_value.pdf > 0.0)) return;
+    const double share =
+        refracts_towards(vertex.hit, chosen->direction) ? emitted_share(beyond_, 1.0) : emitted_share();
+    const double weight = share * power_heuristic(chosen->pdf, bsdf_value.pdf) / chosen->pdf;
+    receive(part_through(LightPart::kDirect),
+            throughput_ * bsdf_value.value * weight * visible_emission(vertex.hit, *chosen));
+}
+
 glm::dvec3 PathWalk::irradiance(const Hit& on, Random& random) {
     const auto [object, triangle, sense, shell] = on.crossing;
     if (world_.geometry.cut_out(object, triangle, on.u, on.v)) return glm::dvec3(0.0);
@@ -105,46 +131,94 @@ glm::dvec3 PathWalk::irradiance(const Hit& on, Random& random) {
 
 /// Share of the light from a source at `distance` that reaches a surface. `light`: the source, if it is one of the scene's.
 glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, double distance, const Light* light) {
-    shadow_standing_ = standing_;
-    for (Crossing& on : shadow_standing_) on.sense = world_.geometry.sense(on.object, on.triangle, direction);
-    const MediumStack& inside = refracts_towards(from, direction) ? beyond_ : inside_;
-    Query query;
-    query.origin = from.position;
-    query.direction = direction;
-    query.t_max = distance;
-    query.standing = shadow_standing_;
+    const MediumStack& inside = medium_towards(from, direction);
+    Query query = shadow_ray(from, direction, distance);
     query.kinds = only(SurfaceKind::kOpaque) | only(SurfaceKind::kRefractive);
     if (world_.geometry.occluded(query) || lights_.nearest(query, light).light) return glm::dvec3(0.0);
-    const bool in_volume = inside.solid() == kAir ? world_.volumes.meets(query.origin, direction, distance)
-                                                  : world_.volumes.bends_in(inside.solid());
-    if (in_volume) return glm::dvec3(0.0);
+    if (meets_volume(inside, query)) return glm::dvec3(0.0);
     glm::dvec3 share(1.0);
     // To infinity there is no glass on the way but that of open meshes; see see_sky().
     if (inside.solid() != kAir && std::isfinite(distance)) share = beer_lambert(inside.medium().sigma_a, distance);
     return world_.has_panes ? share * pane_transmittance(query) : share;
 }
 
-/// What smooth panes leave of light that comes straight through them; rough ones scatter it.
+/// Radiance that arrives from the chosen point of an emissive surface, if a straight path would meet that triangle first.
+glm::dvec3 PathWalk::visible_emission(const Hit& from, const EmitterSampler::Sample& chosen) {
+    const MediumStack& inside = medium_towards(from, chosen.direction);
+    Query query = shadow_ray(from, chosen.direction, chosen.distance);
+    if (lights_.nearest(query).light || meets_volume(inside, query)) return glm::dvec3(0.0);
+    glm::dvec3 share(1.0);
+    if (inside.solid() != kAir) share = beer_lambert(inside.medium().sigma_a, chosen.distance);
+    query.t_max = std::numeric_limits<double>::infinity();  // rounding must not end the ray before the emitter
+    while (share != glm::dvec3(0.0)) {
+        const Hit hit = world_.geometry.intersect(query);
+        if (!hit.found) break;
+        const bool arrives = hit.crossing.object == chosen.object && hit.crossing.triangle == chosen.triangle;
+        const bool pane = world_.geometry.kind(hit.crossing.object) == SurfaceKind::kThin;
+        if (!arrives && !pane) break;
+        step_through(hit, query);
+        if (inside.solid() != kAir) {  // what a solid stands on is outside of it; see meet()
+            const Hit wall = touching_boundary(world_.geometry, query, hit);
+            if (wall.found && wall.crossing.sense == Sense::kLeaving) break;
+        }
+        const Vertex vertex = vertex_at(hit, query.direction);
+        if (arrives) {
+            const double coverage = pane && vertex.material.alpha_is_coverage ? vertex.base.a : 1.0;
+            return share * coverage * glm::dvec3(emission(world_.scene, vertex.material, vertex.attributes));
+        }
+        share *= straight_through(vertex, query.direction);
+    }
+    return glm::dvec3(0.0);
+}
+
+/// From a surface on which the path stands, towards a source.
+Query PathWalk::shadow_ray(const Hit& from, const glm::dvec3& direction, double distance) {
+    shadow_standing_ = standing_;
+    for (Crossing& on : shadow_standing_) on.sense = world_.geometry.sense(on.object, on.triangle, direction);
+    Query query;
+    query.origin = from.position;
+    query.direction = direction;
+    query.t_max = distance;
+    query.standing = shadow_standing_;
+    return query;
+}
+
+/// True if the shadow ray, in the solids `inside`, is in a volume somewhere, which bends light.
+bool PathWalk::meets_volume(const MediumStack& inside, const Query& query) const {
+    return inside.solid() == kAir ? world_.volumes.meets(query.origin, query.direction, query.t_max)
+                                  : world_.volumes.bends_in(inside.solid());
+}
+
+/// Takes a shadow ray on to a pane that it has met.
+void PathWalk::step_through(const Hit& pane, Query& query) {
+    world_.geometry.step_onto(pane, shadow_standing_);
+    query.standing = shadow_standing_;
+    query.origin = pane.position;
+    query.t_max -= pane.t;
+}
+
+/// What a smooth pane leaves of light that comes straight through it; rough ones scatter it.
+glm::dvec3 PathWalk::straight_through(const Vertex& pane, const glm::dvec3& direction) const {
+    const PaneBsdf bsdf(double(pane.material.ior), roughness_at(pane), glm::dvec3(pane.base));
+    const double coverage = pane.material.alpha_is_coverage ? pane.base.a : 1.0;
+    glm::dvec3 through(0.0);
+    if (bsdf.only_mirrors())
+        through = bsdf.straight_through(-glm::dot(pane.normal, direction)) *
+                  double(transmission(world_.scene, pane.material, pane.attributes));
+    return (1.0 - coverage) + coverage * through;
+}
+
+/// What all panes leave of it.
 glm::dvec3 PathWalk::pane_transmittance(Query query) {
     query.kinds = only(SurfaceKind::kThin);
     glm::dvec3 share(1.0);
-    for (;;) {
+    while (share != glm::dvec3(0.0)) {
         const Hit hit = world_.geometry.intersect(query);
-        if (!hit.found) return share;
-        const Vertex pane = vertex_at(hit, query.direction);
-        const PaneBsdf bsdf(double(pane.material.ior), roughness_at(pane), glm::dvec3(pane.base));
-        const double coverage = pane.material.alpha_is_coverage ? pane.base.a : 1.0;
-        glm::dvec3 through(0.0);  // rough panes scatter
-        if (bsdf.only_mirrors())
-            through = bsdf.straight_through(-glm::dot(pane.normal, query.direction)) *
-                      double(transmission(world_.scene, pane.material, pane.attributes));
-        share *= (1.0 - coverage) + coverage * through;
-        if (share == glm::dvec3(0.0)) return share;
-        world_.geometry.step_onto(hit, shadow_standing_);
-        query.standing = shadow_standing_;
-        query.origin = hit.position;
-        query.t_max -= hit.t;
+        if (!hit.found) break;
+        share *= straight_through(vertex_at(hit, query.direction), query.direction);
+        step_through(hit, query);
     }
+    return share;
 }
 
 }  // namespace pellucid::reference

@@ -1,6 +1,7 @@
 #include "reference/path_tracer.h"
 
 #include "reference/camera_rays.h"
+#include "reference/emitter_sampler.h"
 #include "reference/environment_sampler.h"
 #include "reference/path_walk.h"
 #include "reference/photon_emission.h"
@@ -190,11 +191,19 @@ PathTracedImage trace_paths(const Geometry& geometry, const CurvedVolumes& volum
     if (settings.parts) image.parts.fill(image.radiance);
 
     const EnvironmentSampler sampler(environment);
+    const EmitterSampler emitters(geometry, scene);
     const CameraRays rays(camera, settings.width, settings.height);
     PhotonRounds photons(geometry, volumes, scene, rays, settings);
     image.warnings = photons.warnings();
-    const PathWorld world{
-        geometry, volumes, scene, environment, sampler, settings.max_vertices, has_panes(geometry), photons.map()};
+    const PathWorld world{.geometry = geometry,
+                          .volumes = volumes,
+                          .scene = scene,
+                          .environment = environment,
+                          .sampler = sampler,
+                          .max_vertices = settings.max_vertices,
+                          .has_panes = has_panes(geometry),
+                          .photons = photons.map(),
+                          .emitters = emitters.dark() ? nullptr : &emitters};
     Painter painter(world, rays, settings);
     const std::uint32_t rounds = painter.rounds();
     const std::uint32_t columns = (settings.width + kTile - 1) / kTile;

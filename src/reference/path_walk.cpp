@@ -175,11 +175,6 @@ bool PathWalk::refracts_towards(const Hit& from, const glm::dvec3& direction) co
     return crosses(from, direction) && world_.geometry.kind(from.crossing.object) == SurfaceKind::kRefractive;
 }
 
-void PathWalk::emit(const Vertex& vertex) {
-    receive(part(),
-            throughput_ * emitted_share() * glm::dvec3(emission(world_.scene, vertex.material, vertex.attributes)));
-}
-
 OpaqueBsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
     const auto [metallic, roughness] = metallic_roughness(world_.scene, vertex.material, vertex.attributes);
     // What a translucent surface sends to the other side it does not reflect. (That light is not followed.)
@@ -241,6 +236,7 @@ bool PathWalk::scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random) {
     if (!photon_.stored && !std::visit([](const auto& b) { return b.only_mirrors(); }, bsdf)) {
         add_environment(vertex, bsdf, facing, random);
         for (const Light& light : world_.scene.lights) add_light(light, vertex, bsdf, facing, random);
+        if (world_.emitters) add_emission(vertex, bsdf, facing, random);
         if (world_.photons) add_photons(vertex, bsdf, facing, random);
     }
 

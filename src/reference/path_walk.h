@@ -3,6 +3,7 @@
 #include "reference/bsdf.h"
 #include "reference/camera_rays.h"
 #include "reference/curved_volumes.h"
+#include "reference/emitter_sampler.h"
 #include "reference/environment_sampler.h"
 #include "reference/geometry.h"
 #include "reference/photon_map.h"
@@ -31,8 +32,9 @@ struct PathWorld {
     const Environment& environment;
     const EnvironmentSampler& sampler;
     std::uint32_t max_vertices = 256;
-    bool has_panes = false;              ///< the scene has thin-walled glass
-    const PhotonMap* photons = nullptr;  ///< of light that next-event estimation cannot follow; null: none
+    bool has_panes = false;                    ///< the scene has thin-walled glass
+    const PhotonMap* photons = nullptr;        ///< of light that next-event estimation cannot follow; null: none
+    const EmitterSampler* emitters = nullptr;  ///< null: paths meet emissive surfaces by chance alone
 };
 
 bool has_panes(const Geometry& geometry);
@@ -68,7 +70,7 @@ using LightParts = std::array<glm::dvec3, 4>;  ///< radiance, by LightPart
 ///
 /// Lights of the scene that have a size are met by chance, too, combined with those that were chosen. A path may meet
 /// one after a mirror or a refraction that follows on a surface that is not smooth: it counts if there are no photons,
-/// which else have that light.
+/// which else have that light. The same goes for emissive surfaces, except that they send no photons.
 ///
 /// Colours part at the first boundary of a dispersive medium, or volume: the path goes on with one channel, at whose
 /// indices it is refracted from there on.
@@ -150,10 +152,12 @@ private:
     LightPart part() const;
     LightPart part_through(LightPart of_first) const { return scatters_ == 0 ? of_first : LightPart::kIndirect; }
     double weight_of_chance(const Light& light) const;
+    double weight_of_chance(const Hit& emitter) const;
     void see_sky();
     void see_ball(double distance);
     void add_environment(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
     void add_light(const Light& light, const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
+    void add_emission(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
     void add_photons(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random);
     BsdfValue value_towards(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, const glm::dvec3& direction,
                             Random& random) const;
@@ -161,6 +165,14 @@ private:
     bool cross_as_photon(const Vertex& vertex, const InterfaceBsdf& bsdf, Random& random);
     double adjoint_weight(const Vertex& vertex, const glm::dvec3& wi, const glm::dvec3& wo) const;
     glm::dvec3 visibility(const Hit& from, const glm::dvec3& direction, double distance, const Light* light);
+    glm::dvec3 visible_emission(const Hit& from, const EmitterSampler::Sample& chosen);
+    const MediumStack& medium_towards(const Hit& from, const glm::dvec3& direction) const {
+        return refracts_towards(from, direction) ? beyond_ : inside_;
+    }
+    Query shadow_ray(const Hit& from, const glm::dvec3& direction, double distance);
+    bool meets_volume(const MediumStack& inside, const Query& query) const;
+    void step_through(const Hit& pane, Query& query);
+    glm::dvec3 straight_through(const Vertex& pane, const glm::dvec3& direction) const;
     glm::dvec3 pane_transmittance(Query query);
 
     const PathWorld& world_;

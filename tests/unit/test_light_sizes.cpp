@@ -1,6 +1,6 @@
 // Lights with a size in the path tracer: closed forms, furnaces, and each kind of path by two methods.
 #include "core/math.h"
-#include "traced_scenes.h"
+#include "path_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -28,32 +28,6 @@ Light disc_sun(glm::vec3 direction, float angular_diameter, float irradiance = 3
     light.angular_diameter = angular_diameter;
     light.intensity = glm::vec3(irradiance);
     return light;
-}
-
-struct Seen {
-    double radiance, error;
-};
-Seen mean_of(const PathTracedImage& image) {
-    Seen seen{0.0, 0.0};
-    const double count = double(image.radiance.pixels.size());
-    for (const float value : image.radiance.pixels) seen.radiance += double(value) / count;
-    for (const float error : image.standard_error.pixels) seen.error += double(error) * double(error) * 3.0;
-    return {seen.radiance, std::sqrt(seen.error) / count};
-}
-
-PathTracedImage trace_picture(const Scene& scene, const Camera& camera, float sky, std::uint32_t size,
-                              std::uint32_t samples, std::uint32_t photons = 0) {
-    return Tracer(scene).path_trace(camera, uniform(sky),
-                                    {.width = size, .height = size, .samples = samples, .photons = photons});
-}
-
-/// What one ray through `target` sees without a sky.
-Seen look(const Scene& scene, glm::vec3 target, glm::vec3 direction, std::uint32_t samples, float distance = 10.0f) {
-    return mean_of(trace_picture(scene, parallel_camera(target, direction, 1e-4f, distance), 0.0f, 1, samples));
-}
-
-void expect_seen(const Seen& seen, double expected) {
-    EXPECT_NEAR(seen.radiance, expected, 4.0 * seen.error + 1e-4 * expected);
 }
 
 constexpr glm::vec3 kDown(0, -1, 0);
@@ -163,7 +137,8 @@ TEST(LightSizes, LampsOfRadianceOneAreInvisibleInTheFurnace) {
     scene.lights = {ball_lamp({0, 1, 0}, 0.3f), ball_lamp({1.2f, 2, 0.5f}, 0.5f), ball_lamp({-0.3f, -0.7f, 1}, 0.2f),
                     ball_lamp({1.2f, 0, 0}, 0.3f)};
     scene.lights[3].intensity *= 2.25f;  // in glass
-    expect_furnace(trace_picture(scene, kFurnaceView, 1.0f, 32, 400));
+    // Fewer samples understate the error of rough glass under what is aimed at near by.
+    expect_furnace(trace_picture(scene, kFurnaceView, 1.0f, 24, 1600));
 }
 
 TEST(LightSizes, TwoHalvesOfTheSkyAreAFurnace) {
@@ -211,12 +186,12 @@ Scene lit_things(bool with_glass) {
 
 /// Seen from above, past the ball, so that no pixel shows it.
 const Camera kLitView = parallel_camera({0, -0.5f, -0.5f}, glm::normalize(glm::vec3(-0.8f, -1, -0.4f)), 3.0f);
-const Light kLitBy = ball_lamp({0.6f, 1.6f, -0.8f}, 0.3f, 20.0f);
+const Light kLitBy = ball_lamp({0.6f, 1.6f, -0.8f}, 0.3f);
 
-/// The same ball as a black mesh that emits: paths meet it by chance alone.
+/// The same ball as an unlit mesh: paths meet it by chance alone.
 Scene with_mesh_lamp(Scene scene) {
-    Material emits = matt(0.0f);
-    emits.emission = glm::vec3(20.0f);
+    Material emits;
+    emits.unlit = true;
     add(scene, load_scene("shape:sphere,segments=96").meshes[0], emits,
         glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(kLitBy.position)), glm::vec3(0.3f)));
     return scene;
