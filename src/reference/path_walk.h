@@ -66,7 +66,7 @@ using LightParts = std::array<glm::dvec3, 4>;  ///< radiance, by LightPart
 /// mirror, counts in full.
 ///
 /// Around all solids a path bends in volumes (curved_volumes.h). As behind refracting glass, light behind a volume is found
-/// by chance alone: lights that are points do not shine through volumes.
+/// by chance or by photons: without photons, lights that are points do not shine through volumes.
 ///
 /// Lights of the scene that have a size are met by chance, too, combined with those that were chosen. A path may meet
 /// one after a mirror or a refraction that follows on a surface that is not smooth: it counts if there are no photons,

@@ -46,6 +46,27 @@ bool has_smooth_part(const Scene& scene, const Material& material, SurfaceKind k
     return Microfacets{roughness * roughness}.smooth();
 }
 
+bool boxes_meet(const Geometry::Box& a, const Geometry::Box& b, double apart) {
+    return glm::all(glm::lessThanEqual(a.low - apart, b.high)) && glm::all(glm::lessThanEqual(b.low - apart, a.high));
+}
+
+/// True if some of an object's boundary may part nothing, inside a solid or between equal media: light crosses such a
+/// boundary without scattering, however rough it is. Decided by boxes.
+bool may_part_nothing(const Geometry& geometry, std::uint32_t object) {
+    if (geometry.kind(object) != SurfaceKind::kRefractive) return false;
+    const auto body_of = [&](std::uint32_t of) { return geometry.solid_of(geometry.shell(of, 0)) / 2; };
+    const auto triangles = std::uint32_t(geometry.mesh(object).triangles.size());
+    for (std::uint32_t t = 1; t < triangles; ++t) {
+        if (geometry.shell(object, t) != geometry.shell(object, 0)) return true;
+    }
+    for (std::uint32_t other = 0; other < geometry.object_count(); ++other) {
+        if (geometry.kind(other) == SurfaceKind::kRefractive && body_of(other) != body_of(object) &&
+            boxes_meet(geometry.box(object), geometry.box(other), geometry.widest_contact()))
+            return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 PhotonEmitter::PhotonEmitter(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene)
@@ -69,7 +90,9 @@ PhotonEmitter::Sphere PhotonEmitter::smooth_bounds(const Geometry& geometry, con
     }
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (std::uint32_t object = 0; object < geometry.object_count(); ++object) {
-        if (!has_smooth_part(scene, geometry.material(object), geometry.kind(object))) continue;
+        if (!has_smooth_part(scene, geometry.material(object), geometry.kind(object)) &&
+            !may_part_nothing(geometry, object))
+            continue;
         const Geometry::Box box = geometry.box(object);
         low = glm::min(low, box.low);
         high = glm::max(high, box.high);

@@ -3,11 +3,14 @@
 // Volumes of which the rays are known.
 #include "optics/index_fields.h"
 
+#include <pellucid/scene.h>
 #include <pellucid/volume.h>
 
 #include <glm/glm.hpp>
 
 #include <cmath>
+#include <memory>
+#include <utility>
 
 namespace pellucid::test {
 
@@ -46,6 +49,24 @@ inline Volume slab(float n, double smoothing, unsigned resolution) {
         volume.boundary.insert(volume.boundary.end(), resolution * resolution,
                                float(std::exp(-0.5 * off * off / (sigma * sigma))));
     }
+    return volume;
+}
+
+inline void add_volume(Scene& scene, Volume volume, const glm::mat4& world_from_volume = glm::mat4(1.0f)) {
+    VolumeObject object;
+    object.name = "volume";
+    object.volume = int(scene.volumes.size());
+    object.world_from_volume = world_from_volume;
+    scene.volumes.push_back(std::make_shared<const Volume>(std::move(volume)));
+    scene.volume_objects.push_back(object);
+}
+
+/// A cube of 2 m around the origin of what is the same everywhere.
+inline Volume even(glm::vec3 sigma_a, glm::vec3 emission, float n = 1.0f) {
+    Volume volume = even_cube(1.0f);
+    volume.n.assign(volume.voxel_count(), n);
+    volume.sigma_a.assign(volume.voxel_count(), sigma_a);
+    volume.emission.assign(volume.voxel_count(), emission);
     return volume;
 }
 

@@ -21,24 +21,6 @@
 namespace pellucid::test {
 namespace {
 
-void add_volume(Scene& scene, Volume volume, const glm::mat4& world_from_volume = glm::mat4(1.0f)) {
-    VolumeObject object;
-    object.name = "volume";
-    object.volume = int(scene.volumes.size());
-    object.world_from_volume = world_from_volume;
-    scene.volumes.push_back(std::make_shared<const Volume>(std::move(volume)));
-    scene.volume_objects.push_back(object);
-}
-
-/// A cube of 2 m around the origin of what is the same everywhere.
-Volume even(glm::vec3 sigma_a, glm::vec3 emission, float n = 1.0f) {
-    Volume volume = even_cube(1.0f);
-    volume.n.assign(volume.voxel_count(), n);
-    volume.sigma_a.assign(volume.voxel_count(), sigma_a);
-    volume.emission.assign(volume.voxel_count(), emission);
-    return volume;
-}
-
 std::vector<RefractedPath> exact(const Scene& scene, const Camera& camera, std::uint32_t size) {
     return Tracer(scene, {}).exact(camera, {.width = size, .height = size});
 }
