@@ -153,8 +153,8 @@ public:
         const std::vector<std::string> names = emitter_->without_size();
         if (names.empty()) return {};
         return {
-            fmt::format("{} without a size: no light of {} comes through smooth glass or from mirrors without photons "
-                        "({})",
+            fmt::format("{} without a size: no light of {} comes through smooth glass or volumes, or from mirrors, "
+                        "without photons ({})",
                         names.size() == 1 ? "1 light is" : fmt::format("{} lights are", names.size()),
                         names.size() == 1 ? "it" : "them", fmt::join(names, ", "))};
     }

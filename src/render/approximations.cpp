@@ -9,13 +9,19 @@
 namespace pellucid {
 namespace {
 
+std::size_t lights_without_size(const Scene& scene) {
+    return std::size_t(std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+        return (light.kind == Light::Kind::kDirectional ? light.angular_diameter : light.radius) == 0.0f;
+    }));
+}
+
 std::size_t translucent_objects(const Scene& scene) {
     return std::size_t(std::count_if(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
         return scene.materials[std::size_t(object.material)].translucent();
     }));
 }
 
-/// What the path tracer leaves out of volumes.
+/// What the path tracer leaves out of volumes. It names itself the lights whose light needs photons there.
 std::vector<std::string> volumes_of_truth(const Scene& scene) {
     std::vector<std::string> lines;
     const auto any = [&](auto has) {
@@ -24,19 +30,21 @@ std::vector<std::string> volumes_of_truth(const Scene& scene) {
     };
     if (any([](const Volume& volume) { return !volume.sigma_s.empty(); }))
         lines.emplace_back("light that volumes scatter is lost");
-    if (!scene.volume_objects.empty() && !scene.lights.empty())
-        lines.emplace_back("lights do not shine through volumes");
     return lines;
 }
 
 /// What frames leave out of the light of lights. Numbers of refracting and of opaque objects.
 std::vector<std::string> light_left_out(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light,
                                         std::size_t refractive, std::size_t opaque, bool photons) {
-    const std::size_t translucent = translucent_objects(scene), count = scene.lights.size();
+    const std::size_t translucent = translucent_objects(scene);
     const std::size_t lit = opaque + (technique.lit_glass ? refractive : 0);
-    const bool followed = light.transport != LightTransport::kEnvironment && lit > 0;
-    if (!followed && translucent == 0)
-        return {fmt::format("{} light{} not drawn", count, count == 1 ? " is" : "s are")};
+    const bool shown = light.transport != LightTransport::kEnvironment, followed = shown && lit > 0;
+    if (!followed && translucent == 0) {  // lights with a size are seen themselves
+        const std::size_t count = shown ? lights_without_size(scene) : scene.lights.size();
+        if (count == 0) return {};
+        return {fmt::format("{} light{}{} not drawn", count, count == 1 ? "" : "s",
+                            std::string(shown ? " without a size" : "") + (count == 1 ? " is" : " are"))};
+    }
     if (!followed && translucent < scene.objects.size()) return {"lights light translucent objects only"};
     if (!followed || refractive == 0 || opaque == 0 || (photons && light.shadows == Shadows::kExact)) return {};
     if (light.shadows == Shadows::kTinted) return {"the light of lights goes straight through glass"};
