@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform texture2D pyramid;
 layout(set = 0, binding = 1, rgba32f) writeonly uniform image2DArray filtered_environment;
 
-const int kLevel = 3;  // of the pyramid: 64 x 64 texels, each the mean of its part of the sphere
+const int kLevel = 2;  // of the pyramid: 128 x 128 texels, each the mean of its part of the sphere, 1.4 degrees wide
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
