@@ -48,15 +48,16 @@ vec4 samples_around(vec3 position, vec3 normal, int level) {
     return sum;
 }
 
-// W/m2, less what an environment that nothing hides would bring; 0 where nothing is known. `choice`, 0..1: between levels.
-vec3 cached_irradiance(vec3 position, vec3 normal, float choice) {
+// W/m2, of other surfaces' light. False: nothing is known of the position. `choice`, 0..1: between levels.
+bool cached_irradiance(vec3 position, vec3 normal, float choice, out vec3 irradiance) {
     int level = int(floor(irradiance_level(irradiance_grid, position) + choice));
     vec4 samples = samples_around(position, normal, level);
     if (samples.a < kEnoughSamples) {
         vec4 coarse = samples_around(position, normal, level + kCoarserLevels);
         if (coarse.a > 0.0) samples += (kEnoughSamples - samples.a) * coarse / coarse.a;
     }
-    return samples.a > 0.0 ? irradiance_grid.unit * samples.rgb / samples.a : vec3(0.0);
+    irradiance = samples.a > 0.0 ? irradiance_grid.unit * samples.rgb / samples.a : vec3(0.0);
+    return samples.a > 0.0;
 }
 
 #endif

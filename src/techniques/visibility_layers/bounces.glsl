@@ -89,19 +89,19 @@ void send_bounce(ivec2 texel, PathState state, OpaquePoint point, Bounce chosen,
         add_light(texel, mark, -weight * filtered_environment_radiance(chosen.direction, roughness));
 }
 
-// Light from other surfaces, of one direction or, where there is a cache, of all.
+// Light from other surfaces, of one direction or, where the cache knows it, of all.
 void bounce(ivec2 texel, PathState state, OpaquePoint point) {
     uint branches_before = waiting[state.pixel].y, before = bounces(state);
     if (before >= most_bounces) return;
     uint seed = hash(uvec3(texel + first_pixel(), 77u + branches_before + 256u * before)).x;
     vec2 u = random_numbers(seed, state.path.events);
-    bool cached = kCachedFrom <= before;
     vec3 diffuse = state.path.transmittance * diffuse_albedo(point, -state.path.direction);
+    bool cached = kCachedFrom <= before;
     if (kFullLight && largest(diffuse) > 0.0) {
         // The environment that nothing hides was drawn by nine harmonics. What directions take from it adds up to more detail.
-        vec3 light = detailed_diffuse_radiance(point.normal) - diffuse_radiance(vec3(1.0), point.normal);
-        if (cached) light += cached_irradiance(state.path.position, point.normal, u.x) / 3.14159265;
-        add_light(texel, state.mark, diffuse * light);
+        vec3 irradiance = vec3(0.0), light = detailed_diffuse_radiance(point.normal) - diffuse_radiance(vec3(1.0), point.normal);
+        cached = cached && cached_irradiance(state.path.position, point.normal, u.x, irradiance);
+        add_light(texel, state.mark, diffuse * (light + irradiance / 3.14159265));
     }
     if (branches_before >= max(most_branches, most_bounces)) return;
     Bounce chosen = choose_bounce(point, -state.path.direction, u, random_number(seed, state.path.events));
@@ -109,19 +109,32 @@ void bounce(ivec2 texel, PathState state, OpaquePoint point) {
     if (largest(weight) > threshold && !(cached && chosen.diffuse)) send_bounce(texel, state, point, chosen, weight);
 }
 
-// A sample of the irradiance of the first diffuse surface that the path meets, which may be seen in others.
+const float kIndirectPoints = 0.25;  // share of the points at which others' rays end, which the eye need not see
+
+// Takes the path, which looks for a point, on from a surface.
+void look_on(PathState state, Bounce chosen, uint mark) {
+    ++state.path.events;
+    state.path.direction = chosen.direction;
+    state.mark = mark;
+    push_branch(state, branch_capacity, true);
+}
+
+// A sample of the irradiance of the first diffuse surface that the path meets, which may be seen in others, or of what that
+// surface sees.
 void gather(ivec2 texel, PathState state, OpaquePoint point) {
     uint seed = hash(uvec3(texel + first_pixel(), 76u)).x;
     Bounce chosen = choose_bounce(point, -state.path.direction, random_numbers(seed, state.path.events),
                                   random_number(seed, state.path.events));
     if (!(largest(chosen.weight) > 0.0)) return;
-    if (chosen.diffuse) {
+    uint mark = state.mark & ~kMetOpaque;
+    if (!chosen.diffuse) {
+        if (state.path.events + 1u < max_events) look_on(state, chosen, mark);
+    } else if (bounces(state) == 0u && random_number(seed ^ 0x2c1b3c6du, state.path.events) < kIndirectPoints) {
+        look_on(state, chosen, mark | 1u << kBounceShift);
+    } else {
         points[state.pixel] = IrradiancePoint(state.path.position, pack_direction(point.normal));
+        state.mark &= ~kBounceMask;
         send_bounce(texel, state, point, chosen, vec3(3.14159265));
-    } else if (++state.path.events < max_events) {
-        state.path.direction = chosen.direction;
-        state.mark &= ~kMetOpaque;
-        push_branch(state, branch_capacity, true);
     }
 }
 
