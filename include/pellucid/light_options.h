@@ -35,7 +35,7 @@ struct LightOptions {
     /// Technique that finds where the light of photons leaves glass, run from the lights' views; empty: photons follow every
     /// interface, reflections included. Techniques that see the whole scene do as empty does.
     std::string caustics = {};
-    std::uint32_t bounces = 2;  ///< diffuse reflections along a path, 0 to 7; kFull
+    std::uint32_t bounces = 2;  ///< reflections that rays follow, 0 to 7, before a cache has the rest; kFull
 };
 
 }  // namespace pellucid

@@ -21,7 +21,7 @@ struct FrameLight {
     std::uint32_t emitters = 0;           ///< of GpuScene::emitters, likewise
     bool visible = false;                 ///< some of them have a size, and are seen
     bool tinted_shadows = false;          ///< glass lets the straight ray pass, weakened, instead of blocking it
-    std::uint32_t bounces = 0;            ///< diffuse reflections along a path, 0 to 7
+    std::uint32_t bounces = 0;            ///< reflections that rays follow, 0 to 7, before the cache has the rest
     bool photons_of_emitters = false;     ///< Frame::photons has what glass and metal make of their light,
     bool photons_of_environment = false;  ///< and of the environment's
 
