@@ -24,7 +24,8 @@ void add_light_options(CLI::App& command, LightArguments& arguments) {
             "Technique that finds where the light of --photons leaves glass, run from the lights' views; default: "
             "photons follow every interface")
         ->type_name("NAME");
-    add_number(command, "--bounces", arguments.bounces, "Reflections that rays follow, 0 to 7, before a cache has the rest; --light full")
+    add_number(command, "--bounces", arguments.bounces,
+               "Reflections that rays follow, 0 to 7, before a cache has the rest; --light full")
         ->capture_default_str();
 }
 

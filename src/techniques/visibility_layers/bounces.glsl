@@ -111,7 +111,7 @@ void bounce(ivec2 texel, PathState state, OpaquePoint point) {
 
 const float kIndirectPoints = 0.25;  // share of the points at which others' rays end, which the eye need not see
 
-// Takes the path, which looks for a point, on from a surface.
+// Sends a path that looks for a point on from a surface.
 void look_on(PathState state, Bounce chosen, uint mark) {
     ++state.path.events;
     state.path.direction = chosen.direction;
@@ -119,8 +119,7 @@ void look_on(PathState state, Bounce chosen, uint mark) {
     push_branch(state, branch_capacity, true);
 }
 
-// A sample of the irradiance of the first diffuse surface that the path meets, which may be seen in others, or of what that
-// surface sees.
+// Samples the irradiance of the first diffuse surface that the path meets, also behind mirrors, or of one that this surface sees.
 void gather(ivec2 texel, PathState state, OpaquePoint point) {
     uint seed = hash(uvec3(texel + first_pixel(), 76u)).x;
     Bounce chosen = choose_bounce(point, -state.path.direction, random_numbers(seed, state.path.events),

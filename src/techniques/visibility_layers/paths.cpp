@@ -143,7 +143,6 @@ private:
                 {"kPhotons", frame_.photons != nullptr},
                 {"kPhotonsOfEmitters", frame_.light.photons_of_emitters},
                 {"kPhotonsOfEnvironment", frame_.light.photons_of_environment},
-
                 {"kEnvironmentRays", frame_.environment_shares != nullptr && task_.full_light},
                 {"kGathers", task_.gathers},
                 {"kCachedFrom", frame_.irradiance != nullptr ? frame_.bounces_before_cache : kNeverCached}};

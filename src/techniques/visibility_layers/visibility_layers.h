@@ -64,8 +64,8 @@ void prepare_light(const Preparation& preparation);
 void light_surfaces(Recorder& recorder, const Frame& frame, const Layers& layers);
 
 /// Follows a view ray from every pixel to a diffuse surface, and one ray from there. `points` gets where that is
-/// (light/irradiance_points.glsl), the image that it returns the irradiance, W/m2, that the ray stands for: of up to
-/// FrameLight::bounces reflections, less that of an environment which nothing hides.
+/// (light/irradiance_points.glsl), the image that it returns the irradiance, W/m2, that the ray stands for: light that other
+/// surfaces reflect, by up to FrameLight::bounces rays and what Frame::irradiance holds of more.
 const GpuImage& gather_irradiance(Recorder& recorder, const Frame& frame, LayerSource& source, const Buffer& points);
 
 }  // namespace pellucid
