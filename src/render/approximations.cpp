@@ -9,12 +9,6 @@
 namespace pellucid {
 namespace {
 
-std::size_t lights_without_size(const Scene& scene) {
-    return std::size_t(std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-        return (light.kind == Light::Kind::kDirectional ? light.angular_diameter : light.radius) == 0.0f;
-    }));
-}
-
 std::size_t translucent_objects(const Scene& scene) {
     return std::size_t(std::count_if(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
         return scene.materials[std::size_t(object.material)].translucent();
@@ -40,7 +34,8 @@ std::vector<std::string> light_left_out(const Scene& scene, const TechniqueInfo&
     const std::size_t lit = opaque + (technique.lit_glass ? refractive : 0);
     const bool shown = light.transport != LightTransport::kEnvironment, followed = shown && lit > 0;
     if (!followed && translucent == 0) {  // lights with a size are seen themselves
-        const std::size_t count = shown ? lights_without_size(scene) : scene.lights.size();
+        const auto counts = [&](const Light& light) { return !shown || !has_size(light); };
+        const auto count = std::count_if(scene.lights.begin(), scene.lights.end(), counts);
         if (count == 0) return {};
         return {fmt::format("{} light{}{} not drawn", count, count == 1 ? "" : "s",
                             std::string(shown ? " without a size" : "") + (count == 1 ? " is" : " are"))};
@@ -55,6 +50,10 @@ std::vector<std::string> light_left_out(const Scene& scene, const TechniqueInfo&
 }
 
 }  // namespace
+
+bool has_size(const Light& light) {
+    return (light.kind == Light::Kind::kDirectional ? light.angular_diameter : light.radius) > 0.0f;
+}
 
 std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light,
                                         bool photons) {

@@ -12,6 +12,9 @@
 
 namespace pellucid {
 
+/// Whether a light is seen itself: a sun with an angular diameter, a lamp or spot with a radius.
+bool has_size(const Light& light);
+
 /// What of `scene` the technique draws otherwise than it is: one line each, for the user. `photons`: it sends some.
 std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light,
                                         bool photons);

@@ -22,10 +22,6 @@ double ms_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool has_size(const Light& light) {
-    return (light.kind == Light::Kind::kDirectional ? light.angular_diameter : light.radius) > 0.0f;
-}
-
 /// LightOptions::caustics; null: photons follow paths.
 const Technique* caustics_of(const LightOptions& light, const Device& device) {
     if (light.caustics.empty()) return nullptr;
