@@ -33,6 +33,7 @@ struct RenderArguments {
     std::optional<std::string> camera;
     std::optional<double> fov_deg;
     std::uint32_t samples = 1;
+    std::uint32_t first_sample = 0;
     double error = 0.0;
     std::uint32_t most_samples = RenderSettings().most_samples;
     std::string tonemap = "neutral";
@@ -76,6 +77,7 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     settings.layer_builder = parse_layer_builder(arguments.layer_builder);
     settings.view = parse_view(arguments.view);
     settings.samples = arguments.samples;
+    settings.first_sample = arguments.first_sample;
     settings.error = float(arguments.error);
     settings.most_samples = arguments.most_samples;
     settings.light = light_options(arguments.light);
@@ -150,6 +152,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
                                 {"width", settings.width},
                                 {"height", settings.height},
                                 {"samples", settings.samples},
+                                {"first_sample", settings.first_sample},
                                 {"light", light_transport_name(result.light)},
                                 {"shadows", arguments.light.shadows},
                                 {"bounces", settings.light.bounces},
@@ -283,6 +286,8 @@ void add_render_command(CLI::App& app) {
     add_number(*command, "--samples", a.samples,
                "Jittered frames, averaged in linear light; of the technique path: paths per pixel")
         ->capture_default_str();
+    add_number(*command, "--first-sample", a.first_sample,
+               "Number of the first of them: other samples have other random numbers");
     add_number(
         *command, "--error", a.error,
         "Each pixel takes the samples that its standard error needs to be at most X, as a share of its luminance "

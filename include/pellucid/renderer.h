@@ -37,6 +37,9 @@ struct RenderSettings {
     View view = View::kRadiance;
     /// Jittered frames, averaged in linear light. 1 samples pixel centres. AOVs always do.
     std::uint32_t samples = 1;
+    /// Number of the first sample, 0 to 2^20: pictures of other samples have other random numbers, so those of samples 0 to 7
+    /// and 8 to 15 average to one of 16 but for what caches learn from sample to sample.
+    std::uint32_t first_sample = 0;
     /// Above 0: each pixel takes as many samples as its standard error needs to be this small at most, as a share of its
     /// luminance and middle grey (0.18 at an exposure of 0), but `most_samples`; `samples` goes unused. 8 samples of every
     /// pixel are drawn first to tell, and are no part of the picture, which stays unbiased.
@@ -69,7 +72,6 @@ struct AovInfo {
     std::string_view name;
     int channels;
     std::string_view doc;
-    bool of_path = false;  ///< a part of the light in an image of `path`; techniques refuse it
 };
 PELLUCID_API std::span<const AovInfo> aov_infos();
 

@@ -42,6 +42,7 @@ struct Frame {
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
     FrameLight light = {};
     std::optional<WantedSamples> wanted_samples = std::nullopt;
+    std::uint32_t sample = 0;                       ///< of Frame::samples, which this frame is
     const std::vector<Binding>* photons = nullptr;  ///< for look-ups (light/photon_store.h); null: there are none
     const Buffer* environment_shares =
         nullptr;  ///< gpu/environment_shares.h, where surfaces look for what hides it; null: none do

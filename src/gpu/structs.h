@@ -21,6 +21,12 @@ using uint = std::uint32_t;
 #define PELLUCID_MATERIAL_UNLIT 1u
 #define PELLUCID_MATERIAL_COVERAGE 2u      // alpha is coverage
 #define PELLUCID_MATERIAL_SINGLE_SIDED 4u
+// Parts of a picture's light: 1 + their number in kLightParts (pellucid/reference.h).
+#define PELLUCID_ALL_LIGHT 0u
+#define PELLUCID_EMITTED 1u
+#define PELLUCID_DIRECT 2u
+#define PELLUCID_CAUSTIC 3u
+#define PELLUCID_INDIRECT 4u
 #define PELLUCID_TEXTURE_NEAREST 1u
 #define PELLUCID_TEXTURE_SRGB 2u
 #define PELLUCID_TEXTURE_SECOND_SET 4u
@@ -56,6 +62,10 @@ struct FrameConstants {
     float environment_cosine;  // of its rotation about +Y
     float environment_sine;
     float environment_intensity;
+    uint light_part;  // PELLUCID_ALL_LIGHT, or the part of the picture that is drawn alone (light_parts.glsl)
+    uint unused_0;
+    uint unused_1;
+    uint unused_2;
     vec4 environment_uniform;
     vec4 irradiance[9];  // spherical harmonics, see irradiance_coefficients()
 };
@@ -103,7 +113,7 @@ struct TextureRecord {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 3 * 64 + 16 + 4 * 16 + 16 + 9 * 16);
+static_assert(sizeof(FrameConstants) == 3 * 64 + 16 + 5 * 16 + 16 + 9 * 16);
 static_assert(sizeof(ObjectRecord) == 144);
 static_assert(sizeof(MaterialRecord) == 112);
 static_assert(sizeof(TextureRecord) == 64);

@@ -13,11 +13,14 @@ struct IrradianceGrid {
     float unit;         // W/m2, of which nodes count whole numbers
     uint orthographic;
     uint slot_mask;     // slots are a power of two
+    uint lost;          // sums to which a frame found no slot
+    uint weight;        // of a sample of this frame
+    uint unused[2];
 };
 
 struct IrradianceNode {
     uint key;       // 0: none
-    uint count;     // samples
+    uint count;     // samples, each as often as its frame's weight says
     uvec2 sums[3];  // of irradiance, in units: signed, 64 bits, the low word first
 };
 

@@ -6,7 +6,7 @@
 
 layout(std430, set = 0, binding = 55) readonly buffer IrradianceNodes { IrradianceGrid irradiance_grid; IrradianceNode irradiance_nodes[]; };
 
-const float kEnoughSamples = 4.0;  // below, coarser nodes make up the number
+const float kEnoughSamples = 4.0;  // of the last frame; below, coarser nodes make up the number
 
 uint find_node(uvec2 node) {
     for (uint i = 0u; i < kMostProbes; ++i) {
@@ -52,9 +52,10 @@ vec4 samples_around(vec3 position, vec3 normal, int level) {
 bool cached_irradiance(vec3 position, vec3 normal, float choice, out vec3 irradiance) {
     int level = int(floor(irradiance_level(irradiance_grid, position) + choice));
     vec4 samples = samples_around(position, normal, level);
-    if (samples.a < kEnoughSamples) {
+    float enough = kEnoughSamples * float(irradiance_grid.weight);
+    if (samples.a < enough) {
         vec4 coarse = samples_around(position, normal, level + kCoarserLevels);
-        if (coarse.a > 0.0) samples += (kEnoughSamples - samples.a) * coarse / coarse.a;
+        if (coarse.a > 0.0) samples += (enough - samples.a) * coarse / coarse.a;
     }
     irradiance = samples.a > 0.0 ? irradiance_grid.unit * samples.rgb / samples.a : vec3(0.0);
     return samples.a > 0.0;

@@ -25,11 +25,10 @@ constexpr std::array kAovs = {
     AovInfo{"depth", 1, "depth of the first glass surface along -Z of the view, m; 0 where there is none"},
     AovInfo{"normal", 3, "outward world normal of the first glass surface; 0 where there is none"},
     AovInfo{"object", 1, "index of the first glass surface's object; -1 where there is none"},
-    AovInfo{"emitted", 3, "path: light that is seen directly, or reflected and refracted by smooth surfaces alone",
-            true},
-    AovInfo{"direct", 3, "path: light that meets one surface that is not smooth, and no other before it", true},
-    AovInfo{"caustic", 3, "path: light that smooth surfaces throw onto one that is not smooth", true},
-    AovInfo{"indirect", 3, "path: light that meets two or more surfaces that are not smooth", true},
+    AovInfo{"emitted", 3, "light that is seen directly, or reflected and refracted by smooth surfaces alone"},
+    AovInfo{"direct", 3, "light that meets one surface that is not smooth, and no other before it"},
+    AovInfo{"caustic", 3, "light that smooth surfaces throw onto one that is not smooth"},
+    AovInfo{"indirect", 3, "light that meets two or more surfaces that are not smooth"},
 };
 
 template <class T>
@@ -230,14 +229,6 @@ void check_aov_names(const std::vector<std::string>& names) {
 
 bool is_light_part(const std::string& name) {
     return std::find(kLightParts.begin(), kLightParts.end(), name) != kLightParts.end();
-}
-
-void refuse_light_parts(const std::vector<std::string>& names, std::string_view technique) {
-    for (const std::string& name : names) {
-        if (is_light_part(name))
-            throw Error(fmt::format("AOV '{}': {} does not tell the parts of its light; path does, in its radiance",
-                                    name, technique));
-    }
 }
 
 void read_back(const Device& device, const FrameImages& images, const gpu::FrameConstants& view,

@@ -13,10 +13,8 @@ namespace pellucid {
 /// Throws Error listing the known names if one of `names` is none.
 void check_aov_names(const std::vector<std::string>& names);
 
-/// Whether it is one of kLightParts, which frames do not have.
+/// Whether it is one of kLightParts.
 bool is_light_part(const std::string& name);
-/// Throws Error if one of them is asked for, for a technique that does not give them.
-void refuse_light_parts(const std::vector<std::string>& names, std::string_view technique);
 
 /// Reads back from a finished frame what `settings` ask for: the AOVs and paths, and the counts of `result`.
 /// `view` is what the frame was drawn with, `first_triangles` GpuScene::first_triangles.

@@ -34,7 +34,7 @@ std::vector<std::string> light_left_out(const Scene& scene, const TechniqueInfo&
     const std::size_t lit = opaque + (technique.lit_glass ? refractive : 0);
     const bool shown = light.transport != LightTransport::kEnvironment, followed = shown && lit > 0;
     if (!followed && translucent == 0) {  // lights with a size are seen themselves
-        const auto counts = [&](const Light& light) { return !shown || !has_size(light); };
+        const auto counts = [&](const Light& each) { return !shown || !has_size(each); };
         const auto count = std::count_if(scene.lights.begin(), scene.lights.end(), counts);
         if (count == 0) return {};
         return {fmt::format("{} light{}{} not drawn", count, count == 1 ? "" : "s",

@@ -47,6 +47,8 @@ void check_settings(const RenderSettings& settings, const Device& device) {
     if (settings.samples == 0 || settings.samples > kMaxSamples) {
         throw Error(fmt::format("samples must be 1 to {}, not {}", kMaxSamples, settings.samples));
     }
+    if (settings.first_sample > kMaxSamples)
+        throw Error(fmt::format("first sample must be 0 to {}, not {}", kMaxSamples, settings.first_sample));
     if (!(settings.error >= 0.0f && settings.error <= 1e6f))
         throw Error(fmt::format("error must be 0 to 1e6, not {}", settings.error));
     if (settings.most_samples == 0 || settings.most_samples > kMaxSamples)
@@ -64,6 +66,9 @@ void check_settings(const RenderSettings& settings, const Device& device) {
         throw Error(fmt::format("bounces must be 0 to {}, not {}", kMostBounces, settings.light.bounces));
     check_thickness(settings.thickness, device);
     check_aov_names(settings.aovs);
+    const auto part = std::find_if(settings.aovs.begin(), settings.aovs.end(), is_light_part);
+    if (settings.view != View::kRadiance && part != settings.aovs.end())
+        throw Error(fmt::format("AOV '{}' is light, which only the view radiance shows", *part));
 }
 
 }  // namespace pellucid

@@ -1,7 +1,6 @@
 // How a picture is drawn: tiles of it, samples of these, and frames, which are drawn again until what they gather fits.
 #include "render/renderer_impl.h"
 
-#include "gpu/camera_constants.h"
 #include "render/adaptive_sampling.h"
 
 #include <algorithm>
@@ -51,23 +50,47 @@ void Renderer::Impl::light_frame(const Frame& frame, bool first, std::vector<Pas
     times = with_missing_passes(std::move(times), recorder.submit_and_wait());
 }
 
+FrameImages Renderer::Impl::draw_until_fits(const Frame& frame, const FrameSettings& chosen, const TracedView* traced,
+                                            std::vector<PassTime>& times) {
+    TransmittedLight& transmitted = solid_lighting.transmitted();
+    for (;;) {
+        const FrameImages images = record_frame(recorder, frame, chosen, layer_source, transmitted, traced);
+        times = with_missing_passes(recorder.submit_and_wait(), times);
+        const bool transmitted_again = transmitted.must_repeat(frame);
+        if (!layer_source.must_repeat(frame) && !transmitted_again) return images;
+    }
+}
+
 std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameSettings& chosen,
                                                 const RenderSettings& settings, std::optional<std::uint32_t> sample,
                                                 const Progress& progress, std::optional<FrameImages>& images) {
-    const glm::vec2 jitter = sample ? sample_jitter(*sample) : glm::vec2(0.0f);
-    set_constants(frame, settings, jitter, sample.value_or(0));
+    set_constants(frame, settings, sample);
     photons.count_flux(settings.photon_flux && !sample);
     std::optional<TracedView> traced;
-    if (chosen.truth) traced.emplace(traced_view(settings, jitter, progress));
+    if (chosen.truth) traced.emplace(traced_view(settings, sample, progress));
     std::vector<PassTime> times;
     light_frame(frame, sample.value_or(0) == 0, times);
-    for (;;) {
-        TransmittedLight& transmitted = solid_lighting.transmitted();
-        images.emplace(record_frame(recorder, frame, chosen, layer_source, transmitted, traced ? &*traced : nullptr));
-        times = with_missing_passes(recorder.submit_and_wait(), times);
-        const bool transmitted_again = transmitted.must_repeat(frame);
-        if (!layer_source.must_repeat(frame) && !transmitted_again) return times;
+    images.emplace(draw_until_fits(frame, chosen, traced ? &*traced : nullptr, times));
+    return times;
+}
+
+std::map<std::string, const GpuImage*> Renderer::Impl::draw_parts(const Frame& frame, const FrameSettings& chosen,
+                                                                  const RenderSettings& settings,
+                                                                  std::optional<std::uint32_t> sample,
+                                                                  const GpuImage* wanted) {
+    std::map<std::string, const GpuImage*> sums;
+    std::optional<TracedView> traced;
+    if (chosen.truth) traced.emplace(traced_view(settings, sample, Progress()));
+    for (std::uint32_t part = 0; part < kLightParts.size(); ++part) {
+        const std::string name(kLightParts[part]);
+        if (std::find(settings.aovs.begin(), settings.aovs.end(), name) == settings.aovs.end()) continue;
+        set_constants(frame, settings, sample, part + 1);
+        std::vector<PassTime> times;
+        const FrameImages images = draw_until_fits(frame, chosen, traced ? &*traced : nullptr, times);
+        sums[name] = &accumulate(recorder, frame, images.radiance, sample.value_or(0), wanted, name);
+        recorder.submit_and_wait();
     }
+    return sums;
 }
 
 const GpuImage& Renderer::Impl::draw_sample(const Frame& frame, const FrameSettings& chosen,
@@ -109,6 +132,12 @@ const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSe
     if (alone) {
         part.frames.push_back(std::move(times));
         part.radiance = download_rgb(device, *sum);
+        if (std::any_of(settings.aovs.begin(), settings.aovs.end(), is_light_part)) {
+            sum = &accumulate(recorder, frame, *sum, 0);  // frames of parts take the image
+            recorder.submit_and_wait();
+        }
+        for (const auto& [name, image] : draw_parts(frame, chosen, settings, std::nullopt, nullptr))
+            part.aovs[name] = download_rgb(device, *image);
         return sum;
     }
     Frame sampled = frame;
@@ -122,18 +151,22 @@ const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSe
         part.sample_counts = image_of(counts, frame.extent);
         wanted = &upload_counts(frame, counts);
     }
+    std::map<std::string, const GpuImage*> sums;
     for (std::uint32_t sample = 0; sample < samples; ++sample) {
         const auto share = [&](std::uint32_t done) { return before + (1.0 - before) * done / samples; };
         const Progress progress = part_of(settings.progress, share(sample), share(sample + 1));
         if (wanted != nullptr && (chosen.truth || !chosen.technique->searches_layers))
             sampled.wanted_samples.emplace(WantedSamples{*wanted, sample});
+        sampled.sample = sample;
         const GpuImage& radiance = draw_sample(sampled, chosen, settings, sample, progress, part);
         // Submitted apart: a frame that overflowed was drawn twice, and counts once.
         sum = &accumulate(recorder, frame, radiance, sample, wanted);
         for (PassTime& time : recorder.submit_and_wait()) part.frames.back().push_back(std::move(time));
+        sums = draw_parts(sampled, chosen, settings, sample, wanted);
         if (progress) progress(1.0);
     }
     part.radiance = download_rgb(device, *sum);
+    for (const auto& [name, image] : sums) part.aovs[name] = download_rgb(device, *image);
     return sum;
 }
 
@@ -143,7 +176,7 @@ Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSetting
     // Paths have 16 bytes per pixel in one buffer; other techniques list the pixels with glass.
     std::uint64_t most = most_tile_pixels(device, chosen.info.whole_scene ? 16 : 4);
     if (settings.tile_pixels > 0) most = std::min<std::uint64_t>(most, settings.tile_pixels);
-    set_constants(frame, settings, glm::vec2(0.0f), 0);
+    set_constants(frame, settings, std::nullopt);
     const std::optional<Tile> glass = tile_of_glass(current_constants(), scene->refractive_corners);
     std::vector<Tile> left = tiles_of(size, glass, most, device);
     TileProgress progress(settings.progress, size);
@@ -175,20 +208,23 @@ Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSetting
     return drawn;
 }
 
-TracedView Renderer::Impl::traced_view(const RenderSettings& settings, glm::vec2 jitter_px, const Progress& progress) {
+TracedView Renderer::Impl::traced_view(const RenderSettings& settings, std::optional<std::uint32_t> sample,
+                                       const Progress& progress) {
+    const glm::vec2 jitter_px = jitter_of(settings, sample);
     return {cpu.tracer(), camera_for(settings), {settings.width, settings.height}, jitter_px, progress};
 }
 
 void Renderer::Impl::trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result) {
     const auto trace = [&](const PictureSamples& samples, const Progress& progress) {
-        return chosen.truth->trace_image(traced_view(settings, glm::vec2(0.0f), progress), environment, samples,
+        return chosen.truth->trace_image(traced_view(settings, std::nullopt, progress), environment, samples,
                                          chosen.parameters);
     };
-    PictureSamples samples{.count = settings.samples};
+    PictureSamples samples{.count = settings.samples, .first = settings.first_sample};
     const double before = settings.error > 0.0f ? kPilotShare : 0.0;
     if (settings.error > 0.0f) {
         const PathTracedImage pilot =
-            trace({.count = kPilotSamples, .first = settings.most_samples}, part_of(settings.progress, 0.0, before));
+            trace({.count = kPilotSamples, .first = settings.first_sample + settings.most_samples},
+                  part_of(settings.progress, 0.0, before));
         samples.of_pixels = PixelNoise(pilot.radiance, pilot.standard_error, kPilotSamples)
                                 .samples_for(settings.error, settings.exposure_ev, settings.most_samples);
         result.sample_counts = image_of(samples.of_pixels, {settings.width, settings.height});

@@ -1,4 +1,3 @@
-#include "gpu/camera_constants.h"
 #include "render/approximations.h"
 #include "render/check_settings.h"
 #include "render/renderer_impl.h"
@@ -139,14 +138,16 @@ const EnvironmentShares* Renderer::Impl::shares_of_environment() {
     return *environment_shares ? &**environment_shares : nullptr;
 }
 
-void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& settings, glm::vec2 jitter,
-                                   std::uint32_t sample) {
+void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& settings,
+                                   std::optional<std::uint32_t> sample, std::uint32_t part) {
     gpu::FrameConstants values = environment_constants;
+    const glm::vec2 jitter = jitter_of(settings, sample);
     pellucid::set_camera(values, camera_for(settings), settings.width, settings.height, jitter, scene->bounds,
                          scene->refractive_corners);
     set_tile(values, frame.first, frame.extent);
     values.object_count = scene->object_count;
-    values.sample_index = sample;
+    values.sample_index = settings.first_sample + sample.value_or(0);
+    values.light_part = part;
     std::memcpy(constants->mapped(), &values, sizeof(values));
 }
 
@@ -254,7 +255,6 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     check_settings(settings, impl.device);
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
-    if (draws_picture(chosen)) refuse_light_parts(settings.aovs, chosen.info.name);
     impl.prepare(chosen, impl.frame_light(impl.chosen_light(settings)), impl.camera_for(settings), settings.progress,
                  result.warnings);
     result.light = impl.chosen_light(settings).transport;
@@ -274,6 +274,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     try {
         const Impl::Drawn drawn = impl.draw_tiles(frame, chosen, settings, result);
         warn_of(result, chosen, drawn.cut, settings);
+        impl.irradiance.report(result.warnings);
         result.photon_flux = impl.photons.flux();
         const bool draws = draws_picture(chosen);
         if (!draws) impl.trace_image(chosen, settings, result);
@@ -284,6 +285,10 @@ RenderResult Renderer::render(const RenderSettings& settings) {
                                          impl.adaptation, settings);
         if (settings.tonemap == ToneMap::kKrawczyk) result.adapted_cd_m2 = impl.adaptation.adapted_cd_m2();
         for (float& value : result.radiance.pixels) value *= scale;
+        for (auto& [name, image] : result.aovs) {
+            if (draws && is_light_part(name))
+                for (float& value : image.pixels) value *= scale;
+        }
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
         impl.layer_source = LayerSource();
@@ -309,7 +314,7 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
     ThicknessResult result;
     impl.light_solids(request.settings, {request.light}, request.progress, result.warnings);
     const Frame frame = impl.frame_of(settings);
-    impl.set_constants(frame, settings, glm::vec2(0.0f), 0);
+    impl.set_constants(frame, settings, std::nullopt);
     TransmittedLight& transmitted = impl.solid_lighting.transmitted();
     try {
         const GpuImage* thickness = nullptr;

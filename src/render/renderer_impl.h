@@ -1,6 +1,7 @@
 #pragma once
 
 // What a Renderer holds, and how it draws a picture: tile by tile, sample by sample, frame by frame.
+#include "gpu/camera_constants.h"
 #include "gpu/environment_images.h"
 #include "gpu/environment_shares.h"
 #include "render/aovs.h"
@@ -75,6 +76,14 @@ struct Renderer::Impl {
     /// Draws a sample of every pixel, of those that want one; counts and times go to `part`. Returns its radiance.
     const GpuImage& draw_sample(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
                                 std::uint32_t sample, const Progress& progress, RenderResult& part);
+    /// Records a frame until what it gathers fits, and waits for it. Adds its times to `times`.
+    FrameImages draw_until_fits(const Frame& frame, const FrameSettings& chosen, const TracedView* traced,
+                                std::vector<PassTime>& times);
+    /// Draws the frame that run_frame() drew last again, once for every part of its light that `settings` ask for, and adds
+    /// each to its sum. Returns the sums, by the parts' names.
+    std::map<std::string, const GpuImage*> draw_parts(const Frame& frame, const FrameSettings& chosen,
+                                                      const RenderSettings& settings,
+                                                      std::optional<std::uint32_t> sample, const GpuImage* wanted);
     /// Draws samples of a tile that tell how many each of its pixels needs.
     std::vector<std::uint32_t> samples_for(const Frame& frame, const FrameSettings& chosen,
                                            const RenderSettings& settings, const Progress& progress,
@@ -85,7 +94,9 @@ struct Renderer::Impl {
                                    RenderResult& part);
     /// Draws all tiles; they are smaller in the end than at first where one did not fit the device.
     Drawn draw_tiles(Frame frame, const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
-    TracedView traced_view(const RenderSettings& settings, glm::vec2 jitter_px, const Progress& progress);
+    /// `sample`: none for the frame through the centres of the pixels.
+    TracedView traced_view(const RenderSettings& settings, std::optional<std::uint32_t> sample,
+                           const Progress& progress);
     /// The image that a truth traces itself.
     void trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
     Frame frame_of(const RenderSettings& settings);
@@ -116,8 +127,14 @@ struct Renderer::Impl {
         std::memcpy(&values, constants->mapped(), sizeof(values));
         return values;
     }
-    void set_constants(const Frame& frame, const RenderSettings& settings, glm::vec2 jitter, std::uint32_t sample);
+    /// `part`: PELLUCID_ALL_LIGHT, or the only part of the light that the frame draws.
+    void set_constants(const Frame& frame, const RenderSettings& settings, std::optional<std::uint32_t> sample,
+                       std::uint32_t part = PELLUCID_ALL_LIGHT);
     Camera camera_for(const RenderSettings& settings) const;
+    /// Where in the pixel a sample lies, from its centre, pixels; none: at the centre.
+    static glm::vec2 jitter_of(const RenderSettings& settings, std::optional<std::uint32_t> sample) {
+        return sample ? sample_jitter(settings.first_sample + *sample) : glm::vec2(0.0f);
+    }
     const GpuImage& filtered_environment_for_scene();
 };
 

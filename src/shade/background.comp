@@ -17,14 +17,9 @@ void main() {
         store_radiance(at.xy, vec3(0.02));
         return;
     }
-    Ray ray = camera_ray(vec2(at.xy) + 0.5);
-    vec3 direction = mat3(frame.world_from_view) * ray.direction, seen = radiance_from_afar(direction);
+    vec3 seen = drawn(PELLUCID_EMITTED, radiance_from_afar(world_view_direction(at.xy)));
     float opaque = kOpaque ? imageLoad(opaque_depth, at).r : PELLUCID_EMPTY_DEPTH;
     if (opaque < PELLUCID_EMPTY_DEPTH) seen = imageLoad(opaque_radiance, at).rgb;
-    if (kVisibleLights > 0u) {
-        vec3 lamp, origin = (frame.world_from_view * vec4(ray.origin, 1.0)).xyz;
-        float limit = opaque / -ray.direction.z;
-        if (lamp_ahead(origin, direction, limit, lamp) < limit) seen = lamp;
-    }
+    see_lamps(at.xy, opaque, seen);
     store_radiance(at.xy, seen);
 }

@@ -15,6 +15,7 @@ layout(constant_id = 5) const bool kReflected = false;     // and what the first
 layout(std430, set = 0, binding = 5) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Materials { MaterialRecord materials[]; };
 layout(set = 0, binding = 7, r32ui) readonly uniform uimage2DArray layer_triangle;
+layout(set = 0, binding = 18, r32f) readonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 8, r32ui) readonly uniform uimage2DArray layer_normal;
 layout(set = 0, binding = 9) uniform texture2DArray texture_pages;
 layout(set = 0, binding = 10, rgba32f) readonly uniform image2DArray exit_direction;
@@ -34,9 +35,11 @@ layout(std430, set = 0, binding = 16) readonly buffer Textures { TextureRecord t
 #include "gpu/diffuse.glsl"
 #include "shade/analysis_color.glsl"
 
-// What comes through the glass: the end of the refracted path, and what it picked up on the way.
-vec3 transmitted_radiance(ivec3 at) {
+// What comes through the glass: the end of the refracted path, and what it picked up on the way. Rough glass scatters the
+// light at both surfaces.
+vec3 transmitted_radiance(ivec3 at, bool rough) {
     vec3 behind = imageLoad(transmittance, at).rgb * radiance_from_afar(imageLoad(exit_direction, at).xyz);
+    behind = drawn(rough ? PELLUCID_INDIRECT : PELLUCID_EMITTED, behind);
     if (!kPathRadiance) return behind;
     vec4 picked_up = imageLoad(path_radiance, at);
     return behind * (1.0 - picked_up.a) + picked_up.rgb;
@@ -67,15 +70,17 @@ vec3 glass_radiance(ivec3 at, vec3 view_direction, vec3 normal, uint triangle) {
     MaterialRecord material = materials[object.material];
     vec4 tint = vec4(material.base_color.rgb, material.transmission);
     if (kTextured) tint *= texture_tint(at, triangle_index(triangle), object);
-    vec3 transmitted = transmitted_radiance(at);
+    bool rough = material.roughness > 0.0;
+    vec3 transmitted = transmitted_radiance(at, rough);
     if (back_face(triangle)) {  // seen from inside: no outer reflection but of paths that start at the eye
         vec3 before = kReflected ? imageLoad(reflected_radiance, at).rgb : vec3(0.0);
         return before + tint.rgb * transmitted;
     }
     float reflectance = fresnel_dielectric(-dot(view_direction, normal), 1.0 / material.ior);
-    vec3 reflected = kReflected ? imageLoad(reflected_radiance, at).rgb
-                                : reflectance * radiance_from_afar(reflect_direction(view_direction, normal));
-    vec3 scattered = (1.0 - reflectance) * diffuse_radiance(tint.rgb, normal);
+    vec3 mirrored = drawn(rough ? PELLUCID_DIRECT : PELLUCID_EMITTED,
+                          reflectance * radiance_from_afar(reflect_direction(view_direction, normal)));
+    vec3 reflected = kReflected ? imageLoad(reflected_radiance, at).rgb : mirrored;
+    vec3 scattered = drawn(PELLUCID_DIRECT, (1.0 - reflectance) * diffuse_radiance(tint.rgb, normal));
     return reflected + mix(scattered, tint.rgb * transmitted, tint.a);
 }
 
@@ -90,6 +95,11 @@ void main() {
     ivec3 at = ivec3(texel, 0);
     vec3 view_direction = world_view_direction(texel);
     vec3 normal = unpack_unit_vector(imageLoad(layer_normal, at).r);
-    store_radiance(texel, kAnalysis ? shaded_analysis_color(at, view_direction, normal)
-                                    : glass_radiance(at, view_direction, normal, imageLoad(layer_triangle, at).r));
+    if (kAnalysis) {
+        store_radiance(texel, shaded_analysis_color(at, view_direction, normal));
+        return;
+    }
+    vec3 seen = glass_radiance(at, view_direction, normal, imageLoad(layer_triangle, at).r);
+    see_lamps(texel, imageLoad(layer_depth, at).r, seen);
+    store_radiance(texel, seen);
 }

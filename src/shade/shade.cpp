@@ -112,8 +112,8 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
 }
 
 const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample,
-                           const GpuImage* wanted) {
-    const GpuImage& sum = frame.workspace.image("radiance sum", kRadianceFormat, frame.extent);
+                           const GpuImage* wanted, std::string_view name) {
+    const GpuImage& sum = frame.workspace.image(name, kRadianceFormat, frame.extent);
     const Recorder::Scope scope(recorder, "accumulate");
     if (wanted != nullptr)
         recorder.compute(frame.workspace.compute(shaders::accumulate_wanted_comp),

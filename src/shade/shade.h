@@ -27,9 +27,9 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
                       const ThinWalls& walls, const Refraction& refraction, View view);
 
 /// Adds `radiance` to the sum of the samples before it; `sample` 0 starts a new sum. Where pixels want different numbers
-/// of samples (`wanted`), to the mean of each.
+/// of samples (`wanted`), to the mean of each. Sums of different names are apart.
 const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample,
-                           const GpuImage* wanted = nullptr);
+                           const GpuImage* wanted = nullptr, std::string_view name = "radiance sum");
 
 /// Display values (RGBA8, sRGB-encoded) of `scale * radiance`, by a curve other than kKrawczyk (adaptation.h).
 const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale, ToneMap curve);

@@ -17,6 +17,7 @@ layout(set = 0, binding = 3, rgba16f) readonly uniform image2DArray thin_reflect
 layout(set = 0, binding = 4, rgba32f) writeonly uniform image2DArray radiance;
 
 #include "gpu/environment_lookup.glsl"
+#include "gpu/light_parts.glsl"
 #include "gpu/punctual_light.glsl"
 layout(constant_id = 6) const uint kVisibleLights = 0u;
 layout(std430, set = 0, binding = 17) readonly buffer SceneLights { PunctualLight scene_lights[]; };
@@ -28,6 +29,15 @@ vec3 world_view_direction(ivec2 texel) {
 
 // Of the environment and of suns.
 vec3 radiance_from_afar(vec3 direction) { return environment_radiance(direction) + suns_ahead(direction); }
+
+// A lamp of some size takes the place of what is seen behind it, at a depth along the view's axis, m.
+void see_lamps(ivec2 texel, float depth, inout vec3 seen) {
+    if (kVisibleLights == 0u) return;
+    Ray ray = camera_ray(vec2(texel) + 0.5);
+    vec3 lamp, origin = (frame.world_from_view * vec4(ray.origin, 1.0)).xyz;
+    float limit = depth / -ray.direction.z;
+    if (lamp_ahead(origin, world_view_direction(texel), limit, lamp) < limit) seen = drawn(PELLUCID_EMITTED, lamp);
+}
 
 // Stores what is seen at a pixel behind the thin walls in front of it.
 void store_radiance(ivec2 texel, vec3 seen) {

@@ -22,6 +22,7 @@ layout(std430, set = 0, binding = 13) buffer LightCounters { uint cut_rays; };
 #include "layers/objects.glsl"
 #include "layers/pixel_list.glsl"
 #include "layers/surface_normal.glsl"
+#include "gpu/light_parts.glsl"
 #include "gpu/punctual_light.glsl"
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
@@ -121,5 +122,5 @@ void main() {
     vec3 scattered = cos_theta > 0.0 ? imageLoad(surface_reflected, pixel).rgb : imageLoad(surface_transmitted, pixel).rgb;
     vec3 added = scattered * (abs(cos_theta) / kPi * arriving.irradiance) * light.intensity * transmittance;
     vec4 before = imageLoad(radiance, pixel);
-    imageStore(radiance, pixel, vec4(before.rgb + added, before.a));
+    imageStore(radiance, pixel, vec4(before.rgb + drawn(PELLUCID_DIRECT, added), before.a));
 }

@@ -50,8 +50,7 @@ RenderSettings settings_for(std::string technique) {
     RenderSettings settings;
     settings.width = settings.height = kSize;
     settings.technique = std::move(technique);
-    for (const AovInfo& aov : aov_infos())
-        if (!aov.of_path) settings.aovs.emplace_back(aov.name);
+    for (const AovInfo& aov : aov_infos()) settings.aovs.emplace_back(aov.name);
     return settings;
 }
 

@@ -240,6 +240,15 @@ TEST_P(DirectLight, IsSeenThroughGlass) {
     EXPECT_GT(seen, 20);
 }
 
+// A lamp of some size between the eye and a slab of glass has its own radiance, I / (pi r^2).
+TEST_P(DirectLight, LampsHideTheGlassBehindThem) {
+    add(glass(), {{-1.0, -0.5, -1.0}, {1.0, 0.0, 1.0}});
+    const glm::vec3 eye(camera_.world_from_view[3]), ahead(-camera_.world_from_view[2]);
+    scene_.lights = {lamp(eye + ahead, 2.0f, 0.1f)};
+    const double radiance = 2.0 / (double(kPi) * 0.01);
+    EXPECT_NEAR(rgb(draw().radiance, kSize / 2, kSize / 2).g, radiance, double(kRounding) * radiance);
+}
+
 // Nine lamps, of which each sample chooses four at random, give in the mean what they give one by one.
 TEST_P(DirectLight, ManyLightsAreChosenAtRandomWithoutBias) {
     std::vector<Light> all;

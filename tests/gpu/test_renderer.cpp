@@ -17,8 +17,7 @@ using ::testing::ThrowsMessage;
 
 std::vector<std::string> all_aovs() {
     std::vector<std::string> names;
-    for (const AovInfo& aov : aov_infos())
-        if (!aov.of_path) names.emplace_back(aov.name);
+    for (const AovInfo& aov : aov_infos()) names.emplace_back(aov.name);
     return names;
 }
 

@@ -22,8 +22,7 @@ RenderSettings settings_of(const char* technique) {
     settings.technique = technique;
     settings.samples = 3;
     settings.paths = true;
-    for (const AovInfo& aov : aov_infos())
-        if (!aov.of_path) settings.aovs.emplace_back(aov.name);
+    for (const AovInfo& aov : aov_infos()) settings.aovs.emplace_back(aov.name);
     return settings;
 }
 

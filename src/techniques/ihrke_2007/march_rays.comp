@@ -175,8 +175,9 @@ bool march(ivec2 texel, uint own, bool from_mesh, inout PathState state) {
         vec3 depth = (absorption.rgb + scattering.rgb) * travelled, left = exp(-depth);
         if (kEmits || (kScatters && kLit)) {
             vec3 added = vec3(0.0);  // radiance, per voxel's length
-            if (kEmits) added += volume_value(volume_emission, middle).rgb;
-            if (kScatters && kLit) added += scattered_radiance(own, middle, -normalize(ray.v), scattering);
+            if (kEmits) added += drawn(part_met(state.mark), volume_value(volume_emission, middle).rgb);
+            if (kScatters && kLit)
+                added += drawn(part_through(state.mark, PELLUCID_DIRECT), scattered_radiance(own, middle, -normalize(ray.v), scattering));
             // What is carried along a bent ray is L / n^2 (the paper leaves that out).
             add_light(texel, state.mark, state.path.transmittance * mean_transmittance(depth) * (n_entry * n_entry / dot(ray.v, ray.v)) * added * travelled);
         }
@@ -197,7 +198,7 @@ bool march(ivec2 texel, uint own, bool from_mesh, inout PathState state) {
     }
     state.path.position = (volume.world_from_voxel * vec4(ray.x, 1.0)).xyz;
     state.path.direction = normalize(world_from_voxel * ray.v);
-    state.mark |= kCrossedVolume;
+    state.mark = after_surface(state.mark | kCrossedVolume, false);
     return steps < kMostSteps || !inside;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pellucid {
@@ -28,6 +29,8 @@ public:
     void store(Recorder& recorder);
     /// What look-ups bind; its address does not change. Null: there is no cache.
     const std::vector<Binding>* bindings() const { return any() ? &bindings_ : nullptr; }
+    /// Adds a line if the picture had more to store than there is room for.
+    void report(std::vector<std::string>& warnings) const;
     /// Forgets what it has learnt of a scene.
     void forget() { source_ = LayerSource(), gathered_.reset(); }
 
@@ -38,6 +41,7 @@ private:
     LayerSource source_;
     float brightness_ = 0.0f;
     std::uint32_t frames_ = 0;       ///< of the picture so far
+    std::uint64_t lost_ = 0;         ///< sums without a slot, likewise
     std::optional<Frame> gathered_;  ///< that gather() has drawn
     const Buffer* nodes_ = nullptr;
     const Buffer* points_ = nullptr;

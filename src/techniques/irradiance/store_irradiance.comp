@@ -11,7 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1, rgba32f) readonly uniform image2DArray path_radiance;
 layout(std430, set = 0, binding = 55) buffer IrradianceNodes { IrradianceGrid irradiance_grid; IrradianceNode irradiance_nodes[]; };
 
-const float kMostUnits = 1.0e12;  // of a sample; 2^23 samples fit a sum
+const float kMostUnits = 1.0e12;  // of a sample; 2^23 weighted samples fit a sum
 
 // The node's slot; a new one where it has none. kNoNode: all that it may have are taken.
 uint claim_node(uvec2 node) {
@@ -25,7 +25,7 @@ uint claim_node(uvec2 node) {
 
 // Adds a whole number to a sum of 64 bits, of which two words are added to apart.
 void add_to_sum(uint slot, uint channel, float units) {
-    float size = min(abs(units), kMostUnits);
+    float size = min(abs(units), kMostUnits) * float(irradiance_grid.weight);
     uint high = uint(size / 4294967296.0), low = uint(size - float(high) * 4294967296.0);
     if (units < 0.0) {
         low = ~low + 1u;
@@ -39,8 +39,11 @@ void add_to_sum(uint slot, uint channel, float units) {
 void store(vec3 position, int level, uint facing, vec3 dither, vec3 units) {
     ivec3 node = ivec3(floor(position * exp2(float(-level)) + dither));
     uint slot = claim_node(node_hash(node, level, facing));
-    if (slot == kNoNode) return;
-    atomicAdd(irradiance_nodes[slot].count, 1u);
+    if (slot == kNoNode) {
+        atomicAdd(irradiance_grid.lost, 1u);
+        return;
+    }
+    atomicAdd(irradiance_nodes[slot].count, irradiance_grid.weight);
     for (uint c = 0u; c < 3u; ++c) add_to_sum(slot, c, units[c]);
 }
 

@@ -13,6 +13,7 @@ layout(set = 0, binding = 15) uniform texture2D environment_map;
 
 #include "gpu/diffuse.glsl"
 #include "gpu/environment_lookup.glsl"
+#include "gpu/light_parts.glsl"
 #include "layers/pixel_list.glsl"
 #include "techniques/kay_greenberg_1979/surface_light.glsl"
 
@@ -75,7 +76,7 @@ uint count_surfaces(ivec2 texel) {
 vec3 own_radiance(MaterialRecord material, vec3 tint, vec3 facing, vec3 irradiance_of_lights) {
     vec3 albedo = material.base_color.rgb / max(tint, vec3(1e-4));
     vec3 own = diffuse_radiance(albedo, mat3(frame.world_from_view) * facing);
-    return kLit ? own + albedo * irradiance_of_lights / kLightPi : own;
+    return drawn(PELLUCID_DIRECT, kLit ? own + albedo * irradiance_of_lights / kLightPi : own);
 }
 
 SurfaceLight light_on_surface(View view, MaterialRecord material, vec3 facing, float depth) {
@@ -152,7 +153,8 @@ void store_reflected(ivec2 texel, vec3 highlights) {
     if (!back_face(first.triangle))
         mirrored = fresnel_dielectric(-dot(direction, normal), 1.0 / material_of(first).ior) *
                    environment_radiance(reflect_direction(direction, normal));
-    imageStore(reflected_radiance, ivec3(texel, 0), vec4(mirrored + highlights, 1.0));
+    imageStore(reflected_radiance, ivec3(texel, 0),
+               vec4(drawn(PELLUCID_EMITTED, mirrored) + drawn(PELLUCID_DIRECT, highlights), 1.0));
 }
 
 void main() {

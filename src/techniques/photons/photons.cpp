@@ -114,21 +114,21 @@ Frame Photons::light_frame(const Frame& frame) {
 }
 
 std::vector<PhotonWindow> Photons::windows_of(const Frame& frame) const {
-    using Source = PhotonWindow::Source;
+    using From = PhotonWindow::Source;
     std::vector<PhotonWindow> windows;
     for (const LightView& view : setup_.views) {
         windows.push_back({view.constants.world_from_view, view.constants.film,
                            punctual_light(setup_.lights.at(view.light)), view.constants.orthographic, view.target_depth,
-                           Source::kLights, 0});
+                           From::kLights, 0});
     }
     const Bounds& bounds = frame.scene.bounds;
     PhotonWindow all{};
     all.light.position = setup_.targets.center;
     all.light.radius = setup_.targets.radius;
     all.target_depth = 1.01f * (glm::distance(bounds.center, setup_.targets.center) + bounds.radius);
-    for (const Source source : {Source::kEmitters, Source::kEnvironment}) {
+    for (const From source : {From::kEmitters, From::kEnvironment}) {
         all.source = source;
-        if (source == Source::kEmitters ? setup_.emitters : setup_.environment != nullptr) windows.push_back(all);
+        if (source == From::kEmitters ? setup_.emitters : setup_.environment != nullptr) windows.push_back(all);
     }
     return windows;
 }
@@ -153,7 +153,7 @@ void Photons::set_scale(const Frame& frame, float width) {
 const Buffer& Photons::upload_windows(const Frame& frame) {
     gpu::FrameConstants constants{};
     std::memcpy(&constants, frame.constants.mapped(), sizeof(constants));
-    const float width = kKernelWidth * shrinkage(frame.samples > 1 ? constants.sample_index : 0);
+    const float width = kKernelWidth * shrinkage(frame.samples > 1 ? frame.sample : 0);
     set_scale(frame, width);
     const std::vector<PhotonWindow> windows = windows_of(frame);
     const WindowHeader header{setup_.side, columns_of(windows.size()), std::uint32_t(windows.size()),

@@ -12,7 +12,6 @@ layout(constant_id = 46) const bool kEnvironmentRays = false;  // shadow rays fi
 // A diffuse reflection sees the environment a little blurred, against noise of small suns: by 2 degrees. A wider blur brings
 // light from above a horizon to surfaces that see only what is below it.
 const float kBounceRoughness = 1.0 / float(PELLUCID_FILTER_LEVELS);
-const float kSmoothAlpha = 1e-4;  // below, a surface counts as a perfect mirror
 
 // As opaque_radiance() has it.
 vec3 diffuse_albedo(OpaquePoint point, vec3 to_viewer) {
@@ -69,6 +68,7 @@ uint mark_of_bounce(PathState state, OpaquePoint point, Bounce chosen) {
     if (chosen.diffuse || as_photon) mark |= kFromDiffuse;
     // A mirror's path sees lights; others leave these to shadow rays.
     if (chosen.alpha > 0.0) mark = widened(mark | kBounced, chosen.alpha);
+    mark = after_surface(mark, chosen.alpha > 0.0);
     bool bent = as_photon && (kPhotonsOfEmitters || kPhotonsOfEnvironment);
     return chosen.alpha > 0.0 && !bent ? mark | kUnbent : mark;
 }
@@ -86,7 +86,7 @@ void send_bounce(ivec2 texel, PathState state, OpaquePoint point, Bounce chosen,
     float roughness = sqrt(spread_of(state.mark));
     bool assumed = !(kPhotonsOfEnvironment && photons_have(state)) && !shadow_rays_have(state);
     if (push_branch(state, branch_capacity, true) && assumed)
-        add_light(texel, mark, -weight * filtered_environment_radiance(chosen.direction, roughness));
+        add_light(texel, mark, drawn(part_met(state.mark), -weight * filtered_environment_radiance(chosen.direction, roughness)));
 }
 
 // Light from other surfaces, of one direction or, where the cache knows it, of all.
@@ -101,7 +101,8 @@ void bounce(ivec2 texel, PathState state, OpaquePoint point) {
         // The environment that nothing hides was drawn by nine harmonics. What directions take from it adds up to more detail.
         vec3 irradiance = vec3(0.0), light = detailed_diffuse_radiance(point.normal) - diffuse_radiance(vec3(1.0), point.normal);
         cached = cached && cached_irradiance(state.path.position, point.normal, u.x, irradiance);
-        add_light(texel, state.mark, diffuse * (light + irradiance / 3.14159265));
+        add_light(texel, state.mark, diffuse * (drawn(part_through(state.mark, PELLUCID_DIRECT), light) +
+                                                drawn(PELLUCID_INDIRECT, irradiance / 3.14159265)));
     }
     if (branches_before >= max(most_branches, most_bounces)) return;
     Bounce chosen = choose_bounce(point, -state.path.direction, u, random_number(seed, state.path.events));

@@ -149,6 +149,7 @@ Meeting meet(inout PathState state, Crossing crossing) {
     m.eta = n_i / n_t;
     m.bending = 0.5 * (max(n_i, n_t) / min(n_i, n_t) - 1.0);
     float roughness = kRough ? surface_roughness(crossing.surface) : 0.0;
+    state.mark = after_surface(state.mark, roughness > 0.0);
     bool by_facets = kRough && (kStochastic || kTree);
     m.rough = by_facets && roughness > 0.0 &&
               first_facet(m.normal, state.path, state.seed, roughness, m.facets, m.normal);

@@ -89,15 +89,16 @@ bool mirrors_photons(PathState state, OpaquePoint point) { return point.reflects
 // Of an opaque surface, what it reflects of an environment that nothing hides, and what it emits. Paths carry
 // radiance over n^2: what a surface emits into a medium, and what lamps in it throw, is divided by that.
 vec3 light_of(PathState state, OpaquePoint point) {
-    if (point.unlit) return point.emission;
+    uint met = part_met(state.mark), scattered = part_through(state.mark, PELLUCID_DIRECT);
+    if (point.unlit) return drawn(met, point.emission);
     // Shadow rays have brought what is met straight from an opaque surface.
     bool emits = emitter_count == 0u || !(has_mark(state, kUnbent) || (kPhotonsOfEmitters && has_mark(state, kFromDiffuse)));
-    vec3 emission = emits ? point.emission / (point.ior * point.ior) : vec3(0.0);
+    vec3 emission = emits ? drawn(met, point.emission / (point.ior * point.ior)) : vec3(0.0);
     if (kPhotonsOfEnvironment && mirrors_photons(state, point)) {
         float cos_theta = clamp(-dot(point.normal, state.path.direction), 1e-4, 1.0);
-        return opaque_diffuse_radiance(point.surface, point.normal, cos_theta) + emission;
+        return drawn(scattered, opaque_diffuse_radiance(point.surface, point.normal, cos_theta)) + emission;
     }
-    return opaque_radiance(point.surface, point.normal, -state.path.direction) + emission;
+    return opaque_radiance(point.surface, point.normal, -state.path.direction, scattered, part_met(after_surface(state.mark, false))) + emission;
 }
 
 #include "techniques/visibility_layers/bounces.glsl"
@@ -136,6 +137,18 @@ void pass_hole(ivec2 texel, PathState state) {
     append_next(texel);
 }
 
+// What photons have brought to the surface; where lights shine through volumes, what these bring, too.
+void add_stored_light(ivec2 texel, PathState state, OpaquePoint point, bool rasterised) {
+    if (point.unlit) return;
+    vec3 irradiance = vec3(0.0);
+    if (kPhotons) irradiance += drawn(part_through(state.mark, PELLUCID_CAUSTIC), photon_irradiance(state.path.position, point.normal));
+#ifdef PELLUCID_LIT
+    if (!rasterised) irradiance += drawn(part_through(state.mark, PELLUCID_DIRECT), irradiance_of_lights(state.path.position, point.normal));
+#endif
+    vec3 albedo = diffuse_albedo(point, -state.path.direction);
+    add_light(texel, state.mark, state.path.transmittance * albedo * irradiance / (3.14159265 * point.ior * point.ior));
+}
+
 // Ends a path at an opaque surface. False: there is a hole.
 bool end_at_surface(ivec2 texel, PathState state) {
     OpaquePoint point = opaque_point(state);
@@ -145,24 +158,13 @@ bool end_at_surface(ivec2 texel, PathState state) {
         gather(texel, state, point);
         return true;
     }
-    bool drawn = has_mark(state, kOpaquePixel) && has_mark(state, kMainPath);  // by the rasteriser
-    if (!drawn) {
-        if (has_mark(state, kMainPath)) store_result(texel, state);
-        vec3 light = light_of(state, point);
-#ifdef PELLUCID_LIT
-        if (!point.unlit)
-            light += diffuse_albedo(point, -state.path.direction) / (3.14159265 * point.ior * point.ior) *
-                     irradiance_of_lights(state.path.position, point.normal);
-#endif
-        add_light(texel, state.mark, state.path.transmittance * light);
-    }
-    if (kPhotons && !point.unlit) {
-        vec3 caustic = photon_irradiance(state.path.position, point.normal);
-        add_light(texel, state.mark, state.path.transmittance * diffuse_albedo(point, -state.path.direction) * caustic / (3.14159265 * point.ior * point.ior));
-    }
+    bool rasterised = has_mark(state, kOpaquePixel) && has_mark(state, kMainPath);
+    if (!rasterised && has_mark(state, kMainPath)) store_result(texel, state);
+    if (!rasterised) add_light(texel, state.mark, state.path.transmittance * light_of(state, point));
+    add_stored_light(texel, state, point, rasterised);
     // Light that goes through translucent surfaces is drawn with them (shade/transmit_light.comp), and what they reflect.
-    if (kLightsSurfaces && !point.unlit && !(drawn && point.translucent)) look_at_lights(texel, state, point);
-    if ((kTree || kFullLight) && most_bounces > 0u && !(drawn && !kFullLight)) bounce(texel, state, point);
+    if (kLightsSurfaces && !point.unlit && !(rasterised && point.translucent)) look_at_lights(texel, state, point);
+    if ((kTree || kFullLight) && most_bounces > 0u && !(rasterised && !kFullLight)) bounce(texel, state, point);
     return true;
 }
 
@@ -179,11 +181,11 @@ void end_in_the_open(ivec2 texel, PathState state) {
     if (has_mark(state, kMainPath)) store_result(texel, state);
     if (kVisibleLights > 0u && has_mark(state, kMetLamp)) {
         float ior = filling_iors(filling_body(state.media)).g;
-        add_light(texel, state.mark, state.path.transmittance / (ior * ior));
+        add_light(texel, state.mark, drawn(part_met(state.mark), state.path.transmittance / (ior * ior)));
         return;
     }
     if (kTree || kStochastic || whole_picture != 0u || !has_mark(state, kMainPath))
-        add_light(texel, state.mark, environment_light(state));
+        add_light(texel, state.mark, drawn(part_met(state.mark), environment_light(state)));
 }
 
 void main() {

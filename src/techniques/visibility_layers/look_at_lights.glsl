@@ -48,7 +48,7 @@ void look_at_environment(ivec2 texel, PathState state, OpaquePoint point) {
     if (!(cosine > 0.0) || !(pdf > 0.0)) return;
     vec3 weight = state.path.transmittance * diffuse_albedo(point, -state.path.direction) * environment_radiance(direction) *
                   (cosine / (3.14159265 * pdf));
-    if (!(largest(weight) > 0.0)) return;
+    if (!(largest(weight) > 0.0) || !draws_part(part_through(state.mark, PELLUCID_DIRECT))) return;
     add_light(texel, state.mark, -weight);
     // Where the ray arrives, light is taken as that of a lamp in the medium.
     push_shadow_ray(state, LightSample(direction, kFarLight, vec3(0.0)), weight * (point.ior * point.ior));
@@ -56,6 +56,7 @@ void look_at_environment(ivec2 texel, PathState state, OpaquePoint point) {
 
 void look_at_lights(ivec2 texel, PathState state, OpaquePoint point) {
     if (kEnvironmentRays) look_at_environment(texel, state, point);
+    if (!draws_part(part_through(state.mark, PELLUCID_DIRECT))) return;
     uint sources = source_count();
     bool chooses = sources > kMostShadowRays;
     float step_ = 0.0, next = 0.0, passed = 0.0;

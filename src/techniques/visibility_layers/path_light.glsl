@@ -2,6 +2,7 @@
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_PATH_LIGHT_GLSL
 
 // What light the paths of a pixel bring. Needs: path_state.glsl.
+#include "gpu/light_parts.glsl"
 
 layout(set = 0, binding = 7, rgba32f) uniform image2DArray path_radiance;
 layout(set = 0, binding = 8, rgba32f) uniform image2DArray reflected_radiance;

@@ -59,19 +59,38 @@ const uint kMetLamp = 16384u;     // it has ended on a lamp, whose radiance its 
 const uint kUnbent = 32768u;    // scattered by an opaque surface, and in no mirror or refraction since. Photons: not bent yet, as
                                 // far apart as they are at their targets
 const uint kFromDiffuse = 65536u;  // reflected diffusely; since then by nothing but what photons follow
+const uint kScatteredShift = 17u, kScatteredMask = 3u << kScatteredShift;  // times that it was scattered: none, one, more
+const uint kBent = 1u << 19u;   // mirrored or refracted since
 const uint kBounceShift = 11u, kBounceMask = 7u << kBounceShift;  // diffuse reflections so far
 
 bool has_mark(PathState state, uint bits) { return (state.mark & bits) != 0u; }
 
-const uint kSpreadShift = 17u;
+const uint kSpreadShift = 20u, kSpreadUnits = 4095u;
 
 // Alpha of the lobe that a mark stands for, 0..1.
-float spread_of(uint mark) { return float(mark >> kSpreadShift) / 32767.0; }
+float spread_of(uint mark) { return float(mark >> kSpreadShift) / float(kSpreadUnits); }
 uint without_spread(uint mark) { return mark & ((1u << kSpreadShift) - 1u); }
 uint widened(uint mark, float alpha) {
     float sum = min(sqrt(spread_of(mark) * spread_of(mark) + alpha * alpha), 1.0);
-    return without_spread(mark) | uint(sum * 32767.0 + 0.5) << kSpreadShift;
+    return without_spread(mark) | uint(sum * float(kSpreadUnits) + 0.5) << kSpreadShift;
 }
+
+// The mark of a path that meets a surface: `scatters`, or one that only mirrors and refracts.
+uint after_surface(uint mark, bool scatters) {
+    if (!scatters) return mark | kBent;
+    uint before = (mark & kScatteredMask) >> kScatteredShift;
+    return (mark & ~(kScatteredMask | kBent)) | min(before + 1u, 2u) << kScatteredShift;
+}
+
+// The part of the picture (gpu/light_parts.glsl) that light belongs to which such a path meets,
+uint part_met(uint mark) {
+    uint scattered = (mark & kScatteredMask) >> kScatteredShift;
+    if (scattered != 1u) return scattered == 0u ? PELLUCID_EMITTED : PELLUCID_INDIRECT;
+    return (mark & kBent) != 0u ? PELLUCID_CAUSTIC : PELLUCID_DIRECT;
+}
+
+// and light that comes as `first` to a surface which scatters it into the path.
+uint part_through(uint mark, uint first) { return (mark & kScatteredMask) == 0u ? first : PELLUCID_INDIRECT; }
 
 Path unpack_path(vec4 place, vec4 way, vec4 weight) {
     uint word = floatBitsToUint(weight.w);
