@@ -3,7 +3,7 @@
 
 // A world-space cache of irradiance in a spatial hash: Binder, Fricke & Keller, "Massively parallel path space filtering",
 // 2019. Samples are added to nodes of grids around the eye, whose spacing grows with the distance to it. Each node keeps six
-// sums, of surfaces that face along each axis either way.
+// sets of sums, of surfaces that face along each axis either way.
 #include "gpu/hash.glsl"
 
 // Twin of IrradianceGrid in techniques/irradiance/irradiance_cache.cpp.
@@ -21,8 +21,12 @@ struct IrradianceGrid {
 struct IrradianceNode {
     uint key;       // 0: none
     uint count;     // samples, each as often as its frame's weight says
-    uvec2 sums[3];  // of irradiance, in units: signed, 64 bits, the low word first
+    // Signed, 64 bits, the low word first: of irradiance, in units; of the cosines of directions chosen by the environment's
+    // light that are open, and of all that lie above the surface, in kCosineUnits.
+    uvec2 sums[5];
 };
+
+const float kCosineUnits = 1024.0;
 
 const int kCoarserLevels = 3;    // from a level to the one that stands in where there are few samples
 const uint kMostProbes = 32u;    // slots that are looked at for a node

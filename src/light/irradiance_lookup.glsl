@@ -27,10 +27,15 @@ float signed_units(uvec2 sum) {
     return negative ? -size : size;
 }
 
-// rgb: sum of the samples of a level around a position, in units, trilinear between nodes; a: their number.
-vec4 samples_around(vec3 position, vec3 normal, int level) {
+// Of the nodes of a level around a position, trilinear between them.
+struct NodeSums {
+    vec4 samples;  // rgb: their sum, in units; a: their number
+    vec2 open;     // sums of cosines: of open directions, of all
+};
+
+NodeSums sums_around(vec3 position, vec3 normal, int level) {
     vec3 at = position * exp2(float(-level)), low = floor(at), weight = at - low;
-    vec4 sum = vec4(0.0);
+    NodeSums sum = NodeSums(vec4(0.0), vec2(0.0));
     for (uint axis = 0u; axis < 3u; ++axis) {
         float share = normal[axis] * normal[axis];
         if (share < 0.01) continue;
@@ -42,23 +47,39 @@ vec4 samples_around(vec3 position, vec3 normal, int level) {
             if (slot == kNoNode) continue;
             IrradianceNode node = irradiance_nodes[slot];
             vec3 units = vec3(signed_units(node.sums[0]), signed_units(node.sums[1]), signed_units(node.sums[2]));
-            sum += share * own.x * own.y * own.z * vec4(units, node.count);
+            float counts = share * own.x * own.y * own.z;
+            sum.samples += counts * vec4(units, node.count);
+            sum.open += counts * vec2(signed_units(node.sums[3]), signed_units(node.sums[4]));
         }
     }
     return sum;
 }
 
-// W/m2, of other surfaces' light. False: nothing is known of the position. `choice`, 0..1: between levels.
-bool cached_irradiance(vec3 position, vec3 normal, float choice, out vec3 irradiance) {
+// What the cache has of a position.
+struct CachedLight {
+    bool known;
+    vec3 irradiance;  // W/m2, of other surfaces' light
+    float open;       // share of the environment's light on the surface that nothing hides, 0..1
+};
+
+const CachedLight kNoCachedLight = CachedLight(false, vec3(0.0), 1.0);
+
+// `choice`, 0..1: between levels.
+CachedLight cached_light(vec3 position, vec3 normal, float choice) {
     int level = int(floor(irradiance_level(irradiance_grid, position) + choice));
-    vec4 samples = samples_around(position, normal, level);
+    NodeSums sums = sums_around(position, normal, level);
     float enough = kEnoughSamples * float(irradiance_grid.weight);
-    if (samples.a < enough) {
-        vec4 coarse = samples_around(position, normal, level + kCoarserLevels);
-        if (coarse.a > 0.0) samples += (enough - samples.a) * coarse / coarse.a;
+    if (sums.samples.a < enough) {
+        NodeSums coarse = sums_around(position, normal, level + kCoarserLevels);
+        float share = coarse.samples.a > 0.0 ? (enough - sums.samples.a) / coarse.samples.a : 0.0;
+        sums.samples += share * coarse.samples;
+        sums.open += share * coarse.open;
     }
-    irradiance = samples.a > 0.0 ? irradiance_grid.unit * samples.rgb / samples.a : vec3(0.0);
-    return samples.a > 0.0;
+    CachedLight light = kNoCachedLight;
+    light.known = sums.samples.a > 0.0;
+    if (light.known) light.irradiance = irradiance_grid.unit * sums.samples.rgb / sums.samples.a;
+    if (sums.open.y > 0.0) light.open = clamp(sums.open.x / sums.open.y, 0.0, 1.0);
+    return light;
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include "light/irradiance_points.glsl"
 
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray path_radiance;
+layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray reflected_radiance;
 layout(std430, set = 0, binding = 39) readonly buffer EyeMedia { uint eye_media[]; };  // a bit per slot
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 
@@ -17,6 +18,7 @@ void main() {
     waiting[i] = uvec2(0u);
     points[i].normal = kNoIrradiance;
     imageStore(path_radiance, ivec3(texel, 0), vec4(0.0));
+    imageStore(reflected_radiance, ivec3(texel, 0), vec4(0.0));
     PathState state;
     Path path = camera_path(vec2(texel) + 0.5);
     float along_axis = -path.direction.z;

@@ -34,7 +34,7 @@ struct IrradianceGrid {
     std::uint32_t orthographic, slot_mask, lost, weight, unused[2];
 };
 static_assert(sizeof(IrradianceGrid) == 48);
-constexpr vk::DeviceSize kNodeSize = 32;
+constexpr vk::DeviceSize kNodeSize = 48;
 
 /// Frames send on what earlier ones have found, so the later ones' samples know of more light. Weighted by the square of the
 /// frame's number, what is missing after n frames where surfaces reflect a share r falls as n^(3r - 3), not as n^(r - 1), and
@@ -119,7 +119,9 @@ void IrradianceCache::gather(Recorder& recorder, const Frame& frame, bool first)
     const std::uint64_t texels = std::uint64_t(values.width) * values.height;
     points_ = &workspace_.buffer("points of irradiance", texels * 16);
     const Recorder::Scope scope(recorder, "irradiance");
-    radiance_ = &gather_irradiance(recorder, *gathered_, source_, *points_);
+    const Gathered found = gather_irradiance(recorder, *gathered_, source_, *points_);
+    radiance_ = &found.irradiance;
+    sky_ = &found.sky;
 }
 
 void IrradianceCache::store(Recorder& recorder) {
@@ -128,8 +130,8 @@ void IrradianceCache::store(Recorder& recorder) {
     // The first frame had no cache to look at, so its samples lack light; the second's take their place.
     if (frames_ == 2) recorder.fill(*nodes_, sizeof(IrradianceGrid), VK_WHOLE_SIZE, 0);
     recorder.compute(workspace_.compute(shaders::store_irradiance_comp),
-                     {gathered_->bindings(), reads("path_radiance", *radiance_), updates("IrradiancePoints", *points_),
-                      updates("IrradianceNodes", *nodes_)},
+                     {gathered_->bindings(), reads("path_radiance", *radiance_), reads("reflected_radiance", *sky_),
+                      updates("IrradiancePoints", *points_), updates("IrradianceNodes", *nodes_)},
                      gathered_->extent);
     recorder.read<std::uint32_t>(*nodes_, offsetof(IrradianceGrid, lost), [this](std::uint32_t n) { lost_ += n; });
     gathered_.reset();

@@ -9,7 +9,7 @@
 
 namespace pellucid {
 
-/// Irradiance of diffuse surfaces that others send them, in a hash of world-space nodes (Binder, Fricke & Keller, "Massively
+/// Irradiance of diffuse surfaces that others send them, and how open they are to the environment, in a hash of world-space nodes (Binder, Fricke & Keller, "Massively
 /// parallel path space filtering", 2019). Every frame sends a ray from what some of its pixels show, and adds what the rays find
 /// to that of earlier frames of the picture. The state depends on the frames drawn alone, bit for bit.
 class IrradianceCache {
@@ -46,6 +46,7 @@ private:
     const Buffer* nodes_ = nullptr;
     const Buffer* points_ = nullptr;
     const GpuImage* radiance_ = nullptr;
+    const GpuImage* sky_ = nullptr;
     std::vector<Binding> bindings_;
 };
 

@@ -9,6 +9,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1, rgba32f) readonly uniform image2DArray path_radiance;
+layout(set = 0, binding = 2, rgba32f) readonly uniform image2DArray reflected_radiance;  // what gather() says of the environment
 layout(std430, set = 0, binding = 55) buffer IrradianceNodes { IrradianceGrid irradiance_grid; IrradianceNode irradiance_nodes[]; };
 
 const float kMostUnits = 1.0e12;  // of a sample; 2^23 weighted samples fit a sum
@@ -36,7 +37,7 @@ void add_to_sum(uint slot, uint channel, float units) {
     if (high + carry != 0u) atomicAdd(irradiance_nodes[slot].sums[channel].y, high + carry);
 }
 
-void store(vec3 position, int level, uint facing, vec3 dither, vec3 units) {
+void store(vec3 position, int level, uint facing, vec3 dither, vec3 units, vec2 cosines) {
     ivec3 node = ivec3(floor(position * exp2(float(-level)) + dither));
     uint slot = claim_node(node_hash(node, level, facing));
     if (slot == kNoNode) {
@@ -45,6 +46,8 @@ void store(vec3 position, int level, uint facing, vec3 dither, vec3 units) {
     }
     atomicAdd(irradiance_nodes[slot].count, irradiance_grid.weight);
     for (uint c = 0u; c < 3u; ++c) add_to_sum(slot, c, units[c]);
+    for (uint k = 0u; k < 2u; ++k)
+        if (cosines[k] > 0.0) add_to_sum(slot, 3u + k, cosines[k]);
 }
 
 void main() {
@@ -61,6 +64,8 @@ void main() {
     float choice = v.x, x2 = normal.x * normal.x, y2 = normal.y * normal.y;
     uint axis = choice < x2 ? 0u : choice < x2 + y2 ? 1u : 2u, facing = axis + (normal[axis] < 0.0 ? 3u : 0u);
     int level = int(floor(irradiance_level(irradiance_grid, point.position) + v.y));
-    store(point.position, level, facing, u, units);
-    store(point.position, level + kCoarserLevels, facing, u, units);
+    vec4 sky = imageLoad(reflected_radiance, ivec3(texel, 0));
+    vec2 cosines = round(kCosineUnits * sky.a * vec2(clamp(sky.g, 0.0, 1.0), 1.0));
+    store(point.position, level, facing, u, units, cosines);
+    store(point.position, level + kCoarserLevels, facing, u, units, cosines);
 }

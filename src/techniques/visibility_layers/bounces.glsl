@@ -2,22 +2,13 @@
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_BOUNCES_GLSL
 
 // Light that opaque surfaces send to each other: branches of the path, or a cache of irradiance.
-// Needs: end_paths.glsl as far as struct OpaquePoint.
+// Needs: look_at_lights.glsl.
 layout(constant_id = 44) const bool kGathers = false;  // paths sample the irradiance of the first diffuse surface they meet
-layout(constant_id = 45) const uint kCachedFrom = 8u;  // bounces after which the cache stands for those that follow; 8: never
-layout(constant_id = 46) const bool kEnvironmentRays = false;  // shadow rays find what hides the environment
-#include "light/irradiance_lookup.glsl"
 #include "light/irradiance_points.glsl"
 
 // A diffuse reflection sees the environment a little blurred, against noise of small suns: by 2 degrees. A wider blur brings
 // light from above a horizon to surfaces that see only what is below it.
 const float kBounceRoughness = 1.0 / float(PELLUCID_FILTER_LEVELS);
-
-// As opaque_radiance() has it.
-vec3 diffuse_albedo(OpaquePoint point, vec3 to_viewer) {
-    float coat = coat_reflectance(point.surface.ior, clamp(dot(point.normal, to_viewer), 1e-4, 1.0));
-    return point.unlit ? vec3(0.0) : (1.0 - point.surface.metallic) * (1.0 - coat) * point.surface.base_color;
-}
 
 uint bounces(PathState state) { return (state.mark & kBounceMask) >> kBounceShift; }
 
@@ -46,14 +37,14 @@ Bounce facet_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
     return Bounce(reflected.direction, fresnel * reflected.visible, alpha, false);
 }
 
-float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
-
-// One of the two, at random by their weights; facets only where all light is followed.
-Bounce choose_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, float choice) {
+// One of the two, at random by their weights; facets only where all light is followed, and then with a chance of `least`, where
+// they reflect at all: the light that is taken off for them is bright, whatever they send instead.
+Bounce choose_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, float choice, float least) {
     Bounce diffuse = diffuse_bounce(point, to_viewer, u);
     if (!kFullLight || point.unlit) return diffuse;
     Bounce facet = facet_bounce(point, to_viewer, u);
     float share = largest(facet.weight) / max(largest(facet.weight) + largest(diffuse.weight), 1e-20);
+    if (point.surface.ior != 1.0 && share < 1.0) share = max(share, least);
     bool by_facet = choice < share;
     if (by_facet) diffuse = facet;
     diffuse.weight /= by_facet ? share : 1.0 - share;
@@ -90,22 +81,16 @@ void send_bounce(ivec2 texel, PathState state, OpaquePoint point, Bounce chosen,
 }
 
 // Light from other surfaces, of one direction or, where the cache knows it, of all.
-void bounce(ivec2 texel, PathState state, OpaquePoint point) {
+void bounce(ivec2 texel, PathState state, OpaquePoint point, CachedLight known) {
     uint branches_before = waiting[state.pixel].y, before = bounces(state);
     if (before >= most_bounces) return;
     uint seed = hash(uvec3(texel + first_pixel(), 77u + branches_before + 256u * before)).x;
     vec2 u = random_numbers(seed, state.path.events);
     vec3 diffuse = state.path.transmittance * diffuse_albedo(point, -state.path.direction);
-    bool cached = kCachedFrom <= before;
-    if (kFullLight && largest(diffuse) > 0.0) {
-        // The environment that nothing hides was drawn by nine harmonics. What directions take from it adds up to more detail.
-        vec3 irradiance = vec3(0.0), light = detailed_diffuse_radiance(point.normal) - diffuse_radiance(vec3(1.0), point.normal);
-        cached = cached && cached_irradiance(state.path.position, point.normal, u.x, irradiance);
-        add_light(texel, state.mark, diffuse * (drawn(part_through(state.mark, PELLUCID_DIRECT), light) +
-                                                drawn(PELLUCID_INDIRECT, irradiance / 3.14159265)));
-    }
+    bool cached = kFullLight && kCachedFrom <= before && known.known;
+    if (cached) add_light(texel, state.mark, drawn(PELLUCID_INDIRECT, diffuse * known.irradiance / 3.14159265));
     if (branches_before >= max(most_branches, most_bounces)) return;
-    Bounce chosen = choose_bounce(point, -state.path.direction, u, random_number(seed, state.path.events));
+    Bounce chosen = choose_bounce(point, -state.path.direction, u, random_number(seed, state.path.events), cached ? 0.5 : 0.25);
     vec3 weight = state.path.transmittance * chosen.weight;
     if (largest(weight) > threshold && !(cached && chosen.diffuse)) send_bounce(texel, state, point, chosen, weight);
 }
@@ -124,7 +109,7 @@ void look_on(PathState state, Bounce chosen, uint mark) {
 void gather(ivec2 texel, PathState state, OpaquePoint point) {
     uint seed = hash(uvec3(texel + first_pixel(), 76u)).x;
     Bounce chosen = choose_bounce(point, -state.path.direction, random_numbers(seed, state.path.events),
-                                  random_number(seed, state.path.events));
+                                  random_number(seed, state.path.events), 0.0);
     if (!(largest(chosen.weight) > 0.0)) return;
     uint mark = state.mark & ~kMetOpaque;
     if (!chosen.diffuse) {
@@ -135,6 +120,7 @@ void gather(ivec2 texel, PathState state, OpaquePoint point) {
         points[state.pixel] = IrradiancePoint(state.path.position, pack_direction(point.normal));
         state.mark &= ~kBounceMask;
         send_bounce(texel, state, point, chosen, vec3(3.14159265));
+        if (kEnvironmentRays) look_for_sky(texel, state, point);
     }
 }
 

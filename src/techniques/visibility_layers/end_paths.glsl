@@ -80,6 +80,14 @@ OpaquePoint opaque_point(PathState state) {
     return point;
 }
 
+// As opaque_radiance() has it.
+vec3 diffuse_albedo(OpaquePoint point, vec3 to_viewer) {
+    float coat = coat_reflectance(point.surface.ior, clamp(dot(point.normal, to_viewer), 1e-4, 1.0));
+    return point.unlit ? vec3(0.0) : (1.0 - point.surface.metallic) * (1.0 - coat) * point.surface.base_color;
+}
+
+float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
+
 // Whether photons have brought the light of emissive surfaces and the environment that such a path meets by chance.
 bool photons_have(PathState state) { return has_mark(state, kFromDiffuse) && !has_mark(state, kUnbent); }
 
@@ -101,8 +109,8 @@ vec3 light_of(PathState state, OpaquePoint point) {
     return opaque_radiance(point.surface, point.normal, -state.path.direction, scattered, part_met(after_surface(state.mark, false))) + emission;
 }
 
-#include "techniques/visibility_layers/bounces.glsl"
 #include "techniques/visibility_layers/look_at_lights.glsl"
+#include "techniques/visibility_layers/bounces.glsl"
 
 // What the environment sends along a path.
 vec3 environment_light(PathState state) {
@@ -163,8 +171,10 @@ bool end_at_surface(ivec2 texel, PathState state) {
     if (!rasterised) add_light(texel, state.mark, state.path.transmittance * light_of(state, point));
     add_stored_light(texel, state, point, rasterised);
     // Light that goes through translucent surfaces is drawn with them (shade/transmit_light.comp), and what they reflect.
-    if (kLightsSurfaces && !point.unlit && !(rasterised && point.translucent)) look_at_lights(texel, state, point);
-    if ((kTree || kFullLight) && most_bounces > 0u && !(rasterised && !kFullLight)) bounce(texel, state, point);
+    CachedLight known = kNoCachedLight;
+    if (kFullLight && !point.unlit) known = light_around(texel, state, point);
+    if (kLightsSurfaces && !point.unlit && !(rasterised && point.translucent)) look_at_lights(texel, state, point, known.open);
+    if ((kTree || kFullLight) && most_bounces > 0u && !(rasterised && !kFullLight)) bounce(texel, state, point, known);
     return true;
 }
 

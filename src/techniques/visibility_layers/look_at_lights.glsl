@@ -7,9 +7,18 @@
 #include "techniques/visibility_layers/path_lights.glsl"
 #include "techniques/visibility_layers/emitters.glsl"
 #include "gpu/environment_shares.glsl"
+#include "light/irradiance_lookup.glsl"
+
+const uint kNeverCached = 8u;
+layout(constant_id = 45) const uint kCachedFrom = kNeverCached;  // bounces after which the cache stands for those that follow
+layout(constant_id = 46) const bool kEnvironmentRays = false;  // shadow rays find what hides the environment
 
 // Shadow rays of one path end. Where there are more lights, they are chosen at random by what they contribute unshadowed.
 const uint kMostShadowRays = 4u;
+
+// Rays of one path end that look for the environment where part of it is hidden, and the shares between which it is.
+const uint kMostSkyRays = 4u;
+const float kHardlyOpen = 0.02, kHardlyHidden = 0.95;
 
 // Lights, and all that emits as one more.
 uint source_count() { return direct_lights + (emitter_count > 0u ? 1u : 0u); }
@@ -38,25 +47,67 @@ void push_shadow_ray(PathState state, LightSample light, vec3 weight) {
     push_branch(state, branch_capacity, false);
 }
 
-// What hides the environment from the diffuse layer: a direction chosen by its light. The environment has been counted as if
-// nothing did, so a surface that stands alone has no noise.
-void look_at_environment(ivec2 texel, PathState state, OpaquePoint point) {
-    float pdf;
+// A direction chosen by the environment's light.
+struct SkyLook {
+    vec3 direction;  // unit
+    float cosine;    // to the normal; below 0: under the surface
+    float pdf;       // per steradian; 0: there is none
+};
+
+SkyLook look_to_sky(ivec2 texel, PathState state, OpaquePoint point, uint number) {
+    SkyLook look;
     uint seed = hash(uvec3(texel + first_pixel(), 4097u)).x;
-    vec3 direction = sample_environment(spread_numbers(seed, state.path.events), pdf);
-    float cosine = dot(point.normal, direction);
-    if (!(cosine > 0.0) || !(pdf > 0.0)) return;
-    vec3 weight = state.path.transmittance * diffuse_albedo(point, -state.path.direction) * environment_radiance(direction) *
-                  (cosine / (3.14159265 * pdf));
-    if (!(largest(weight) > 0.0) || !draws_part(part_through(state.mark, PELLUCID_DIRECT))) return;
-    add_light(texel, state.mark, -weight);
-    // Where the ray arrives, light is taken as that of a lamp in the medium.
-    push_shadow_ray(state, LightSample(direction, kFarLight, vec3(0.0)), weight * (point.ior * point.ior));
+    look.direction = sample_environment(spread_numbers(seed, state.path.events, number), look.pdf);
+    look.cosine = dot(point.normal, look.direction);
+    return look;
 }
 
-void look_at_lights(ivec2 texel, PathState state, OpaquePoint point) {
-    if (kEnvironmentRays) look_at_environment(texel, state, point);
+// `weight`: what the ray brings if nothing hides the environment there.
+void push_sky_ray(PathState state, SkyLook look, OpaquePoint point, vec3 weight) {
+    // Where the ray arrives, light is taken as that of a lamp in the medium.
+    push_shadow_ray(state, LightSample(look.direction, kFarLight, vec3(0.0)), weight * (point.ior * point.ior));
+}
+
+// What hides the environment from the diffuse layer. `open`: the share of its light that probably nothing hides. That much of
+// what has been counted as if nothing did stays: a surface that is all open has no noise, and one that is all hidden has none.
+void look_at_environment(ivec2 texel, PathState state, OpaquePoint point, float open) {
+    vec3 diffuse = state.path.transmittance * diffuse_albedo(point, -state.path.direction);
+    add_light(texel, state.mark, (open - 1.0) * diffuse * detailed_diffuse_radiance(point.normal));
+    uint rays = open > kHardlyOpen && open < kHardlyHidden ? kMostSkyRays : 1u;
+    for (uint k = 0u; k < rays; ++k) {
+        SkyLook look = look_to_sky(texel, state, point, rays * frame.sample_index + k);
+        if (!(look.cosine > 0.0) || !(look.pdf > 0.0)) continue;
+        vec3 weight = diffuse * environment_radiance(look.direction) * (look.cosine / (3.14159265 * look.pdf * float(rays)));
+        if (!(largest(weight) > 0.0)) continue;
+        add_light(texel, state.mark, -open * weight);
+        push_sky_ray(state, look, point, weight);
+    }
+}
+
+// For the cache: whether the environment is open in a direction. The ray says it in `reflected_radiance`, next to the cosine.
+void look_for_sky(ivec2 texel, PathState state, OpaquePoint point) {
+    SkyLook look = look_to_sky(texel, state, point, frame.sample_index);
+    if (!(look.cosine > 0.0) || !(look.pdf > 0.0)) return;
+    imageStore(reflected_radiance, ivec3(texel, 0), vec4(0.0, 0.0, 0.0, look.cosine));
+    state.mark |= kOuterBranch;
+    push_sky_ray(state, look, point, vec3(1.0));
+}
+
+// What the cache knows of the surface. The environment that nothing hides was drawn by nine harmonics: what is missing of its
+// detail is added.
+CachedLight light_around(ivec2 texel, PathState state, OpaquePoint point) {
+    vec3 diffuse = state.path.transmittance * diffuse_albedo(point, -state.path.direction);
+    if (!(largest(diffuse) > 0.0)) return kNoCachedLight;
+    vec3 light = detailed_diffuse_radiance(point.normal) - diffuse_radiance(vec3(1.0), point.normal);
+    add_light(texel, state.mark, drawn(part_through(state.mark, PELLUCID_DIRECT), diffuse * light));
+    if (kCachedFrom == kNeverCached) return kNoCachedLight;
+    uint seed = hash(uvec3(texel + first_pixel(), 78u)).x;
+    return cached_light(state.path.position, point.normal, random_number(seed, state.path.events));
+}
+
+void look_at_lights(ivec2 texel, PathState state, OpaquePoint point, float open) {
     if (!draws_part(part_through(state.mark, PELLUCID_DIRECT))) return;
+    if (kEnvironmentRays) look_at_environment(texel, state, point, open);
     uint sources = source_count();
     bool chooses = sources > kMostShadowRays;
     float step_ = 0.0, next = 0.0, passed = 0.0;

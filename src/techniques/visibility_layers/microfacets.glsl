@@ -12,12 +12,13 @@ uint sample_seed(ivec2 texel) { return hash(uvec3(texel + first_pixel(), 1u)).x;
 vec2 random_numbers(uint seed, uint event) {
     return vec2(hash(uvec3(seed, event, 2u * frame.sample_index)).xy >> 8u) / 16777216.0;
 }
-// The same, but spread evenly over the samples of a seed and event (a Kronecker sequence; powers of 1/1.16730398 by Roberts,
+// The same, but spread evenly over the numbers, or samples, of a seed and event (a Kronecker sequence; powers of 1/1.16730398 by Roberts,
 // "The unreasonable effectiveness of quasirandom sequences", 2018).
-vec2 spread_numbers(uint seed, uint event) {
-    uvec2 bits = hash(uvec3(seed, event, 0x51f15e5du)).xy + uvec2(frame.sample_index) * uvec2(3679390609u, 3152041523u);
+vec2 spread_numbers(uint seed, uint event, uint number) {
+    uvec2 bits = hash(uvec3(seed, event, 0x51f15e5du)).xy + uvec2(number) * uvec2(3679390609u, 3152041523u);
     return vec2(bits >> 8u) / 16777216.0;
 }
+vec2 spread_numbers(uint seed, uint event) { return spread_numbers(seed, event, frame.sample_index); }
 float random_number(uint seed, uint event) {
     return float(hash(uvec3(seed, event, 2u * frame.sample_index + 1u)).z >> 8u) / 16777216.0;
 }

@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint32_t kSurfacesPerBranch = 4;
 /// Surfaces budgeted per shadow ray, likewise: most meet none, or end at the first.
 constexpr std::uint32_t kSurfacesPerShadowRay = 2;
-/// Twin in look_at_lights.glsl.
-constexpr std::uint32_t kMostShadowRays = 4;
+/// Twins in look_at_lights.glsl.
+constexpr std::uint32_t kMostShadowRays = 4, kMostSkyRays = 4;
 /// That there is time for on the longest path where solids overlap: most surfaces there are inside of something.
 constexpr std::uint32_t kSurfacesPerEvent = 4;
 /// That there is time for on the longest path, besides its surfaces: a path leaves a volume at each surface in it.
@@ -109,7 +109,7 @@ private:
         const std::uint32_t branches = std::max(push_.most_branches, push_.most_bounces);
         const std::uint32_t shadow_rays =
             (std::min(push_.direct_lights + (push_.emitter_count > 0 ? 1 : 0), kMostShadowRays) +
-             (frame_.environment_shares != nullptr ? 1 : 0)) *
+             (frame_.environment_shares != nullptr ? kMostSkyRays : 0)) *
             (1 + branches);
         return in_passes(surfaces) + branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1) +
                shadow_rays * in_passes(kSurfacesPerShadowRay + surfaces_per_pass_ - 1);

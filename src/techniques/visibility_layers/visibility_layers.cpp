@@ -141,7 +141,7 @@ void light_surfaces(Recorder& recorder, const Frame& frame, const Layers& layers
     follow(recorder, frame, layers.source, finder, task);
 }
 
-const GpuImage& gather_irradiance(Recorder& recorder, const Frame& frame, LayerSource& source, const Buffer& points) {
+Gathered gather_irradiance(Recorder& recorder, const Frame& frame, LayerSource& source, const Buffer& points) {
     const SceneTopology& topology = *frame.scene.topology;
     const SurfaceFinder finder = SurfaceFinder::of_device(recorder, frame, source);
     PathTask task{.begin = shaders::begin_gather_comp,
@@ -155,14 +155,13 @@ const GpuImage& gather_irradiance(Recorder& recorder, const Frame& frame, LayerS
     task.push.eye_differs = topology.eye_differs ? 1 : 0;
     task.push.eye_depth = topology.eye_depth;
     const Refraction refraction = allocate_refraction(frame, true);
-    const GpuImage& unused = frame.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame.extent);
+    const GpuImage& sky = frame.workspace.image("reflected radiance", vk::Format::eR32G32B32A32Sfloat, frame.extent);
     task.bindings = light_bindings(frame);
-    task.bindings.insert(
-        task.bindings.end(),
-        {refraction.bindings(), updates("path_radiance", *refraction.radiance), updates("reflected_radiance", unused),
-         updates("surface_radiance", unused), updates("IrradiancePoints", points)});
+    task.bindings.insert(task.bindings.end(), {refraction.bindings(), updates("path_radiance", *refraction.radiance),
+                                               updates("reflected_radiance", sky), updates("surface_radiance", sky),
+                                               updates("IrradiancePoints", points)});
     follow(recorder, frame, source, finder, task);
-    return *refraction.radiance;
+    return {*refraction.radiance, sky};
 }
 
 Refraction follow_paths(Recorder& recorder, const Frame& frame, const Layers& layers, const SurfaceMap& map,

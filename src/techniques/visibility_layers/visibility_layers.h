@@ -63,9 +63,16 @@ void prepare_light(const Preparation& preparation);
 /// call follow_paths() have it done there.
 void light_surfaces(Recorder& recorder, const Frame& frame, const Layers& layers);
 
+/// What gather_irradiance() has found, per pixel. Alpha of `sky` is the cosine of a direction to the environment, 0 where there
+/// is none; its other channels are 1 if that is open.
+struct Gathered {
+    const GpuImage& irradiance;  ///< RGB, W/m2
+    const GpuImage& sky;
+};
+
 /// Follows a view ray from every pixel to a diffuse surface, and one ray from there. `points` gets where that is
-/// (light/irradiance_points.glsl), the image that it returns the irradiance, W/m2, that the ray stands for: light that other
+/// (light/irradiance_points.glsl), what it returns the irradiance that the ray stands for: light that other
 /// surfaces reflect, by up to FrameLight::bounces rays and what Frame::irradiance holds of more.
-const GpuImage& gather_irradiance(Recorder& recorder, const Frame& frame, LayerSource& source, const Buffer& points);
+Gathered gather_irradiance(Recorder& recorder, const Frame& frame, LayerSource& source, const Buffer& points);
 
 }  // namespace pellucid
