@@ -3,7 +3,7 @@
 
 #include "lab/experiment_run.h"
 
-#include "lab/ball_photons.h"
+#include "lab/landed_light.h"
 
 #include <pellucid/volume_light.h>
 
@@ -22,6 +22,7 @@ namespace {
 constexpr int kRepetitions = 3;
 constexpr int kPhotonRings = 2500;
 constexpr glm::vec3 kWay(0.2f, -1.0f, 0.1f);  // of the light
+constexpr float kHalf = 2.5f;                 // edge of the ground, m
 
 Scene lit_volume(const std::string& spec, float ground) {
     Scene scene;
@@ -30,8 +31,8 @@ Scene lit_volume(const std::string& spec, float ground) {
     scene.volume_objects.emplace_back();
     scene.materials.emplace_back();
     Mesh plane;
-    const float half = 2.5f;
-    plane.positions = {{-half, ground, half}, {half, ground, half}, {half, ground, -half}, {-half, ground, -half}};
+    plane.positions = {
+        {-kHalf, ground, kHalf}, {kHalf, ground, kHalf}, {kHalf, ground, -kHalf}, {-kHalf, ground, -kHalf}};
     plane.normals.assign(4, {0.0f, 1.0f, 0.0f});
     plane.triangles = {{0, 1, 2}, {0, 2, 3}};
     scene.meshes.push_back(plane);
@@ -103,23 +104,16 @@ void measure_ball(ExperimentRun& run, ExperimentPage& page) {
             settings.keep_folds = variant.folds;
             nlohmann::ordered_json json;
             const MeasuredLight light = measure(run, name, variant.name, scene, settings, json);
-            const LightMap& map = light.receivers.at(0);
-            const BallAndPlane truth{.box = double(scene.volumes[0]->high().x),
-                                     .direction = glm::normalize(glm::dvec3(kWay)),
-                                     .corner = map.corner,
-                                     .side = map.side,
-                                     .up = map.up,
-                                     .texel = map.texel,
-                                     .width = map.irradiance.width,
-                                     .height = map.irradiance.height};
+            BallAndPlane truth{.box = double(scene.volumes[0]->high().x),
+                               .direction = glm::normalize(glm::dvec3(kWay))};
+            set_level_map(truth, double(kHalf), -1.4, light.voxel);
             if (exact.empty()) exact = count_photons(truth, kPhotonRings);
-            std::vector<double> own;
-            for (std::size_t i = 0; i < exact.size(); ++i) own.push_back(double(map.irradiance.pixels[3 * i]));
+            const std::vector<double> own = landed_map(light.photons, truth);
             const glm::dvec3 foot = -1.4 / truth.direction.y * truth.direction - truth.corner;
             const glm::dvec2 around = glm::dvec2(glm::dot(foot, truth.side), glm::dot(foot, truth.up)) / truth.texel;
             const CausticSpot spot = caustic_spot(own, truth.width, around, 0.9 / truth.texel),
                               wanted = caustic_spot(exact, truth.width, around, 0.9 / truth.texel);
-            const double voxels = map.texel / light.voxel;
+            const double voxels = truth.texel / light.voxel;
             json["center_off"] = voxels * glm::distance(spot.center, wanted.center);
             json["radius"] = voxels * spot.radius;
             json["exact_radius"] = voxels * wanted.radius;
@@ -153,11 +147,10 @@ void measure_glass(ExperimentRun& run, ExperimentPage& page) {
             json["main_share"] = s.main_share;
         }
         run.runs.push_back(json);
-        const LightMap& map = light.receivers.at(0);
-        std::vector<double> own;
-        for (std::size_t i = 0; i < map.irradiance.pixels.size(); i += 3)
-            own.push_back(double(map.irradiance.pixels[i]));
-        page.add_picture("wine glass, 128", variant.name, display(own, map.irradiance.width, map.irradiance.height));
+        BallAndPlane ground;
+        set_level_map(ground, double(kHalf), double(low) + 0.04, light.voxel);
+        page.add_picture("wine glass, 128", variant.name,
+                         display(landed_map(light.photons, ground), ground.width, ground.height));
     }
 }
 
@@ -192,18 +185,12 @@ void compare_with_photons(ExperimentRun& run) {
     settings.fresnel = false;
     nlohmann::ordered_json json;
     const MeasuredLight light = measure(run, name, "sum, folds kept", scene, settings, json, 1);
-    const LightMap& map = light.receivers.at(0);
-    const BallAndPlane ball{.smoothing = 0.75 * light.voxel,
-                            .box = double(scene.volumes[0]->high().x),
-                            .direction = glm::normalize(glm::dvec3(kWay)),
-                            .corner = map.corner,
-                            .side = map.side,
-                            .up = map.up,
-                            .texel = map.texel,
-                            .width = map.irradiance.width,
-                            .height = map.irradiance.height};
-    std::vector<double> own, counted;
-    for (std::size_t i = 0; i < map.irradiance.pixels.size(); i += 3) own.push_back(double(map.irradiance.pixels[i]));
+    BallAndPlane ball{.smoothing = 0.75 * light.voxel,
+                      .box = double(scene.volumes[0]->high().x),
+                      .direction = glm::normalize(glm::dvec3(kWay))};
+    set_level_map(ball, double(kHalf), -1.4, light.voxel);
+    const std::vector<double> own = landed_map(light.photons, ball);
+    std::vector<double> counted;
     const auto count = [&](int rings) {
         const auto start = std::chrono::steady_clock::now();
         counted = count_photons(ball, rings);

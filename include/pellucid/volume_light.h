@@ -2,7 +2,6 @@
 
 #include <pellucid/api.h>
 #include <pellucid/device.h>
-#include <pellucid/image.h>
 #include <pellucid/scene.h>
 
 #include <glm/glm.hpp>
@@ -32,12 +31,10 @@ struct LightSettings {
     std::uint32_t steps_per_round = 16;  ///< of a patch before lists are compacted
     std::uint32_t slices =
         1;  ///< updates over which a light that moves is traced; until the last the one before is shown
-    std::uint32_t rounds = 0;          ///< at most; 0: as many as light needs to cross all volumes one and a half times
-    float texel = 1.0f;                ///< of receivers' maps, smallest voxels
-    float reach = 3.0f;                ///< of receivers, radii of the sphere around all volumes
-    std::uint32_t most_texels = 1024;  ///< along a side of a receiver
-    bool fresnel = true;               ///< surfaces (Volume::boundary) reflect light
-    std::uint32_t reflections = 0;     ///< reflections followed one after another, 0..7; light of more is lost
+    std::uint32_t rounds = 0;       ///< at most; 0: as many as light needs to cross all volumes one and a half times
+    float photon_spacing = 0.5f;    ///< of photons where patches meet opaque surfaces, smallest voxels, > 0
+    bool fresnel = true;            ///< surfaces (Volume::boundary) reflect light
+    std::uint32_t reflections = 0;  ///< reflections followed one after another, 0..7; light of more is lost
     float shown_spacing =
         0.0f;            ///< optical length between the wavefronts of View::kWavefront, smallest voxels; 0: none
     bool tally = false;  ///< kBrightest: count what voxels get from several directions (lit_voxels on); traces twice
@@ -46,8 +43,8 @@ struct LightSettings {
 /// The balance of the light: power in W, for red, green and blue.
 struct LightStatistics {
     glm::dvec3 emitted{0.0};    ///< towards volumes
-    glm::dvec3 arrived{0.0};    ///< on receivers
-    glm::dvec3 missed{0.0};     ///< left the volumes and met none
+    glm::dvec3 arrived{0.0};    ///< on opaque surfaces
+    glm::dvec3 missed{0.0};     ///< left the volumes and met no surface
     glm::dvec3 absorbed{0.0};   ///< or scattered
     glm::dvec3 reflected{0.0};  ///< at surfaces, and not followed
     glm::dvec3 turned{0.0};     ///< dropped at folds
@@ -67,20 +64,21 @@ struct LightStatistics {
     PELLUCID_API std::vector<std::string> warnings() const;
 };
 
-/// The light on one planar object, as measure_light() found it.
-struct LightMap {
-    glm::dvec3 corner{0.0}, side{0.0}, up{0.0};  ///< world, m; unit
-    double texel = 0.0;                          ///< edge, m
-    Image irradiance;                            ///< RGB, W/m2; rows along `up`, from the corner on
+/// Light where it meets an opaque surface. Look-ups spread it over the disc around it.
+struct LandedPhoton {
+    glm::dvec3 position{0.0};  ///< world, m
+    glm::dvec3 flux{0.0};      ///< W, >= 0
+    double radius = 0.0;       ///< of the disc, m
+    std::uint32_t object = 0;  ///< Scene::objects
 };
 
 /// What measure_light() found.
 struct MeasuredLight {
     LightStatistics statistics;
-    double device_ms = 0.0;  ///< median over the repetitions; by timestamps, 0 where there are none
-    double wall_ms = 0.0;    ///< likewise, by the clock: recording, submitting and waiting
-    double voxel = 0.0;      ///< edge of the smallest voxel, m
-    std::vector<LightMap> receivers;
+    double device_ms = 0.0;             ///< median over the repetitions; by timestamps, 0 where there are none
+    double wall_ms = 0.0;               ///< likewise, by the clock: recording, submitting and waiting
+    double voxel = 0.0;                 ///< edge of the smallest voxel, m
+    std::vector<LandedPhoton> photons;  ///< in no order
 };
 
 /// Traces the lights of a scene through its volumes on a device of its own: once to compile and to upload, then

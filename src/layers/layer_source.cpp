@@ -26,7 +26,8 @@ void LayerSource::forget_size() {
 }
 
 bool LayerSource::must_repeat(const Frame& frame) {
-    bool repeat = mesh_maps_.must_repeat();
+    bool repeat = std::exchange(repeats_, false);
+    repeat = mesh_maps_.must_repeat() || repeat;
     repeat = must_peel_more() || repeat;
     for (auto& [name, buffer] : counted_) repeat = buffer.grow() || repeat;
     repeat = (paths_lost_ && !finishes_paths_) || repeat;

@@ -43,9 +43,9 @@ struct Layers {
     std::uint32_t count;
     const Opaque& opaque;
     LayerSource& source;  ///< builds more, for techniques that look at objects one by one
-    std::vector<Binding> group = {reads("layer_depth", depth),          reads("layer_triangle", triangle),
-                                  reads("layer_normal", normal),        reads("PixelList", covered),
-                                  reads("opaque_depth", opaque.depth),  reads("opaque_radiance", opaque.radiance),
+    std::vector<Binding> group = {reads("layer_depth", depth),           reads("layer_triangle", triangle),
+                                  reads("layer_normal", normal),         reads("PixelList", covered),
+                                  reads("opaque_depth", opaque.depth),   reads("opaque_radiance", opaque.radiance),
                                   reads("opaque_object", opaque.object), reads("opaque_triangle", opaque.triangle)};
     /// All of this by the names that shaders have for it; "PixelList" is `covered`, unless the pass has another.
     Binding bindings() const { return all_of(group); }
@@ -111,6 +111,8 @@ public:
     /// then recorded again and in those that follow.
     void note_lost_paths(std::uint32_t count) { paths_lost_ = paths_lost_ || count > 0; }
     bool finishes_paths() const { return finishes_paths_; }
+    /// The frame must be recorded again: something that a technique keeps did not fit.
+    void repeat() { repeats_ = true; }
     /// Forgets what it has learnt of pictures of one size, and keeps what holds for all.
     void forget_size();
     /// After the frame has run: true if something did not fit. What build() does next will, and the frame must be
@@ -135,7 +137,7 @@ private:
     DualPeeling dual_;
     std::map<std::string, CountedBuffer> counted_;
     MeshMaps mesh_maps_;
-    bool paths_lost_ = false, finishes_paths_ = false;
+    bool paths_lost_ = false, finishes_paths_ = false, repeats_ = false;
 };
 
 }  // namespace pellucid

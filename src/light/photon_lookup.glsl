@@ -15,9 +15,14 @@ layout(std430, set = 0, binding = 53) readonly buffer Photons {
     Photon photons[];
 };
 
-// Sums whole numbers of PhotonGrid::unit in 64 bits: the order of what is added does not matter.
+// Sums whole numbers of PhotonGrid::unit of either sign in 64 bits: the order of what is added does not matter.
 void add_units(float units, inout uvec2 sum) {
-    uint high = uint(units / 4294967296.0), low = uint(units - float(high) * 4294967296.0), carry;
+    float size = abs(units);
+    uint high = uint(size / 4294967296.0), low = uint(size - float(high) * 4294967296.0), carry;
+    if (units < 0.0) {
+        low = ~low + 1u;
+        high = ~high + (low == 0u ? 1u : 0u);
+    }
     sum.x = uaddCarry(sum.x, low, carry);
     sum.y += high + carry;
 }
@@ -46,7 +51,7 @@ vec3 photon_irradiance(vec3 position, vec3 normal) {
         }
     }
     vec3 sum;
-    for (int c = 0; c < 3; ++c) sum[c] = float(sums[c].y) * 4294967296.0 + float(sums[c].x);
+    for (int c = 0; c < 3; ++c) sum[c] = float(int(sums[c].y)) * 4294967296.0 + float(sums[c].x);
     return photon_grid.unit * sum;
 }
 

@@ -20,23 +20,25 @@ constexpr vk::DeviceSize kSlotSize = 16;
 /// The brightest contribution counts 2^44 units: 2^20 of them fit, and the faintest that shows is counted finely.
 constexpr float kUnitsOfBrightest = 17592186044416.0f;
 
-constexpr const char* kPhotons = "photons";
-constexpr const char* kEntries = "entries of photons";
-
 }  // namespace
 
-const Buffer& PhotonStore::begin(Recorder& recorder, const Frame& frame, LayerSource& source, std::uint64_t guess) {
-    const bool on_host = frame.workspace.device().is_cpu();
-    photons_ = &source.counted(kPhotons, sizeof(Photon), {}, on_host).begin(recorder, frame.workspace, guess);
+PhotonStore::PhotonStore(const Device& device)
+    : list_("photons", sizeof(Photon), {}, device.is_cpu()), entries_("entries of photons", sizeof(glm::uvec2)) {}
+
+const Buffer& PhotonStore::begin(Recorder& recorder, Workspace& workspace, std::uint64_t guess) {
+    photons_ = &list_.begin(recorder, workspace, guess);
     return *photons_;
 }
 
-void PhotonStore::build(Recorder& recorder, const Frame& frame, LayerSource& source, const PhotonScale& scale) {
-    Workspace& workspace = frame.workspace;
-    CountedBuffer& photons = source.counted(kPhotons, sizeof(Photon));
-    photons.end(recorder);
+bool PhotonStore::grow() {
+    const bool photons = list_.grow();
+    return entries_.grow() || photons;
+}
+
+void PhotonStore::build(Recorder& recorder, Workspace& workspace, const PhotonScale& scale) {
+    list_.end(recorder);
     const Recorder::Scope scope(recorder, "photon store");
-    const std::uint32_t slots = std::bit_ceil(2 * photons.capacity());
+    const std::uint32_t slots = std::bit_ceil(2 * list_.capacity());
     const Buffer& cells = workspace.buffer("cells of photons", sizeof(PhotonGrid) + slots * kSlotSize);
     const Buffer& header = workspace.buffer("grid of photons", sizeof(PhotonGrid), true);
     const float brightest = scale.most_flux / (scale.least_radius * scale.least_radius);
@@ -44,19 +46,18 @@ void PhotonStore::build(Recorder& recorder, const Frame& frame, LayerSource& sou
     std::memcpy(header.mapped(), &grid, sizeof(grid));
     recorder.fill(cells, 0);
     recorder.copy(header, cells, sizeof(grid));
-    const Buffer& groups = photons.groups(recorder, workspace);
+    const Buffer& groups = list_.groups(recorder, workspace);
     recorder.compute_indirect(workspace.compute(shaders::count_photons_comp),
                               {reads("Photons", *photons_), updates("PhotonCells", cells)}, groups);
-    CountedBuffer& entries = source.counted(kEntries, sizeof(glm::uvec2));
-    const Buffer& list = entries.begin(recorder, workspace, 4 * std::uint64_t(photons.capacity()));
+    const Buffer& list = entries_.begin(recorder, workspace, 4 * std::uint64_t(list_.capacity()));
     const std::uint32_t row = std::min(slots, 1u << 16);
     recorder.compute(workspace.compute(shaders::allocate_cells_comp),
                      {updates("PhotonCells", cells), updates("PhotonEntries", list)}, row, {row, slots / row});
     recorder.compute_indirect(
         workspace.compute(shaders::place_photons_comp),
-        {frame.bindings(), reads("Photons", *photons_), updates("PhotonCells", cells), updates("PhotonEntries", list)},
+        {reads("Photons", *photons_), updates("PhotonCells", cells), updates("PhotonEntries", list)}, scale.sample,
         groups);
-    entries.end(recorder);
+    entries_.end(recorder);
     bindings_ = {reads("PhotonCells", cells), reads("PhotonEntries", list), reads("Photons", *photons_)};
 }
 

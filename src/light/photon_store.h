@@ -1,6 +1,7 @@
 #pragma once
 
-#include "layers/layers.h"
+#include "gpu/counted_buffer.h"
+#include "gpu/frame.h"
 
 #include <glm/glm.hpp>
 
@@ -27,23 +28,31 @@ inline constexpr std::size_t kPhotonListHeader = 16;
 
 /// Sizes by which photons are sorted and counted.
 struct PhotonScale {
-    float least_radius;  ///< m, of kernels
-    float most_flux;     ///< W, of a photon as the light sends it
+    float least_radius;        ///< m, of kernels
+    float most_flux;           ///< W, of a photon as the light sends it
+    std::uint32_t sample = 0;  ///< that draws what crowded slots keep
 };
 
-/// Photons of one frame in a hashed grid that the device builds. Two builds of the same photons give the same look-ups, bit
-/// for bit, whatever the order of the photons.
+/// Photons in a hashed grid that the device builds. Two builds of the same photons give the same look-ups, bit for bit,
+/// whatever the order of the photons. Its buffers live in the workspace, which holds those of one store.
 class PhotonStore {
 public:
-    /// An empty list for a shader to append to ("Photons"), for `guess` photons. `source` keeps its capacity.
-    const Buffer& begin(Recorder& recorder, const Frame& frame, LayerSource& source, std::uint64_t guess);
+    explicit PhotonStore(const Device& device);
+
+    /// An empty list for a shader to append to ("Photons"), for `guess` photons where no capacity is known.
+    const Buffer& begin(Recorder& recorder, Workspace& workspace, std::uint64_t guess);
     /// Sorts the photons of the list into the grid.
-    void build(Recorder& recorder, const Frame& frame, LayerSource& source, const PhotonScale& scale);
+    void build(Recorder& recorder, Workspace& workspace, const PhotonScale& scale);
+    /// As CountedBuffer::grow().
+    bool grow();
+    /// Photons that the list holds; 0: none was begun.
+    std::uint32_t capacity() const { return list_.capacity(); }
     /// By the names of photon_lookup.glsl; after build().
     const std::vector<Binding>& bindings() const { return bindings_; }
     const Buffer& photons() const { return *photons_; }
 
 private:
+    CountedBuffer list_, entries_;
     const Buffer* photons_ = nullptr;
     std::vector<Binding> bindings_;
 };

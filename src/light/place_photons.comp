@@ -2,14 +2,14 @@
 // Enters every photon into the slots of the cells that its kernel touches. Crowded slots keep a share of theirs, chosen by
 // hash, so that the choice depends on nothing but the photons.
 #extension GL_GOOGLE_include_directive : require
-#include "gpu/frame.glsl"
 #include "light/photon_grid.glsl"
 
 layout(std430, set = 0, binding = 3) buffer PhotonEntries { uint entry_count, entry_reserved[3]; uvec2 entries[]; };
+layout(push_constant) uniform Push { uint sample_index; };
 
 bool keeps(uint wanted, uint texel) {
     if (wanted <= kMostEntries) return true;
-    float chance = float(hash_of_cell(ivec3(texel, frame.sample_index, 77), 0).x >> 8u) / 16777216.0;
+    float chance = float(hash_of_cell(ivec3(texel, sample_index, 77), 0).x >> 8u) / 16777216.0;
     return chance * float(wanted) < float(kMostEntries);
 }
 

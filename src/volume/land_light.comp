@@ -1,53 +1,93 @@
 #version 460
-// Puts the light of patches that have left the volumes onto receivers: every patch as a grid of rays, so that its power is
-// spread over what it covers and none is lost; a ray's power goes to the four texels around its end.
+// Puts the light of patches that have left the volumes onto opaque surfaces: every patch as a grid of rays, so that its
+// power is spread over what it covers and none is lost. A ray leaves a photon where it ends.
+//
+// With kStraight, what lights send towards volumes leaves photons of negative flux on all surfaces along the straight way:
+// they take away what a surface would get without volumes and shadows.
 #extension GL_GOOGLE_include_directive : require
 
 layout(local_size_x = 64) in;
 
+#include "gpu/octahedral.glsl"
+#include "light/photons.glsl"
 #include "volume/volume_record.glsl"
 #include "volume/light_patch.glsl"
-#include "volume/light_plane.glsl"
 
-layout(std430, set = 0, binding = 0) readonly buffer Receivers { LightReceiver receivers[]; };
+layout(std430, set = 0, binding = 0) readonly buffer OpaqueNodes { OpaqueNode opaque_nodes[]; };
+layout(std430, set = 0, binding = 4) readonly buffer OpaqueTriangles { OpaqueTriangle opaque_triangles[]; };
+#include "volume/opaque_tree.glsl"
 layout(std430, set = 0, binding = 1) buffer State { LightState state; };
 #include "volume/light_power.glsl"
 layout(std430, set = 0, binding = 2) readonly buffer Landed { LightPatch landed[]; };
-// Wide counters, three colours each: the light that arrives, and in a second half what would arrive without volumes.
-layout(std430, set = 0, binding = 3) buffer Texels { uint texels[]; };
+layout(std430, set = 0, binding = 3) buffer Photons { uint photon_count, photon_reserved[3]; Photon photons[]; };
 
-layout(constant_id = 0) const bool kStraight = false;  // patches as the light emits them, as if there were no volumes
+layout(std430, set = 0, binding = 5) readonly buffer Fronts { LightFront fronts[]; };
 
-const float kRaysPerTexel = 3.0;
-const int kMostRays = 48;  // along a side of a patch
+layout(constant_id = 0) const bool kStraight = false;  // patches as the light emits them
 
-// The first receiver on a ray, which may have passed it by `slack`.
-uint nearest_receiver(vec3 position, vec3 direction, float slack, out vec2 texel) {
-    uint found = receiver_count;
-    float nearest = 1e30;
-    texel = vec2(0.0);
-    for (uint i = 0u; i < receiver_count; ++i) {
-        vec2 at;
-        float t = receiver_distance(receivers[i], position, direction, at);
-        if (t >= -slack && t < nearest) {
-            nearest = t;
-            found = i;
-            texel = at;
-        }
-    }
-    return found;
+const float kMostRays = 16.0;    // of a patch with all its first power; of others in proportion
+const uint kMostSurfaces = 16u;  // along a straight way
+const float kKernelWidth = 2.0;  // radius of a kernel, of the spacing of photons
+const float kLeastCosine = 0.1;
+
+// Lengths of the sides of a patch, at the distance t from its corners.
+vec2 sides_at(Quad quad, float t) {
+    vec3 x[4];
+    for (int k = 0; k < 4; ++k) x[k] = quad.x[k] + t * quad.v[k];
+    return vec2(max(distance(x[0], x[1]), distance(x[3], x[2])), max(distance(x[0], x[3]), distance(x[1], x[2])));
 }
 
-void add_texel(LightReceiver receiver, ivec2 at, vec3 power) {
-    ivec2 size = ivec2(receiver.side.w, receiver.up.w);
-    at = clamp(at, ivec2(0), size - 1);
-    uint texel = floatBitsToUint(receiver.normal.w) + uint(at.x + size.x * at.y);
-    if (kStraight) texel += uint(texels.length()) / 12u;
-    for (int c = 0; c < 3; ++c)
-        if (power[c] > 0.0) {
-            uvec2 units = power_units(power[c]);
-            PELLUCID_ADD_WIDE(texels, 3u * texel + c, units)
-        }
+float cosine_of(OpaqueHit hit, vec3 direction) {
+    return max(abs(dot(normalize(hit.normal), direction)), kLeastCosine);
+}
+
+// As many rays as keep photons photon_spacing apart where the middle of the patch lands, if its power is worth them.
+ivec2 rays_of(Quad quad, float slack) {
+    if (opaque_count == 0u) return ivec2(1);
+    float most = kMostRays * max(quad.power.r, max(quad.power.g, quad.power.b)) / fronts[quad.front].intensity.w;
+    if (most <= 1.0) return ivec2(1);
+    vec3 direction = normalize(quad.v[0] + quad.v[1] + quad.v[2] + quad.v[3]);
+    OpaqueHit hit = first_opaque(0.25 * (quad.x[0] + quad.x[1] + quad.x[2] + quad.x[3]), direction, -slack, 1e30);
+    if (hit.t >= 1e30) return ivec2(sqrt(most));
+    vec2 wanted = max(sides_at(quad, hit.t) / (photon_spacing * cosine_of(hit, direction)), vec2(1.0));
+    return ivec2(max(ceil(wanted * min(1.0, sqrt(most / (wanted.x * wanted.y))) - 1e-3), vec2(1.0)));
+}
+
+// A number that no order of photons changes: it tells them apart where slots of the grid are crowded.
+uint number_of(vec3 position, vec3 flux) {
+    uvec3 bits = hash(floatBitsToUint(position));
+    return hash(bits ^ floatBitsToUint(flux)).x;
+}
+
+void add_photon(vec3 position, vec3 direction, OpaqueHit hit, float spacing, vec3 flux) {
+    uint number = atomicAdd(photon_count, 1u);
+    if (number >= uint(photons.length())) return;  // counted: the light is traced again
+    float radius = kKernelWidth * spacing * inversesqrt(cosine_of(hit, direction));
+    radius = clamp(radius, least_radius, least_radius * float(1 << (kPhotonLevels - 1)));
+    vec3 normal = normalize(faceforward(hit.normal, direction, hit.normal));
+    photons[number] = Photon(position, radius, flux, pack_direction(normal), photon_level(least_radius, radius), hit.object,
+                             number_of(position, flux), 0u);
+}
+
+// Leaves negative photons on what a ray meets.
+void land_straight(Quad quad, ivec2 rays, vec3 position, vec3 direction, vec3 power) {
+    float from = 0.0;
+    for (uint i = 0u; i < kMostSurfaces; ++i) {
+        OpaqueHit hit = first_opaque(position, direction, from, 1e30);
+        if (hit.t >= 1e30) return;
+        vec2 spacing = sides_at(quad, hit.t) / vec2(rays);
+        add_photon(position + hit.t * direction, direction, hit, max(spacing.x, spacing.y), -power);
+        from = hit.t * 1.00001 + 1e-3 * photon_spacing;
+    }
+}
+
+// False: the ray meets nothing.
+bool land(Quad quad, ivec2 rays, vec3 position, vec3 direction, float slack, vec3 power) {
+    OpaqueHit hit = first_opaque(position, direction, -slack, 1e30);
+    if (hit.t >= 1e30) return false;
+    vec2 spacing = sides_at(quad, hit.t) / vec2(rays);
+    add_photon(position + hit.t * direction, direction, hit, max(spacing.x, spacing.y), power);
+    return true;
 }
 
 void main() {
@@ -55,40 +95,20 @@ void main() {
     if (i >= (kStraight ? state.in_kept : state.landing)) return;
     Quad quad = unpack_patch(landed[i]);
     for (int k = 0; k < 4; ++k) quad.v[k] = normalize(quad.v[k]);
-    float slack = max(distance(quad.x[0], quad.x[2]), distance(quad.x[1], quad.x[3]));
-    // As many rays as the patch is wide where it lands.
-    vec2 place;
-    vec3 centre = 0.25 * (quad.x[0] + quad.x[1] + quad.x[2] + quad.x[3]);
-    vec3 way = normalize(quad.v[0] + quad.v[1] + quad.v[2] + quad.v[3]);
-    uint target = nearest_receiver(centre, way, slack, place);
-    ivec2 rays = ivec2(8);
-    if (target < receiver_count) {
-        vec2 at[4];
-        for (int k = 0; k < 4; ++k) receiver_distance(receivers[target], quad.x[k], quad.v[k], at[k]);
-        vec2 wide = vec2(max(distance(at[0], at[1]), distance(at[3], at[2])),
-                         max(distance(at[0], at[3]), distance(at[1], at[2])));
-        rays = ivec2(clamp(ceil(kRaysPerTexel * wide), vec2(1.0), vec2(kMostRays)));
-    }
-    if (receiver_count == 0u) rays = ivec2(1);
+    float slack = kStraight ? 0.0 : max(distance(quad.x[0], quad.x[2]), distance(quad.x[1], quad.x[3]));
+    ivec2 rays = rays_of(quad, slack);
     vec3 power = quad.power / float(rays.x * rays.y);
     vec3 arrived = vec3(0.0), missed = vec3(0.0);
     for (int ray = 0; ray < rays.x * rays.y; ++ray) {
         vec2 at = (vec2(ray % rays.x, ray / rays.x) + 0.5) / vec2(rays);
         vec3 x = mix(mix(quad.x[0], quad.x[1], at.x), mix(quad.x[3], quad.x[2], at.x), at.y);
-        vec3 v = mix(mix(quad.v[0], quad.v[1], at.x), mix(quad.v[3], quad.v[2], at.x), at.y);
-        vec2 texel;
-        uint met = nearest_receiver(x, normalize(v), slack, texel);
-        if (met == receiver_count) {
+        vec3 v = normalize(mix(mix(quad.v[0], quad.v[1], at.x), mix(quad.v[3], quad.v[2], at.x), at.y));
+        if (kStraight)
+            land_straight(quad, rays, x, v, power);
+        else if (land(quad, rays, x, v, slack, power))
+            arrived += power;
+        else
             missed += power;
-            continue;
-        }
-        arrived += power;
-        vec2 corner = floor(texel - 0.5), w = texel - 0.5 - corner;
-        for (int k = 0; k < 4; ++k) {
-            ivec2 offset = ivec2(k & 1, k >> 1);
-            vec2 share = mix(1.0 - w, w, vec2(offset));
-            add_texel(receivers[met], ivec2(corner) + offset, power * share.x * share.y);
-        }
     }
     if (kStraight) return;
     add_power(PELLUCID_LIGHT_ARRIVED, arrived);

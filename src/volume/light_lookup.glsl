@@ -1,15 +1,12 @@
 #ifndef PELLUCID_VOLUME_LIGHT_LOOKUP_GLSL
 #define PELLUCID_VOLUME_LIGHT_LOOKUP_GLSL
 
-// The light that was traced through volumes (wavefront.h): at a place in a volume, and on a planar object.
+// The light that was traced through volumes (wavefront.h), at a place in a volume.
 //
-// Needs: #extension GL_EXT_samplerless_texture_functions : require; texture3D light_irradiance, light_direction; buffers
-// Volumes { VolumeRecord volumes[]; }, Placements { LightPlacement placements[]; }, Receivers { LightReceiver
-// receivers[]; }, ReceiverLight { vec4 receiver_light[]; }.
+// Needs: #extension GL_EXT_samplerless_texture_functions : require; texture3D light_irradiance, light_direction; buffer
+// Placements { LightPlacement placements[]; }.
 
 #include "optics/phase.glsl"
-#include "volume/box.glsl"
-#include "volume/light_plane.glsl"
 #include "volume/light_records.h"
 
 // Light at a place in a volume, which is in voxels: fluence rate, W/m2, and the mean of its ways, shorter than 1 where they
@@ -46,40 +43,6 @@ vec3 scattered_radiance(uint own, vec3 x, vec3 way, vec4 scattering) {
     if (!(agreement > 0.0)) return scattering.rgb * light.fluence * henyey_greenstein(0.0, 0.0);
     return scattering.rgb * light.fluence *
            henyey_greenstein(clamp(dot(light.way / agreement, way), -1.0, 1.0), agreement * scattering.a);
-}
-
-// Irradiance of a planar object by light that went towards volumes, and what that light would have been there without
-// them; both sides alike. False: there is no receiver.
-bool receiver_irradiance(uint receiver_count, vec3 position, out vec3 irradiance, out vec3 without_volumes) {
-    irradiance = without_volumes = vec3(0.0);
-    for (uint i = 0u; i < receiver_count; ++i) {
-        LightReceiver receiver = receivers[i];
-        float off = dot(position - receiver.corner.xyz, receiver.normal.xyz);
-        vec2 texel;
-        receiver_distance(receiver, position, receiver.normal.xyz, texel);
-        ivec2 size = ivec2(receiver.side.w, receiver.up.w);
-        bool inside = all(greaterThanEqual(texel, vec2(0.0))) && all(lessThanEqual(texel, vec2(size)));
-        if (abs(off) > 0.5 * receiver.corner.w || !inside) continue;
-        vec2 corner = floor(texel - 0.5), w = texel - 0.5 - corner;
-        for (int k = 0; k < 4; ++k) {
-            ivec2 offset = ivec2(k & 1, k >> 1);
-            vec2 share = mix(1.0 - w, w, vec2(offset));
-            ivec2 at = clamp(ivec2(corner) + offset, ivec2(0), size - 1);
-            uint place = floatBitsToUint(receiver.normal.w) + uint(at.x + size.x * at.y);
-            irradiance += share.x * share.y * receiver_light[place].rgb;
-            without_volumes += share.x * share.y * receiver_light[place + uint(receiver_light.length()) / 2u].rgb;
-        }
-        return true;
-    }
-    return false;
-}
-
-// Whether the straight way of a unit direction misses all volumes for `length_m`: then a light there is seen as if
-// there were none; else its light comes by receiver_irradiance().
-bool straight_way_is_clear(uint volume_count, vec3 position, vec3 direction, float length_m) {
-    for (uint i = 0u; i < volume_count; ++i)
-        if (box_distance(volumes[i], position, direction) < length_m) return false;
-    return true;
 }
 
 #endif

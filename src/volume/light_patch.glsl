@@ -12,7 +12,7 @@
 layout(push_constant) uniform Push {
     uint capacity;          // patches that a list holds
     uint volume_count;
-    uint receiver_count;
+    uint opaque_count;      // nodes of the tree of opaque triangles
     uint front;             // emit_light: index of the front
     float step_length;      // optical length of a step, voxels
     float span;             // patches are split when a side is longer, voxels
@@ -23,6 +23,8 @@ layout(push_constant) uniform Push {
     float weakest;          // below which it ends
     uint reflections;       // one after another, that are followed
     float shown_spacing;    // optical length between wavefronts that are shown, m
+    float photon_spacing;   // wanted where patches land, m
+    float least_radius;     // of photons' kernels, m
 };
 
 struct Quad {

@@ -20,10 +20,10 @@ using uint = std::uint32_t;
 
 // Four corners of a piece of a wavefront, in order around it.
 struct LightPatch {
-    vec4 position[4];   // xyz: world, m. w: power, W (three colours); last: bits of the tag
+    vec4 position[4];  // xyz: world, m. w: power, W (three colours); last: bits of the tag
     // xyz: v, n times the unit direction, world. w: power if nothing had been absorbed; last: optical length, m
     vec4 direction[4];
-    vec4 surface;       // that it is in: way before it, packed; 0: none; n before it; highest and lowest of its field
+    vec4 surface;  // that it is in: way before it, packed; 0: none; n before it; highest and lowest of its field
 };
 
 // A patch that View::kWavefront shows.
@@ -40,15 +40,19 @@ struct LightFront {
     vec4 position;   // point and spot: world, m; w: how far from it patches begin, m
     vec4 direction;  // directional and spot: unit, world; w: pellucid::Light::Kind
     vec4 intensity;  // rgb: per steradian, or irradiance; w: first power of a patch, W
-    vec4 cone;       // x, y: cosine of the inner and outer angle of a spot; z: bits of the volume; w: of the colour, 0: all
+    vec4 cone;  // x, y: cosine of the inner and outer angle of a spot; z: bits of the volume; w: of the colour, 0: all
 };
 
-// A planar opaque object that catches light; its map has width x height square texels.
-struct LightReceiver {
-    vec4 corner;  // world, m; w: edge of a texel, m
-    vec4 side;    // unit, world; w: texels along it
-    vec4 up;      // unit, world, square to side; w: texels along it
-    vec4 normal;  // unit, world; w: bits of its first texel in the maps
+// A triangle that stops light.
+struct OpaqueTriangle {
+    vec4 corner;          // world, m; w: bits of its object
+    vec4 edge_b, edge_c;  // from there to the others
+};
+
+// A box around opaque triangles.
+struct OpaqueNode {
+    vec4 low;   // world, m; w: bits of the node after its subtree
+    vec4 high;  // w: bits of how many triangles it has itself, and of 8 times the first; 0: nodes follow that have some
 };
 
 // Where the light of a volume's placement is kept.
@@ -63,7 +67,8 @@ struct LightPlacement {
 static_assert(sizeof(LightPatch) == 144);
 static_assert(sizeof(ShownPatch) == 64);
 static_assert(sizeof(LightFront) == 112);
-static_assert(sizeof(LightReceiver) == 64);
+static_assert(sizeof(OpaqueTriangle) == 48);
+static_assert(sizeof(OpaqueNode) == 32);
 static_assert(sizeof(LightPlacement) == 32);
 }  // namespace pellucid::gpu
 #endif

@@ -12,8 +12,8 @@ using uint = std::uint32_t;
 
 // What becomes of the light: indices into LightState::power.
 #define PELLUCID_LIGHT_EMITTED 0u
-#define PELLUCID_LIGHT_ARRIVED 1u    // on receivers
-#define PELLUCID_LIGHT_MISSED 2u     // left all volumes, met no receiver
+#define PELLUCID_LIGHT_ARRIVED 1u    // on opaque surfaces
+#define PELLUCID_LIGHT_MISSED 2u     // left all volumes, met no surface
 #define PELLUCID_LIGHT_ABSORBED 3u   // and scattered, on the way
 #define PELLUCID_LIGHT_TURNED 4u     // dropped at a fold
 #define PELLUCID_LIGHT_WEAK 5u       // dropped as too weak
@@ -23,15 +23,15 @@ using uint = std::uint32_t;
 
 struct LightState {
     uint power[PELLUCID_LIGHT_FATES * 6u];  // wide counters, three colours each
-    uint kept, extra;                           // patches written for the next round: from the front, from the back
-    uint in_kept, in_extra;                     // patches of this round
-    uint landed, landing;                       // patches to be put on receivers: appended; in this round
-    uint peak;                                  // most patches at once
-    uint rounds;                                // that had patches
-    uint refused;                               // splits and reflections that found no room
-    uint left;                                  // patches on their way when the rounds ended
+    uint kept, extra;                       // patches written for the next round: from the front, from the back
+    uint in_kept, in_extra;                 // patches of this round
+    uint landed, landing;                   // patches to be put on surfaces: appended; in this round
+    uint peak;                              // most patches at once
+    uint rounds;                            // that had patches
+    uint refused;                           // splits and reflections that found no room
+    uint left;                              // patches on their way when the rounds ended
     uint splits;
-    uint shown;                                 // patches for View::kWavefront, those without room included
+    uint shown;  // patches for View::kWavefront, those without room included
 };
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
-// What the tracing of light needs of volumes and receivers (wavefront.h).
+// What the tracing of light needs of volumes and opaque objects (wavefront.h).
 #include "volume/light_buffers.h"
-#include "volume/light_receivers.h"
+#include "volume/opaque_tree.h"
 #include "volume/upload_volumes.h"
 #include "volume/wavefront.h"
 
@@ -29,22 +29,13 @@ std::vector<VolumeRecord> download_records(const Device& device, const VolumeIma
 void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, const LightSettings& settings) {
     const std::size_t voxel_bytes = settings.kept == KeptLight::kSum ? kSumBytes : kKeyBytes;
     records_ = download_records(device_, volumes);
-    glm::vec3 low(1e30f), high(-1e30f);
     smallest_voxel_ = 1e30f;
     std::vector<gpu::LightPlacement> placements;
     std::vector<glm::uvec3> sizes;
     for (const VolumeRecord& record : records_) {
         smallest_voxel_ = std::min(smallest_voxel_, record.voxel);
-        for (unsigned k = 0; k < 8; ++k) {
-            const glm::vec3 at = record.size * glm::vec3(k & 1, k >> 1 & 1, k >> 2);
-            const glm::vec3 world(record.world_from_voxel * glm::vec4(at, 1.0f));
-            low = glm::min(low, world);
-            high = glm::max(high, world);
-        }
         sizes.emplace_back(record.size);
     }
-    center_ = 0.5f * (low + high);
-    radius_ = 0.5f * glm::distance(low, high);
     // Where one buffer cannot hold all voxels, those of the largest volumes are joined, eight in one.
     std::vector<std::uint32_t> halvings(sizes.size(), 0);
     const auto count = [](glm::uvec3 s) { return std::uint64_t(s.x) * s.y * s.z; };
@@ -85,20 +76,24 @@ void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, const LightSe
     if (settings.tally) tally_copy_ = Buffer(device_, "copy of the tally", tally_bytes, kStorage, true);
 }
 
-/// True if they have changed.
-bool WavefrontTracer::prepare_receivers(const Scene& scene, const LightSettings& settings) {
-    std::vector<gpu::LightReceiver> found = find_receivers(scene, center_, settings.reach * radius_,
-                                                           settings.texel * smallest_voxel_, settings.most_texels);
-    const std::size_t bytes = found.size() * sizeof(gpu::LightReceiver);
-    if (light_.receiver_light.size() > 0 && found.size() == light_.receiver_list.size() &&
-        std::memcmp(found.data(), light_.receiver_list.data(), bytes) == 0)
-        return false;
-    light_.receiver_list = std::move(found);
-    light_.receivers = filled(device_, "receivers of light", light_.receiver_list);
-    const std::uint32_t texels = std::max(1u, texel_count(light_.receiver_list));
-    texels_ = Buffer(device_, "power on receivers", vk::DeviceSize(texels) * 48, kStorage);
-    light_.receiver_light = Buffer(device_, "light on receivers", vk::DeviceSize(texels) * 32, kStorage);
+/// True if they have changed. `key`: of all that they depend on.
+bool WavefrontTracer::prepare_opaque(const Scene& scene, std::string key) {
+    if (key == opaque_key_) return false;
+    const OpaqueTree tree = build_opaque_tree(scene);
+    opaque_nodes_ = filled(device_, "boxes of opaque triangles", tree.nodes);
+    opaque_triangles_ = filled(device_, "opaque triangles", tree.triangles);
+    opaque_count_ = std::uint32_t(tree.nodes.size());
+    opaque_key_ = std::move(key);
     return true;
+}
+
+/// For a capacity: a patch of the first wavefronts leaves some where it goes straight, and some where it lands.
+std::uint64_t WavefrontTracer::guessed_photons() const {
+    constexpr double kPerPatch = 16.0, kLeast = 4096.0;
+    double patches = 0.0;
+    for (const gpu::LightFront& front : front_list_.fronts) patches += double(front.corner.w) * double(front.side.w);
+    const double guess = opaque_count_ > 0 ? std::max(kPerPatch * patches, kLeast) : 1.0;
+    return std::max(std::uint64_t(guess), std::uint64_t(photons_[shown_].store.capacity()));
 }
 
 void WavefrontTracer::prepare_lists(std::uint32_t capacity, bool shows) {

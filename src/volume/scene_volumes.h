@@ -28,6 +28,9 @@ public:
     std::uint32_t light_count() const { return std::uint32_t(tracer_.lights().size()); }
     const Buffer& lights() const { return lights_; }  ///< PunctualLight[] (gpu/punctual_light.glsl)
     const LightVolumes& light_volumes() const { return tracer_.light(); }
+    const std::vector<Binding>& photons() const { return tracer_.photons(); }
+    /// As WavefrontTracer::must_repeat().
+    bool must_repeat() const { return tracer_.must_repeat(); }
     /// What did not go as it should, of the volumes and of the last tracing that has run.
     std::vector<std::string> warnings() const;
 

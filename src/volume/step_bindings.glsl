@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kMedium = false;       // something absorbs or scatters
 layout(constant_id = 1) const bool kScatters = false;
 layout(constant_id = 2) const bool kOverlapping = false;  // boxes
-layout(constant_id = 3) const bool kReceivers = false;    // there are some
+layout(constant_id = 3) const bool kOpaque = false;       // there are opaque surfaces
 layout(constant_id = 4) const bool kKeepFolds = true;
 layout(constant_id = 5) const bool kBoundary = false;     // surfaces reflect
 layout(constant_id = 7) const bool kShown = false;        // patches are collected for View::kWavefront
@@ -23,7 +23,6 @@ layout(set = 0, binding = 2) uniform texture3D volume_scattering;
 #include "optics/eikonal.glsl"
 #include "optics/transmittance.glsl"
 #include "volume/light_patch.glsl"
-#include "volume/light_plane.glsl"
 #include "optics/interface.glsl"
 #include "volume/smoothed_surface.glsl"
 #include "volume/light_surface.glsl"
@@ -32,7 +31,9 @@ layout(set = 0, binding = 2) uniform texture3D volume_scattering;
 
 layout(std430, set = 0, binding = 3) readonly buffer Volumes { VolumeRecord volumes[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Placements { LightPlacement placements[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Receivers { LightReceiver receivers[]; };
+layout(std430, set = 0, binding = 5) readonly buffer OpaqueNodes { OpaqueNode opaque_nodes[]; };
+layout(std430, set = 0, binding = 15) readonly buffer OpaqueTriangles { OpaqueTriangle opaque_triangles[]; };
+#include "volume/opaque_tree.glsl"
 layout(std430, set = 0, binding = 6) readonly buffer Fronts { LightFront fronts[]; };
 layout(std430, set = 0, binding = 7) buffer State { LightState state; };
 #include "volume/light_power.glsl"

@@ -44,13 +44,7 @@ void jump(Quad quad) {
     }
     quad.volume = PELLUCID_NO_VOLUME;
     bool lands = far >= 1e30;
-    if (kReceivers) {
-        for (uint i = 0u; i < receiver_count; ++i) {
-            vec2 texel;
-            float t = receiver_distance(receivers[i], centre, way, texel);
-            lands = lands || (t > 0.0 && t <= far);
-        }
-    }
+    if (kOpaque) lands = lands || first_opaque(centre, way, 0.0, far).t <= far;
     if (lands) {
         land_patch(quad);
         return;
@@ -60,15 +54,9 @@ void jump(Quad quad) {
     keep_patch(quad);
 }
 
-bool meets_receiver(vec3 from, vec3 to, VolumeRecord volume) {
-    bool met = false;
+bool meets_opaque(vec3 from, vec3 to, VolumeRecord volume) {
     vec3 a = (volume.world_from_voxel * vec4(from, 1.0)).xyz, b = (volume.world_from_voxel * vec4(to, 1.0)).xyz;
-    for (uint i = 0u; i < receiver_count; ++i) {
-        vec2 texel;
-        float t = receiver_distance(receivers[i], a, b - a, texel);
-        met = met || (t >= 0.0 && t <= 1.0);
-    }
-    return met;
+    return first_opaque(a, b - a, 0.0, 1.0).t <= 1.0;
 }
 
 // Adds a patch to those of this round; false if there is no room.
@@ -191,8 +179,8 @@ void main() {
         vec3 from = middle(x);
         for (int k = 0; k < 4; ++k) step_corner(x[k], v[k], step_length);
         vec3 to = middle(x);
-        if (kReceivers) {
-            if (meets_receiver(from, to, volume)) {
+        if (kOpaque) {
+            if (meets_opaque(from, to, volume)) {
                 lands = true;
                 break;
             }

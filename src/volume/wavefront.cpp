@@ -22,17 +22,13 @@ namespace {
 
 /// Twin of Push in light_patch.glsl.
 struct LightPush {
-    std::uint32_t capacity, volume_count, receiver_count, front;
+    std::uint32_t capacity, volume_count, opaque_count, front;
     float step, span, least_area;
     std::uint32_t steps_per_round;
     float power_scale;
     float finest, weakest;
     std::uint32_t reflections;
-    float shown_spacing;
-};
-struct ReceiverPush {
-    std::uint32_t own;
-    float power_scale;
+    float shown_spacing, photon_spacing, least_radius;
 };
 struct SumPush {
     std::uint32_t own;
@@ -42,6 +38,7 @@ struct SumPush {
 constexpr double kGuessedIndex = 2.0;  // optical length of a voxel, at most, when rounds are counted
 constexpr double kLeftUnsaid = 0.01;   // share of the power that may be on its way when the rounds end
 constexpr int kPowerBits = 44;         // of all light, in fixed point
+constexpr float kLeastRadius = 0.25f;  // of a photon, smallest voxels
 
 template <class T>
 void append(std::string& key, const T& value) {
@@ -57,14 +54,23 @@ std::string volume_key(const VolumeImages& volumes, const LightSettings& setting
     return key;
 }
 
-std::string key_of(const Scene& scene, const LightSettings& s, std::uint64_t moves) {
+std::string opaque_key(const Scene& scene, std::uint64_t moves) {
     std::string key;
     append(key, moves);
-    for (const float value : {s.step, s.span, s.finest, s.weakest, s.least_area, s.texel, s.reach, s.shown_spacing})
+    for (const Object& object : scene.objects) {
+        append(key, object.mesh);
+        append(key, scene.materials[std::size_t(object.material)].transmissive());
+        append(key, object.world_from_object);
+    }
+    return key;
+}
+
+std::string key_of(const Scene& scene, const LightSettings& s) {
+    std::string key;
+    for (const float value : {s.step, s.span, s.finest, s.weakest, s.least_area, s.photon_spacing, s.shown_spacing})
         append(key, value);
-    for (const std::uint32_t value :
-         {s.capacity, s.steps_per_round, s.rounds, s.most_texels, std::uint32_t(s.keep_folds), std::uint32_t(s.fresnel),
-          s.reflections, std::uint32_t(s.tally)})
+    for (const std::uint32_t value : {s.capacity, s.steps_per_round, s.rounds, std::uint32_t(s.keep_folds),
+                                      std::uint32_t(s.fresnel), s.reflections, std::uint32_t(s.tally)})
         append(key, value);
     for (const Light& light : scene.lights) {
         append(key, light.kind);
@@ -73,11 +79,6 @@ std::string key_of(const Scene& scene, const LightSettings& s, std::uint64_t mov
         append(key, light.direction);
         append(key, light.inner_cone_angle);
         append(key, light.outer_cone_angle);
-    }
-    for (const Object& object : scene.objects) {
-        append(key, object.mesh);
-        append(key, scene.materials[std::size_t(object.material)].transmissive());
-        append(key, object.world_from_object);
     }
     return key;
 }
@@ -122,7 +123,8 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
     if (settings.tally && settings.kept != KeptLight::kBrightest)
         throw Error("light in volumes: what comes from several directions is counted beside the brightest alone");
     const std::string of_volumes = volume_key(volumes, settings);
-    const std::string key = of_volumes + key_of(scene, settings, moves);
+    const std::string of_opaque = of_volumes + opaque_key(scene, moves);
+    const std::string key = of_opaque + key_of(scene, settings);
     if (of_volumes != volume_key_) pending_.reset();
     if (!pending_ && key == key_) return false;
     if (settings.kept == KeptLight::kBrightest && !device_.long_atomics())
@@ -140,13 +142,13 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
     }
 
     const bool shows = settings.shown_spacing > 0.0f && !settings.tally;
-    bool at_once = settings.slices <= 1 || shows || settings.tally || key_.empty();
+    bool at_once = settings.slices <= 1 || shows || settings.tally || key_.empty() || lacks_room_;
     if (of_volumes != volume_key_) {
         prepare_volumes(volumes, settings);
         at_once = true;
     }
     volume_key_ = of_volumes;
-    at_once = prepare_receivers(scene, settings) || at_once;
+    at_once = prepare_opaque(scene, of_opaque) || at_once;
     const auto capacity = std::uint32_t(
         std::min<vk::DeviceSize>(settings.capacity, device_.max_storage_binding() / sizeof(gpu::LightPatch)));
     prepare_lists(capacity, shows);
@@ -164,21 +166,24 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
     for (const VolumeRecord& record : records_) voxels_across += double(glm::length(record.size));
     const double steps = (1.5 + 0.5 * settings.reflections) * kGuessedIndex * voxels_across / double(settings.step);
     const int exponent = kPowerBits - int(std::ceil(std::log2(std::max(front_list_.most_power, 1e-30))));
-    const auto tracing = std::make_shared<Tracing>(Tracing{
-        .key = key,
-        .settings = settings,
-        .lights = scene.lights,
-        .push = {capacity, volumes.count, std::uint32_t(light_.receiver_list.size()), 0, settings.step, settings.span,
-                 settings.least_area, settings.steps_per_round, std::ldexp(1.0f, std::min(exponent, 120)),
-                 settings.finest, settings.weakest, std::min(settings.reflections, PELLUCID_MOST_REFLECTIONS),
-                 shows ? settings.shown_spacing * smallest_voxel_ : 0.0f},
-        .rounds =
-            settings.rounds > 0 ? settings.rounds : std::uint32_t(steps / std::max(1u, settings.steps_per_round)) + 48,
-        .overlapping = volumes.overlapping});
+    const auto tracing = std::make_shared<Tracing>(
+        Tracing{.key = key,
+                .settings = settings,
+                .lights = scene.lights,
+                .push = {capacity, volumes.count, opaque_count_, 0, settings.step, settings.span, settings.least_area,
+                         settings.steps_per_round, std::ldexp(1.0f, std::min(exponent, 120)), settings.finest,
+                         settings.weakest, std::min(settings.reflections, PELLUCID_MOST_REFLECTIONS),
+                         shows ? settings.shown_spacing * smallest_voxel_ : 0.0f,
+                         settings.photon_spacing * smallest_voxel_, kLeastRadius * smallest_voxel_},
+                .rounds = settings.rounds > 0 ? settings.rounds
+                                              : std::uint32_t(steps / std::max(1u, settings.steps_per_round)) + 48,
+                .overlapping = volumes.overlapping});
 
     recorder.fill(voxel_light_, 0);
     recorder.fill(tally_, 0);
     recorder.fill(light_.shown, 0);
+    // What is shown stays until all slices have run.
+    filled_ = at_once ? shown_ : 1 - shown_;
     begin(recorder, workspace, volumes, *tracing);
     if (!at_once) {
         pending_ = tracing;
@@ -202,21 +207,22 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
 void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
     lights_ = tracing.lights;
     resolve_voxels(recorder, workspace, tracing);
-    const Program& resolve_receivers = workspace.compute(shaders::resolve_receivers_comp);
-    for (std::uint32_t i = 0; i < light_.receiver_list.size(); ++i) {
-        const gpu::LightReceiver& own = light_.receiver_list[i];
-        recorder.compute(resolve_receivers,
-                         {reads("Receivers", light_.receivers), reads("Texels", texels_),
-                          writes("ReceiverLight", light_.receiver_light)},
-                         ReceiverPush{i, tracing.push.power_scale},
-                         {std::uint32_t(own.side.w), std::uint32_t(own.up.w)});
-    }
+    build_photons(recorder, tracing);
     recorder.read<gpu::LightState>(state_, 0,
                                    [this, key = tracing.key, scale = double(tracing.push.power_scale),
                                     tally = tracing.settings.tally](const gpu::LightState& state) {
                                        read_statistics(state, scale, tally);
-                                       key_ = key;
+                                       lacks_room_ = photons_[shown_].store.grow();
+                                       if (!lacks_room_) key_ = key;
                                    });
+}
+
+void WavefrontTracer::build_photons(Recorder& recorder, const Tracing& tracing) {
+    PhotonScale scale{.least_radius = tracing.push.least_radius, .most_flux = 0.0f};
+    for (const gpu::LightFront& front : front_list_.fronts)
+        scale.most_flux = std::max(scale.most_flux, front.intensity.w);
+    shown_ = filled_;
+    photons_[shown_].store.build(recorder, photons_[shown_].workspace, scale);
 }
 
 void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
@@ -246,11 +252,12 @@ void WavefrontTracer::begin_round(Recorder& recorder, Workspace& workspace, cons
                      tracing.push, {1, 1});
 }
 
-/// Emits, and puts on receivers what would get there without volumes.
+/// Emits, and takes from opaque surfaces what would get there without volumes.
 void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
                             const Tracing& tracing) {
     recorder.fill(state_, 0);
-    recorder.fill(texels_, 0);
+    KeptPhotons& photons = photons_[filled_];
+    const Buffer& list = photons.store.begin(recorder, photons.workspace, guessed_photons());
     const Program& emit = workspace.compute(shaders::emit_light_comp);
     for (std::uint32_t i = 0; i < front_list_.fronts.size(); ++i) {
         const gpu::LightFront& front = front_list_.fronts[i];
@@ -262,10 +269,11 @@ void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const Volu
                          own, {std::uint32_t(front.corner.w), std::uint32_t(front.side.w)});
     }
     begin_round(recorder, workspace, tracing);
-    recorder.compute_indirect(workspace.compute(shaders::land_light_comp, {{"kStraight", true}}),
-                              {reads("Receivers", light_.receivers), updates("State", state_),
-                               reads("Landed", patches_[0]), updates("Texels", texels_)},
-                              tracing.push, step_groups_);
+    recorder.compute_indirect(
+        workspace.compute(shaders::land_light_comp, {{"kStraight", true}}),
+        {reads("OpaqueNodes", opaque_nodes_), reads("OpaqueTriangles", opaque_triangles_), updates("State", state_),
+         reads("Landed", patches_[0]), updates("Photons", list), reads("Fronts", fronts_)},
+        tracing.push, step_groups_);
 }
 
 void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
@@ -275,7 +283,7 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
     const std::array constants = {Constant{"kMedium", volumes.absorbs || volumes.scatters},
                                   Constant{"kScatters", volumes.scatters},
                                   Constant{"kOverlapping", tracing.overlapping},
-                                  Constant{"kReceivers", push.receiver_count > 0},
+                                  Constant{"kOpaque", push.opaque_count > 0},
                                   Constant{"kKeepFolds", tracing.settings.keep_folds},
                                   Constant{"kBoundary", volumes.reflects && tracing.settings.fresnel},
                                   Constant{"kTally", tally},
@@ -286,7 +294,8 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
                                           reads("volume_scattering", volumes.scattering),
                                           reads("Volumes", volumes.records),
                                           reads("Placements", light_.placements),
-                                          reads("Receivers", light_.receivers),
+                                          reads("OpaqueNodes", opaque_nodes_),
+                                          reads("OpaqueTriangles", opaque_triangles_),
                                           reads("Fronts", fronts_),
                                           updates("State", state_),
                                           writes("Landed", landed_),
@@ -303,10 +312,11 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
         bindings.push_back(writes("PatchesOut", patches_[1 - tracing.rounds_done % 2]));
         recorder.compute_indirect(step, bindings, push, step_groups_);
         begin_round(recorder, workspace, tracing);
-        recorder.compute_indirect(land,
-                                  {reads("Receivers", light_.receivers), updates("State", state_),
-                                   reads("Landed", landed_), updates("Texels", texels_)},
-                                  push, land_groups_);
+        recorder.compute_indirect(
+            land,
+            {reads("OpaqueNodes", opaque_nodes_), reads("OpaqueTriangles", opaque_triangles_), updates("State", state_),
+             reads("Landed", landed_), updates("Photons", photons_[filled_].store.photons()), reads("Fronts", fronts_)},
+            push, land_groups_);
     }
 }
 

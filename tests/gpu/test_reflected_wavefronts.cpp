@@ -1,9 +1,11 @@
 // What surfaces in volumes do with light: it is taken away, or followed where it is reflected to.
+#include "lab/landed_light.h"
 #include "optics/index_fields.h"
 #include "optics/interface.h"
 
 #include "gpu/wavefront_test.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace pellucid::test {
@@ -46,7 +48,7 @@ TEST_F(Wavefront, SurfacesTakeAwayWhatTheyReflect) {
     print("slab", tracer().statistics());
     // Twice 4% at normal incidence, within the bar of view rays.
     const double expected = 1.5 * 1.5 * 0.96 * 0.96;
-    EXPECT_NEAR(power_on_receivers().x, expected, 0.005 * expected);
+    EXPECT_NEAR(power_on_objects().x, expected, 0.005 * expected);
     EXPECT_NEAR(tracer().statistics().reflected.x, 1.5 * 1.5 - expected, 0.005 * expected);
     scene.lights = {directional({0.5f, -1.0f, 0.0f})};
     trace(scene, with_reflections(0));
@@ -72,7 +74,7 @@ TEST_F(Wavefront, SlabsReflectAsFresnelSays) {
             trace(scene, with_reflections(reflections));
             const LightStatistics s = tracer().statistics();
             print("slab", s);
-            const double above = power_on_receivers(0).x, below = power_on_receivers(1).x;
+            const double above = power_on_objects(0).x, below = power_on_objects(1).x;
             std::printf(
                 "index %.2f, %u reflections: returned %.5f, expected %.5f, in all %.5f; passed %.5f, expected "
                 "%.5f, in all %.5f\n",
@@ -116,11 +118,11 @@ TEST_F(Wavefront, SlantedLightIsMirroredBySlabs) {
     // By the lower surface the way across the slab is twice its thickness times the tangent of the refracted angle.
     const double sine = std::sqrt(0.5) / 1.5, apart = 4.0 * double(kSlabHalf) * sine / std::sqrt(1.0 - sine * sine);
     const double x = 2.0 - double(kSlabHalf) - 0.4;
-    const double texel = double(tracer().light().receiver_list.at(0).corner.w);
+    const double voxel = double(scene.volumes[0]->voxel);
     glm::dvec2 of_upper(0.0), of_lower(0.0);  // power, and its mean x
-    each_texel([&](glm::dvec3 at, double power) {
-        (at.x < x + 0.5 * apart ? of_upper : of_lower) += power * glm::dvec2(1.0, at.x);
-    });
+    for (const LandedPhoton& photon : photons())
+        (photon.position.x < x + 0.5 * apart ? of_upper : of_lower) +=
+            photon.flux.x * glm::dvec2(1.0, photon.position.x);
     of_upper.y /= of_upper.x;
     of_lower.y /= of_lower.x;
     std::printf("slanted: power %.5f and %.5f, expected %.5f and %.5f; at %.4f and %.4f, expected %.4f and %.4f\n",
@@ -128,8 +130,8 @@ TEST_F(Wavefront, SlantedLightIsMirroredBySlabs) {
     // Incidence differs by 3 degrees across the cone, over which Fresnel's formula rises by 8%.
     EXPECT_NEAR(of_upper.x, upper, 0.02 * upper);
     EXPECT_NEAR(of_lower.x, lower, 0.02 * lower);
-    EXPECT_NEAR(of_upper.y, x, 0.5 * texel);
-    EXPECT_NEAR(of_lower.y, x + apart, 0.5 * texel);
+    EXPECT_NEAR(of_upper.y, x, 0.5 * voxel);
+    EXPECT_NEAR(of_lower.y, x + apart, 0.5 * voxel);
 }
 
 /// Of parallel light downwards on a unit sphere of index 1.5: power that the upper part of the plane x = `distance` gets,
@@ -172,15 +174,16 @@ TEST_F(Wavefront, BallsAreMirrors) {
     print("ball", s);
     EXPECT_NEAR(accounted(s), s.emitted.x, 0.001 * s.emitted.x);
     glm::dvec2 found(0.0);  // power, and its mean height
-    int dark = 0, texels = 0;
-    each_texel([&](glm::dvec3 at, double power) {
-        found += power * glm::dvec2(1.0, at.y);
-        ++texels;
-        dark += power > 0.0 ? 0 : 1;
-    });
+    for (const LandedPhoton& photon : photons()) found += photon.flux.x * glm::dvec2(1.0, photon.position.y);
     found.y /= found.x;
-    std::printf("ball: %d of %d texels are dark\n", dark, texels);
-    EXPECT_LT(dark, texels / 50);  // each corner is mirrored by itself, so that patches fit together
+    BallAndPlane plane{.corner = {distance, low, -wide}, .side = {0, 0, 1}, .up = {0, 1, 0}};
+    plane.texel = double(scene.volumes[0]->voxel);
+    plane.width = int(2.0 * wide / plane.texel);
+    plane.height = int((high - low) / plane.texel);
+    const std::vector<double> map = landed_map(photons(), plane);
+    const auto dark = std::size_t(std::count(map.begin(), map.end(), 0.0));
+    std::printf("ball: %zu of %zu texels are dark\n", dark, map.size());
+    EXPECT_LT(dark, map.size() / 50);  // each corner is mirrored by itself, so that patches fit together
     const glm::dvec2 expected = beside_sphere(distance, low, high, wide);
     std::printf("ball: reflected beside it %.5f W, expected %.5f; mean height %.4f, expected %.4f\n", found.x,
                 expected.x, found.y, expected.y);
@@ -198,7 +201,7 @@ TEST_F(Wavefront, MirroredPatchesHaveNotTurnedOverAndNeedRoom) {
     const double expected = 0.04 * (1.0 + 0.96 * 0.96) * double(kSlabEdge) * double(kSlabEdge);
     LightStatistics s = trace(scene, settings);
     EXPECT_EQ(s.turned.x, 0.0);
-    EXPECT_NEAR(power_on_receivers().x, expected, 0.01 * expected);
+    EXPECT_NEAR(power_on_objects().x, expected, 0.01 * expected);
     EXPECT_TRUE(s.warnings().empty());
 
     settings.capacity = 3000;  // 2,601 patches begin
@@ -206,7 +209,7 @@ TEST_F(Wavefront, MirroredPatchesHaveNotTurnedOverAndNeedRoom) {
     print("want of room", s);
     EXPECT_GT(s.refused, 2000u);
     EXPECT_NEAR(accounted(s), s.emitted.x, 0.001 * s.emitted.x);
-    EXPECT_LT(power_on_receivers().x, 0.5 * expected);
+    EXPECT_LT(power_on_objects().x, 0.5 * expected);
     ASSERT_EQ(s.warnings().size(), 1u);
     EXPECT_NE(s.warnings()[0].find("reflections of patches found no room"), std::string::npos) << s.warnings()[0];
 }

@@ -92,48 +92,26 @@ protected:
     }
     const LightStatistics& trace(const Scene& scene, const LightSettings& settings = {}) {
         volumes_.emplace(upload_volumes(device(), scene));
-        EXPECT_TRUE(tracer_->update(recorder(), workspace(), scene, *volumes_, settings));
-        time_ms_ = recorder().submit_and_wait().at(0).time_ms;
+        update(scene, settings);
         return tracer_->statistics();
+    }
+    void update(const Scene& scene, const LightSettings& settings = {}) {
+        do {
+            EXPECT_TRUE(tracer_->update(recorder(), workspace(), scene, *volumes_, settings));
+            time_ms_ = recorder().submit_and_wait().at(0).time_ms;
+        } while (tracer_->must_repeat());
     }
     double time_ms() const { return time_ms_; }
     WavefrontTracer& tracer() { return *tracer_; }
     const VolumeImages& volumes() { return *volumes_; }
 
-    /// Irradiance of all receivers' texels.
-    std::vector<glm::vec4> receiver_light() {
-        const Buffer& source = tracer().light().receiver_light;
-        const Buffer& copy = workspace().buffer("copy of receivers", source.size(), true);
-        recorder().copy(source, copy, source.size());
-        recorder().submit_and_wait();
-        std::vector<glm::vec4> texels = read_back<glm::vec4>(copy);
-        texels.resize(texels.size() / 2);  // the second half is the light without volumes
-        return texels;
-    }
-    /// Power in the maps of all receivers, or of one.
-    glm::dvec3 power_on_receivers(std::optional<std::size_t> of = std::nullopt) {
-        const std::vector<glm::vec4> texels = receiver_light();
+    std::vector<LandedPhoton> photons() { return tracer_->landed_photons(recorder()); }
+    /// Power that arrives on opaque objects, or on one.
+    glm::dvec3 power_on_objects(std::optional<std::uint32_t> of = std::nullopt) {
         glm::dvec3 sum(0.0);
-        std::size_t i = 0;
-        for (std::size_t own = 0; own < tracer().light().receiver_list.size(); ++own) {
-            const gpu::LightReceiver& receiver = tracer().light().receiver_list[own];
-            const double area = double(receiver.corner.w) * double(receiver.corner.w);
-            for (int k = 0; k < int(receiver.side.w) * int(receiver.up.w); ++k, ++i)
-                if (!of || *of == own) sum += area * glm::dvec3(texels[i]);
-        }
+        for (const LandedPhoton& photon : photons())
+            if (!of || *of == photon.object) sum += photon.flux;
         return sum;
-    }
-    /// Calls `use` with the middle and the power (W, red) of every texel of the first receiver.
-    template <class Use>
-    void each_texel(const Use& use) {
-        const gpu::LightReceiver receiver = tracer().light().receiver_list.at(0);
-        const double edge = double(receiver.corner.w);
-        const std::vector<glm::vec4> texels = receiver_light();
-        for (int i = 0, across = int(receiver.side.w); i < across * int(receiver.up.w); ++i) {
-            const glm::dvec2 at = edge * glm::dvec2(i % across + 0.5, double(i / across) + 0.5);
-            use(glm::dvec3(receiver.corner) + at.x * glm::dvec3(receiver.side) + at.y * glm::dvec3(receiver.up),
-                edge * edge * double(texels[std::size_t(i)].x));
-        }
     }
     /// Irradiance in the voxels of the one placement there is.
     std::vector<glm::vec4> voxel_light() {

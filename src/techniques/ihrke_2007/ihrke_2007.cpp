@@ -82,8 +82,6 @@ public:
                 reads("volume_scattering", images_.scattering),
                 reads("volume_emission", images_.emission),
                 reads("Placements", lit ? light.placements : images_.records),
-                reads("Receivers", lit ? light.receivers : images_.records),
-                reads("ReceiverLight", lit ? light.receiver_light : images_.records),
                 reads("light_irradiance", lit ? light.irradiance : images_.emission),
                 reads("light_direction", lit ? light.direction : images_.emission),
                 reads("Lights", lit ? volumes_.lights() : images_.records)};
@@ -93,7 +91,6 @@ public:
         push.proxy = sharp() ? kSharpInterfaces : parameters_.whole("proxy");
         if (!volumes_.lit()) return;
         push.light_count = volumes_.light_count();
-        push.receiver_count = std::uint32_t(volumes_.light_volumes().receiver_list.size());
     }
 
     void march(const PathPass& pass, const Buffer& entering, const Buffer& next, const Buffer& ended) const override {
@@ -149,7 +146,8 @@ void prepare(const Preparation& preparation, const ParameterValues& parameters) 
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
     SceneVolumes& scene_volumes = volumes_of(frame.scene);
-    if (scene_volumes.lit())
+    Frame lit = frame;
+    if (scene_volumes.lit()) {
         scene_volumes.light(recorder, frame.workspace,
                             {.kept = parameters["kept-light"] != 0.0 ? KeptLight::kSum : KeptLight::kBrightest,
                              .step = float(parameters["light-step"]),
@@ -158,9 +156,14 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
                              .slices = parameters.whole("light-slices"),
                              .reflections = parameters.whole("reflected-light"),
                              .shown_spacing = frame.front_exposure ? float(parameters["wavefront-spacing"]) : 0.0f});
+        recorder.when_done([&source = layers.source, &scene_volumes] {
+            if (scene_volumes.must_repeat()) source.repeat();
+        });
+        lit.photons = &scene_volumes.photons();
+    }
     const SurfaceMap map = layers.source.map_meshes(recorder, frame, parameters.whole("map-resolution"));
     const Volumes volumes(scene_volumes, parameters);
-    return follow_paths(recorder, frame, layers, map, parameters, &volumes);
+    return follow_paths(recorder, lit, layers, map, parameters, &volumes);
 }
 
 void draw_light(Recorder& recorder, const Frame& frame, const Opaque& opaque, const GpuImage& radiance) {

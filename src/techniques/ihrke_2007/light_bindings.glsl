@@ -7,8 +7,6 @@
 
 layout(std430, set = 0, binding = 30) readonly buffer Volumes { VolumeRecord volumes[]; };
 layout(std430, set = 0, binding = 32) readonly buffer Placements { LightPlacement placements[]; };
-layout(std430, set = 0, binding = 33) readonly buffer Receivers { LightReceiver receivers[]; };
-layout(std430, set = 0, binding = 34) readonly buffer ReceiverLight { vec4 receiver_light[]; };
 layout(set = 0, binding = 36) uniform texture3D light_irradiance;
 layout(set = 0, binding = 37) uniform texture3D light_direction;
 #include "volume/light_lookup.glsl"

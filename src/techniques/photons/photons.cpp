@@ -135,7 +135,10 @@ std::vector<PhotonWindow> Photons::windows_of(const Frame& frame) const {
 
 /// `width`: of kernels, over the spacing of photons.
 void Photons::set_scale(const Frame& frame, float width) {
+    gpu::FrameConstants constants{};
+    std::memcpy(&constants, frame.constants.mapped(), sizeof(constants));
     scale_ = {std::numeric_limits<float>::max(), 0.0f};
+    scale_.sample = constants.sample_index;
     for (const LightView& view : setup_.views) {
         scale_.least_radius = std::min(scale_.least_radius, width * spacing_of(view, frame.scene.bounds));
         scale_.most_flux = std::max(scale_.most_flux, flux_of(setup_.lights.at(view.light), view));
@@ -151,8 +154,6 @@ void Photons::set_scale(const Frame& frame, float width) {
 }
 
 const Buffer& Photons::upload_windows(const Frame& frame) {
-    gpu::FrameConstants constants{};
-    std::memcpy(&constants, frame.constants.mapped(), sizeof(constants));
     const float width = kKernelWidth * shrinkage(frame.samples > 1 ? frame.sample : 0);
     set_scale(frame, width);
     const std::vector<PhotonWindow> windows = windows_of(frame);
@@ -210,7 +211,7 @@ void Photons::record(Recorder& recorder, const Frame& frame) {
         const SurfaceFinder finder = SurfaceFinder::of_device(recorder, from_light, source_);
         const Recorder::Scope scope(recorder, "photons");
         const std::uint64_t texels = std::uint64_t(from_light.extent.width) * from_light.extent.height;
-        const Buffer& list = store_.begin(recorder, from_light, source_, texels);
+        const Buffer& list = store_.begin(recorder, workspace_, texels);
         PathTask task{.begin = shaders::begin_at_light_comp,
                       .end = shaders::end_photons_comp,
                       .bindings = {reads("PhotonWindows", windows), updates("Photons", list),
@@ -231,11 +232,15 @@ void Photons::record(Recorder& recorder, const Frame& frame) {
         follow(recorder, from_light, source_, finder, task);
     }
     if (counts_) count(recorder, from_light);
-    store_.build(recorder, from_light, source_, scale_);
+    store_.build(recorder, workspace_, scale_);
     bindings_ = store_.bindings();
 }
 
-bool Photons::must_repeat(const Frame& frame) { return any() && source_.must_repeat(light_frame(frame)); }
+bool Photons::must_repeat(const Frame& frame) {
+    if (!any()) return false;
+    const bool crowded = store_.grow();
+    return source_.must_repeat(light_frame(frame)) || crowded;
+}
 
 void Photons::count(Recorder& recorder, const Frame& from_light) {
     const Buffer& list = store_.photons();

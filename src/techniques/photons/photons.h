@@ -48,7 +48,7 @@ struct PhotonSetup {
 /// for look-ups.
 class Photons {
 public:
-    explicit Photons(const Device& device) : workspace_(device) {}
+    explicit Photons(const Device& device) : workspace_(device), store_(device) {}
 
     /// Before the frames of a picture, when none is in flight. Photons need GpuScene::topology and, on a device that is a CPU,
     /// GpuScene::host_finder.
@@ -63,7 +63,10 @@ public:
     /// As LayerSource::must_repeat().
     bool must_repeat(const Frame& frame);
     /// Forgets what it has learnt of a scene.
-    void forget() { source_ = LayerSource(); }
+    void forget() {
+        source_ = LayerSource();
+        store_ = PhotonStore(workspace_.device());
+    }
     /// Whether frames from now on measure flux().
     void count_flux(bool counts) { counts_ = counts; }
     /// Of the last frame that has measured it.

@@ -149,9 +149,10 @@ void pass_hole(ivec2 texel, PathState state) {
 void add_stored_light(ivec2 texel, PathState state, OpaquePoint point, bool rasterised) {
     if (point.unlit) return;
     vec3 irradiance = vec3(0.0);
-    if (kPhotons) irradiance += drawn(part_through(state.mark, PELLUCID_CAUSTIC), photon_irradiance(state.path.position, point.normal));
 #ifdef PELLUCID_LIT
-    if (!rasterised) irradiance += drawn(part_through(state.mark, PELLUCID_DIRECT), irradiance_of_lights(state.path.position, point.normal));
+    if (!rasterised) irradiance = drawn(part_through(state.mark, PELLUCID_DIRECT), irradiance_of_lights(state.path.position, point.normal));
+#else
+    if (kPhotons) irradiance = drawn(part_through(state.mark, PELLUCID_CAUSTIC), photon_irradiance(state.path.position, point.normal));
 #endif
     vec3 albedo = diffuse_albedo(point, -state.path.direction);
     add_light(texel, state.mark, state.path.transmittance * albedo * irradiance / (3.14159265 * point.ior * point.ior));

@@ -20,7 +20,6 @@ struct PathPush {
     std::uint32_t volume_count;
     std::uint32_t proxy;
     std::uint32_t light_count;
-    std::uint32_t receiver_count;
     std::uint32_t whole_picture;
     std::uint32_t eye_differs;
     float eye_depth;

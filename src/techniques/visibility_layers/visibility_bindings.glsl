@@ -48,7 +48,6 @@ layout(push_constant) uniform Push {
     uint proxy;            // 1: rays enter what a volume stands for at its surface; 0: it is as if that were not there;
                            // kSharpInterfaces: solids hold volumes, whose index holds up to their surfaces
     uint light_count;      // of the scene, 0 where they are not drawn
-    uint receiver_count;   // of light that went through volumes
     uint whole_picture;    // 1: paths start at the eye and shade all that they meet, the first surface included
     uint eye_differs;      // 1: what the eye is inside of differs from ray to ray
     float eye_depth;       // m, of the plane on which rays start

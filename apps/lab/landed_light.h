@@ -1,0 +1,20 @@
+#pragma once
+
+// What wavefronts of light leave on a plane, as a map to compare with counted photons.
+#include "lab/ball_photons.h"
+
+#include <pellucid/volume_light.h>
+
+#include <span>
+#include <vector>
+
+namespace pellucid {
+
+/// Makes the map of `plane` that of a level square around (0, height, 0), of texels of about `texel`, m.
+void set_level_map(BallAndPlane& plane, double half_edge, double height, double texel);
+
+/// Irradiance of every texel of the plane's map, W/m2, of one colour (0 to 2): each photon spread over its disc, as look-ups
+/// have it.
+std::vector<double> landed_map(std::span<const LandedPhoton> photons, const BallAndPlane& plane, int color = 0);
+
+}  // namespace pellucid
