@@ -89,7 +89,7 @@ bool WavefrontTracer::prepare_opaque(const Scene& scene, std::string key) {
 
 /// For a capacity: a patch of the first wavefronts leaves some where it goes straight, and some where it lands.
 std::uint64_t WavefrontTracer::guessed_photons() const {
-    constexpr double kPerPatch = 16.0, kLeast = 4096.0;
+    constexpr double kPerPatch = 48.0, kLeast = 4096.0;
     double patches = 0.0;
     for (const gpu::LightFront& front : front_list_.fronts) patches += double(front.corner.w) * double(front.side.w);
     const double guess = opaque_count_ > 0 ? std::max(kPerPatch * patches, kLeast) : 1.0;
