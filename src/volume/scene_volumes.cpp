@@ -68,7 +68,8 @@ std::vector<std::string> SceneVolumes::warnings() const {
                 fmt::format("{} light{} not drawn: there is no volume", count, count == 1 ? " is" : "s are"));
         return lines;
     }
-    lines.emplace_back("lights shine through volumes and on opaque objects, which cast no shadows");
+    lines.emplace_back(
+        "lights shine through volumes and on opaque objects, which cast shadows in the light of volumes only");
     const std::vector<std::string> of_light = tracer_.statistics().warnings();
     lines.insert(lines.end(), of_light.begin(), of_light.end());
     return lines;
