@@ -15,6 +15,16 @@ const float kFarLight = 1e30;
 // 1 - cos, without cancellation at small angles.
 float one_minus_cos(float sin_angle) { return sin_angle * sin_angle / (1.0 + sqrt(max(1.0 - sin_angle * sin_angle, 0.0))); }
 
+// Density, 1/sr, of the directions that sample_light() chooses; 0: the light has no size, or the position lies in its ball.
+float light_density(PunctualLight light, vec3 position) {
+    float half_sine = sin(0.5 * light.half_angle), height = 2.0 * half_sine * half_sine;
+    if (light.kind != kDirectionalLight) {
+        float sin_half = light.radius / distance(position, light.position);
+        height = sin_half < 1.0 ? one_minus_cos(sin_half) : 0.0;
+    }
+    return height > 0.0 ? 1.0 / (6.283185307 * height) : 0.0;
+}
+
 // A direction of the cone around a unit axis, even over its solid angle. `height`: 1 - cos of half its angle. `sine`: of the
 // angle to the axis.
 vec3 sample_cone(vec3 axis, float height, vec2 u, out float sine) {

@@ -10,7 +10,8 @@ layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
 layout(constant_id = 3) const bool kTextured = false;      // some glass varies in colour or transmission
 layout(constant_id = 4) const bool kPathRadiance = false;  // paths pick up radiance
-layout(constant_id = 5) const bool kReflected = false;     // and what the first surface reflects
+layout(constant_id = 5) const bool kReflected = false;     // and what the first surface reflects,
+layout(constant_id = 8) const bool kHighlights = false;    // of lights alone: rough glass reflects the environment besides
 
 layout(std430, set = 0, binding = 5) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Materials { MaterialRecord materials[]; };
@@ -35,10 +36,15 @@ layout(std430, set = 0, binding = 16) readonly buffer Textures { TextureRecord t
 #include "gpu/diffuse.glsl"
 #include "shade/analysis_color.glsl"
 
+vec3 light_from_afar(vec3 direction, bool with_suns) {
+    return with_suns ? radiance_from_afar(direction) : environment_radiance(direction);
+}
+
 // What comes through the glass: the end of the refracted path, and what it picked up on the way. Rough glass scatters the
 // light at both surfaces.
 vec3 transmitted_radiance(ivec3 at, bool rough) {
-    vec3 behind = imageLoad(transmittance, at).rgb * radiance_from_afar(imageLoad(exit_direction, at).xyz);
+    vec4 passes = imageLoad(transmittance, at);
+    vec3 behind = passes.rgb * light_from_afar(imageLoad(exit_direction, at).xyz, !kHighlights || passes.a > 0.0);
     behind = drawn(rough ? PELLUCID_INDIRECT : PELLUCID_EMITTED, behind);
     if (!kPathRadiance) return behind;
     vec4 picked_up = imageLoad(path_radiance, at);
@@ -78,8 +84,9 @@ vec3 glass_radiance(ivec3 at, vec3 view_direction, vec3 normal, uint triangle) {
     }
     float reflectance = fresnel_dielectric(-dot(view_direction, normal), 1.0 / material.ior);
     vec3 mirrored = drawn(rough ? PELLUCID_DIRECT : PELLUCID_EMITTED,
-                          reflectance * radiance_from_afar(reflect_direction(view_direction, normal)));
+                          reflectance * light_from_afar(reflect_direction(view_direction, normal), !(kHighlights && rough)));
     vec3 reflected = kReflected ? imageLoad(reflected_radiance, at).rgb : mirrored;
+    if (kHighlights) reflected += mirrored;
     vec3 scattered = drawn(PELLUCID_DIRECT, (1.0 - reflectance) * diffuse_radiance(tint.rgb, normal));
     return reflected + mix(scattered, tint.rgb * transmitted, tint.a);
 }

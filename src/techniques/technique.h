@@ -28,6 +28,9 @@ struct Refraction {
     /// RGBA32F: radiance that the first surface reflects, as it reaches the eye. Null: the environment's, which shade()
     /// looks up.
     const GpuImage* reflected = nullptr;
+    /// `reflected` is what rough glass reflects of lights, and shade() adds the environment's. Transmittance has a: 1 where suns
+    /// are seen at the path's end, 0 where `radiance` has their light.
+    bool reflects_lights_alone = false;
     /// RGBA32F: radiance, to which `reflected` is added, of pixels that the technique has shaded itself, where a is 1.
     /// Null: none.
     const GpuImage* picture = nullptr;

@@ -17,7 +17,9 @@ layout(set = 0, binding = 15) uniform utextureBuffer map_triangles;
 layout(set = 0, binding = 29) uniform utextureBuffer map_normals;
 
 #include "techniques/visibility_layers/path_state.glsl"
+#include "gpu/vertices.glsl"
 #include "techniques/visibility_layers/cross_surface.glsl"
+#include "techniques/visibility_layers/cross_boundary.glsl"
 
 void main() {
     ivec2 texel;

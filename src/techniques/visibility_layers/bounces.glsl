@@ -3,7 +3,6 @@
 
 // Light that opaque surfaces send to each other: branches of the path, or a cache of irradiance.
 // Needs: look_at_lights.glsl.
-layout(constant_id = 44) const bool kGathers = false;  // paths sample the irradiance of the first diffuse surface they meet
 #include "light/irradiance_points.glsl"
 
 // A diffuse reflection sees the environment a little blurred, against noise of small suns: by 2 degrees. A wider blur brings
@@ -53,7 +52,7 @@ Bounce choose_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, float choice, fl
 
 // Marks of a path that leaves a surface.
 uint mark_of_bounce(PathState state, OpaquePoint point, Bounce chosen) {
-    uint mark = without_spread(state.mark) & ~(kMainPath | kMetOpaque | kBounceMask | kBounced | kUnbent | kFromDiffuse);
+    uint mark = without_spread(state.mark) & ~(kMainPath | kMetOpaque | kBounceMask | kBounced | kUnbent | kFromDiffuse | kFromGlass);
     mark |= (bounces(state) + 1u) << kBounceShift;
     bool as_photon = !chosen.diffuse && mirrors_photons(state, point);
     if (chosen.diffuse || as_photon) mark |= kFromDiffuse;

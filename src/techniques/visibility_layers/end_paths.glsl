@@ -86,8 +86,6 @@ vec3 diffuse_albedo(OpaquePoint point, vec3 to_viewer) {
     return point.unlit ? vec3(0.0) : (1.0 - point.surface.metallic) * (1.0 - coat) * point.surface.base_color;
 }
 
-float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
-
 // Whether photons have brought the light of emissive surfaces and the environment that such a path meets by chance.
 bool photons_have(PathState state) { return has_mark(state, kFromDiffuse) && !has_mark(state, kUnbent); }
 
@@ -122,7 +120,8 @@ vec3 environment_light(PathState state) {
     if (has_mark(state, kBounced) && !has_mark(state, kUnbent)) return state.path.transmittance * environment_radiance(direction);
     float spread = kRough || has_mark(state, kBounced) ? spread_of(state.mark) : 0.0;
     if (spread > 0.0) return state.path.transmittance * filtered_environment_radiance(direction, sqrt(spread));
-    vec3 suns = kPhotons && has_mark(state, kFromDiffuse) ? vec3(0.0) : suns_ahead(direction);
+    bool sees_suns = !(kPhotons && has_mark(state, kFromDiffuse)) && !has_mark(state, kFromGlass);
+    vec3 suns = sees_suns ? suns_ahead(direction) : vec3(0.0);
     return state.path.transmittance * (environment_radiance(direction) + suns);
 }
 
@@ -132,7 +131,7 @@ void store_result(ivec2 texel, PathState state) {
     float object = has_mark(state, kMetOpaque) ? float(object_of(state.standing)) : kEndsInEnvironment;
     imageStore(exit_direction, at, vec4(path.direction, path.length_inside));
     imageStore(exit_position, at, vec4(path.position, object));
-    imageStore(transmittance, at, vec4(path.transmittance, 1.0));
+    imageStore(transmittance, at, vec4(path.transmittance, has_mark(state, kFromGlass) ? 0.0 : 1.0));
     // A path that has crossed a volume without a surface has met something, too.
     if (kVolumes && has_mark(state, kCrossedVolume)) path.events = max(path.events, 1u);
     imageStore(path_events, at, uvec4(pack_events(path)));

@@ -4,8 +4,9 @@
 // Takes every path on to the next surface, or the next few, and past them if they are glass; where there is none, or an
 // opaque one, the path ends. Programs that define PELLUCID_HELD_VOLUMES know of solids that hold volumes.
 #include "techniques/visibility_layers/visibility_bindings.glsl"
+#include "gpu/vertices.glsl"
 #include "techniques/visibility_layers/path_walk.glsl"
-#include "techniques/visibility_layers/path_lights.glsl"
+#include "techniques/visibility_layers/cross_boundary.glsl"
 
 // Twin of ObjectBox in scene_topology.cpp.
 struct ObjectBox {
@@ -214,7 +215,7 @@ void cross_touching(vec3 direction, Search search, Media here, inout MetSurface 
 
 // Takes a path that has met glass to its other side, which may be no boundary of media.
 void pass_glass(inout PathState state, MetSurface met, Media here, uint before, uint beyond) {
-    state.mark &= ~kUnbent;
+    state.mark &= ~(kUnbent | kFromGlass);
     Crossing crossing;
     crossing.surface = met.surface;
     crossing.leaving = met.hit.leaving;
@@ -230,7 +231,8 @@ void pass_glass(inout PathState state, MetSurface met, Media here, uint before, 
 void pass_shadow(inout PathState state, MetSurface met, uint before, uint beyond) {
     vec3 normal = met.hit.leaving ? -met.surface.normal : met.surface.normal;
     float n_i = filling_iors(before).g, n_t = filling_iors(beyond).g;
-    float passes = tinted_shadows == 0u ? 0.0 : 1.0 - fresnel_dielectric(-dot(state.path.direction, normal), n_i / n_t);
+    bool blocks = tinted_shadows == 0u || has_mark(state, kFromGlass);
+    float passes = blocks ? 0.0 : 1.0 - fresnel_dielectric(-dot(state.path.direction, normal), n_i / n_t);
     state.path.transmittance *= met.hit.leaving ? vec3(passes) : passes * surface_tint(met.surface).rgb;
     ++state.path.events;
 }
@@ -244,7 +246,7 @@ bool meets_lamp(inout PathState state, uint body, float t) {
     if (straight >= t) return false;
     if (body == kAir) state.path.position += straight * state.path.direction;
     else travel(state.path, straight, filling_material(body).sigma_a.rgb);
-    state.path.transmittance *= radiance;
+    state.path.transmittance *= has_mark(state, kFromGlass) ? vec3(0.0) : radiance;
     state.mark |= kMetLamp;
     return true;
 }

@@ -4,8 +4,7 @@
 // Shadow rays from an opaque surface: branches of the path (path_state.glsl) that carry what the surface reflects of a
 // light, and bring it if they reach the light.
 // Needs: end_paths.glsl as far as struct OpaquePoint.
-#include "techniques/visibility_layers/path_lights.glsl"
-#include "techniques/visibility_layers/emitters.glsl"
+#include "techniques/visibility_layers/shadow_rays.glsl"
 #include "gpu/environment_shares.glsl"
 #include "light/irradiance_lookup.glsl"
 
@@ -20,31 +19,15 @@ const uint kMostShadowRays = 4u;
 const uint kMostSkyRays = 4u;
 const float kHardlyOpen = 0.02, kHardlyHidden = 0.95;
 
-// Lights, and all that emits as one more.
-uint source_count() { return direct_lights + (emitter_count > 0u ? 1u : 0u); }
-
 // Light `number`'s sample at the end of a path, and what of it goes back along the path if nothing is in between.
 vec3 unshadowed_light(uint number, ivec2 texel, PathState state, OpaquePoint point, out LightSample light) {
-    uint seed = hash(uvec3(texel + first_pixel(), 4099u + number)).x;
-    vec2 u = spread_numbers(seed, state.path.events);
-    if (number < direct_lights) light = sample_light(scene_lights[number], state.path.position, u);
-    else light = sample_emitter(state.path.position, u, random_number(seed, state.path.events));
+    light = sample_source(number, state.path, hash(uvec3(texel + first_pixel(), 4099u + number)).x);
     if (light.irradiance == vec3(0.0)) return vec3(0.0);
     OpaqueSurface surface = point.surface;
     // Photons bring what metal throws on the surface from which the path has come: here it counts as a perfect mirror.
     if (kPhotons && mirrors_photons(state, point) && (number < direct_lights || kPhotonsOfEmitters)) surface.roughness = 0.0;
     return state.path.transmittance * light.irradiance *
            opaque_reflection(surface, point.normal, -state.path.direction, light.to_light);
-}
-
-void push_shadow_ray(PathState state, LightSample light, vec3 weight) {
-    state.mark = (state.mark & ~(kMainPath | kMetOpaque)) | kToLight;
-    state.path.direction = light.to_light;
-    state.path.transmittance = weight;
-    state.path.length_inside = light.distance_;
-    state.path.events = 0u;
-    state.path.status = kStatusOk;
-    push_branch(state, branch_capacity, false);
 }
 
 // A direction chosen by the environment's light.

@@ -35,6 +35,8 @@ struct Facets {
 const int kMostFacets = 64;
 const float kLowestLevel = 1e-7;  // about the distance from 1 to the float below
 
+float facet_alpha(float roughness) { return max(roughness * roughness, 1e-4); }
+
 float next_random(inout Facets facets) {
     ++facets.draws;
     return float(hash(uvec3(facets.seed ^ facets.draws * 0x9e3779b9u, facets.event, 2u * frame.sample_index)).z >> 8u) / 16777216.0;
@@ -95,13 +97,28 @@ bool reaches_facet(vec3 way, inout Facets facets) {
 // Takes a path to the first facet that it meets; its normal, in the world. False: it comes from below the surface, which
 // the interpolated normal may say.
 bool first_facet(vec3 normal, Path path, uint seed, float roughness, out Facets facets, out vec3 facet_normal) {
-    facets = Facets(tangent_frame(normal), max(roughness * roughness, 1e-4), 1.0, seed, path.events, 0u);
+    facets = Facets(tangent_frame(normal), facet_alpha(roughness), 1.0, seed, path.events, 0u);
     vec3 way = path.direction * facets.world_from_surface;
     facet_normal = normal;
     if (way.z >= 0.0) return false;
     reaches_facet(way, facets);
     facet_normal = normalize(facets.world_from_surface * visible_normal(-way, facets.alpha, random_numbers(seed, path.events)));
     return true;
+}
+
+// Reflects or refracts light at one of the facets that it sees.
+void scatter_at_facet(inout vec3 way, inout float eta, inout Facets facets, inout bool beyond) {
+    vec2 u = vec2(next_random(facets), next_random(facets));
+    vec3 m = visible_normal(-way, facets.alpha, u), refracted;
+    if (next_random(facets) < fresnel_dielectric(-dot(way, m), eta)) {
+        way = reflect_direction(way, m);
+        return;
+    }
+    refract_direction(way, m, eta, refracted);
+    way = vec3(refracted.xy, -refracted.z);
+    facets.level = max(1.0 - facets.level, kLowestLevel);
+    eta = 1.0 / eta;
+    beyond = !beyond;
 }
 
 // The direction in which light leaves the surface that a facet has sent on in `direction`. `beyond`: it is on the other
@@ -114,19 +131,8 @@ vec3 leave_facets(vec3 direction, float eta, Facets facets, inout bool beyond) {
         facets.level = max(1.0 - facets.level, kLowestLevel);
         eta = 1.0 / eta;
     }
-    for (int n = 0; n < kMostFacets && reaches_facet(way, facets); ++n) {
-        vec2 u = vec2(next_random(facets), next_random(facets));
-        vec3 m = visible_normal(-way, facets.alpha, u), refracted;
-        if (next_random(facets) < fresnel_dielectric(-dot(way, m), eta)) {
-            way = reflect_direction(way, m);
-            continue;
-        }
-        refract_direction(way, m, eta, refracted);
-        way = vec3(refracted.xy, -refracted.z);
-        facets.level = max(1.0 - facets.level, kLowestLevel);
-        eta = 1.0 / eta;
-        beyond = !beyond;
-    }
+    for (int n = 0; n < kMostFacets && reaches_facet(way, facets); ++n)
+        scatter_at_facet(way, eta, facets, beyond);
     way.z = abs(way.z);  // a walk that reached the bound may point at the surface
     return normalize(facets.world_from_surface * vec3(way.xy, beyond ? -way.z : way.z));
 }

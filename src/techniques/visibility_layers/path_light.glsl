@@ -14,7 +14,11 @@ void add_light(ivec2 texel, uint mark, vec3 light) {
     ivec3 at = ivec3(texel, 0);
     if ((mark & kOpaquePixel) != 0u) imageStore(surface_radiance, at, imageLoad(surface_radiance, at) + vec4(light, 0.0));
     else if ((mark & kOuterBranch) != 0u) imageStore(reflected_radiance, at, imageLoad(reflected_radiance, at) + vec4(light, 0.0));
-    else imageStore(path_radiance, at, vec4(imageLoad(path_radiance, at).rgb + light, 1.0));
+    else {
+        // What a shadow ray brings hides nothing behind the glass.
+        vec4 before = imageLoad(path_radiance, at);
+        imageStore(path_radiance, at, vec4(before.rgb + light, (mark & kToLight) != 0u ? before.a : 1.0));
+    }
 }
 
 #endif

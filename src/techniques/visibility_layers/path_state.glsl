@@ -52,6 +52,8 @@ const uint kMetOpaque = 16u;    // it has ended on the opaque triangle on which 
 const uint kBounced = 32u;      // scattered by an opaque surface: it looks for what hides or lights that surface
 const uint kEntersVolume = 64u; // it stands at the box of a volume
 const uint kCrossedVolume = 128u;
+const uint kFromGlass = kEntersVolume;  // scattered by rough glass, and in no mirror or refraction since: shadow rays have brought
+                                        // what lights send there. Where shadow rays look from surfaces, no path enters a volume
 const uint kLost = 256u;        // the map cannot say what it meets: another will
 const uint kToLight = 512u;     // a shadow ray: it goes straight to a light, `length_inside` metres away
 const uint kOpaquePixel = 1024u;  // its light is that of the opaque surface which the pixel shows
@@ -62,6 +64,8 @@ const uint kFromDiffuse = 65536u;  // reflected diffusely; since then by nothing
 const uint kScatteredShift = 17u, kScatteredMask = 3u << kScatteredShift;  // times that it was scattered: none, one, more
 const uint kBent = 1u << 19u;   // mirrored or refracted since
 const uint kBounceShift = 11u, kBounceMask = 7u << kBounceShift;  // diffuse reflections so far
+
+float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
 
 bool has_mark(PathState state, uint bits) { return (state.mark & bits) != 0u; }
 

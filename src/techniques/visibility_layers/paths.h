@@ -91,6 +91,10 @@ struct PathTask {
     /// max_events, most_branches, threshold, whole_picture, eye_differs, eye_depth; follow() fills in the rest.
     PathPush push{};
     const PathVolumes* volumes = nullptr;
+    /// Whether rough glass looks to lights.
+    bool looks_from_glass(const GpuScene& scene) const {
+        return lights_surfaces && scene.rough_glass && push.direct_lights > 0;
+    }
     bool from_light = false;  ///< paths are photons: weights are flux, W, and count as the reversed paths would
 };
 

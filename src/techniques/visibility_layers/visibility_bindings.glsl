@@ -24,7 +24,11 @@ layout(constant_id = 42) const bool kPhotonsOfEmitters = false;     // emissive 
 layout(constant_id = 43) const bool kPhotonsOfEnvironment = false;  // and the environment
 layout(constant_id = 29) const bool kLightsSurfaces = false;  // paths look from opaque surfaces to lights, and to each other
 layout(constant_id = 31) const bool kFullLight = false;       // what facets of opaque surfaces reflect is followed, too
+layout(constant_id = 44) const bool kGathers = false;  // paths sample the irradiance of the first diffuse surface they meet
 layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend
+
+// Whether each sample meets one facet of rough glass. Otherwise a lobe stands for all.
+bool samples_facets() { return kRough && (kStochastic || kTree); }
 
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Materials { MaterialRecord materials[]; };

@@ -16,7 +16,8 @@ Ways ways_of(const ParameterValues& parameters, std::uint32_t most_branches, boo
 
 /// Lets opaque surfaces at which paths end look to what lights them. Technique ihrke-2007 has light of its own.
 void light_surfaces(PathTask& task, const Frame& frame) {
-    task.lights_surfaces = frame.light.any() && !frame.scene.opaque.empty() && task.volumes == nullptr;
+    const bool scatters = !frame.scene.opaque.empty() || (frame.scene.rough_glass && frame.light.lights > 0);
+    task.lights_surfaces = frame.light.any() && scatters && task.volumes == nullptr;
     // Where reflections are followed, opaque surfaces behind glass are seen beside each other.
     const std::uint32_t least_bounces = task.ways == Ways::kTree ? 1 : 0;
     task.push.most_bounces = std::max(task.lights_surfaces ? frame.light.bounces : 0, least_bounces);
@@ -43,9 +44,10 @@ PathTask view_task(const Frame& frame, const ParameterValues& parameters, const 
     task.ways = ways_of(parameters, push.most_branches, volumes != nullptr);
     if (task.ways == Ways::kStochastic) push.most_branches = 0;
     light_surfaces(task, frame);
-    task.ends_together = task.ways != Ways::kTree && frame.scene.opaque.empty() && volumes == nullptr;
+    task.ends_together = task.ways != Ways::kTree && !task.lights_surfaces && frame.scene.opaque.empty() && volumes == nullptr;
     const bool at_eye = push.whole_picture != 0 || !topology.all_alone;
-    if (task.lights_surfaces && push.whole_picture == 0) task.begin_at_end = shaders::begin_on_opaque_comp;
+    if (task.lights_surfaces && push.whole_picture == 0 && !frame.scene.opaque.empty())
+        task.begin_at_end = shaders::begin_on_opaque_comp;
     task.begin = !at_eye                       ? shaders::begin_paths_comp
                  : finder.hierarchy != nullptr ? shaders::begin_traced_at_eye_comp
                                                : shaders::begin_at_eye_comp;
@@ -87,7 +89,10 @@ Refraction follow_view_rays(Recorder& recorder, const Frame& frame, const Layers
     if (task.begin.name == shaders::begin_paths_comp.name) task.beginning = &layers.covered;
     task.bindings = view_bindings(frame, layers, refraction, reflected);
     follow(recorder, frame, layers.source, finder, task);
-    if (task.ways != Ways::kTransmitted || task.push.whole_picture != 0) refraction.reflected = &reflected;
+    refraction.reflects_lights_alone =
+        task.ways == Ways::kTransmitted && task.push.whole_picture == 0 && task.looks_from_glass(frame.scene);
+    if (task.ways != Ways::kTransmitted || task.push.whole_picture != 0 || refraction.reflects_lights_alone)
+        refraction.reflected = &reflected;
     if (task.push.whole_picture != 0) refraction.picture = refraction.radiance;
     return refraction;
 }

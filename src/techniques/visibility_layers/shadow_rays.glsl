@@ -1,0 +1,28 @@
+#ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_SHADOW_RAYS_GLSL
+#define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_SHADOW_RAYS_GLSL
+
+// What shadow rays aim at. Needs: path_state.glsl, microfacets.glsl and what emitters.glsl needs.
+#include "techniques/visibility_layers/path_lights.glsl"
+#include "techniques/visibility_layers/emitters.glsl"
+
+// Lights, and all that emits as one more.
+uint source_count() { return direct_lights + (emitter_count > 0u ? 1u : 0u); }
+
+// A point of source `number`, as the end of a path sees it.
+LightSample sample_source(uint number, Path path, uint seed) {
+    vec2 u = spread_numbers(seed, path.events);
+    if (number < direct_lights) return sample_light(scene_lights[number], path.position, u);
+    return sample_emitter(path.position, u, random_number(seed, path.events));
+}
+
+void push_shadow_ray(PathState state, LightSample light, vec3 weight) {
+    state.mark = (state.mark & ~(kMainPath | kMetOpaque)) | kToLight;
+    state.path.direction = light.to_light;
+    state.path.transmittance = weight;
+    state.path.length_inside = light.distance_;
+    state.path.events = 0u;
+    state.path.status = kStatusOk;
+    push_branch(state, branch_capacity, false);
+}
+
+#endif

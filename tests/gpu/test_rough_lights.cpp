@@ -1,0 +1,168 @@
+// Light of lights at rough glass in frames, against closed forms and the path tracer.
+#include "closed_form/lights.h"
+#include "gpu/gpu_test.h"
+#include "unit/built_scenes.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace pellucid::test {
+namespace {
+
+constexpr int kSize = 32;
+
+Material rough_glass(float roughness, float ior = 1.5f) {
+    Material material = glass(ior);
+    material.roughness = roughness;
+    return material;
+}
+
+/// A box around the origin, as large as `half_size` says, m.
+Mesh box(glm::vec3 half_size) {
+    const Scene cube = load_scene("shape:cube");
+    const Bounds bounds = scene_bounds(cube);
+    Mesh mesh = cube.meshes[0];
+    for (glm::vec3& p : mesh.positions) p = half_size * (p - bounds.center) / bounds.half_size;
+    return with_flat_normals(mesh);
+}
+Mesh ball() { return load_scene("shape:sphere,segments=64").meshes[0]; }
+
+Light disc(glm::vec3 direction, float irradiance, float degrees) {
+    Light light = sun(direction, irradiance);
+    light.angular_diameter = glm::radians(degrees);
+    return light;
+}
+
+glm::dvec3 mean_light(const Image& image) {
+    glm::dvec3 sum(0.0);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) sum += glm::dvec3(rgb(image, x, y));
+    return sum / double(image.width * image.height);
+}
+
+class RoughLights : public TechniqueTest {
+protected:
+    void SetUp() override {
+        TechniqueTest::SetUp();
+        if (IsSkipped()) return;
+        settings_.width = settings_.height = kSize;
+        settings_.light.transport = LightTransport::kDirect;
+        look_from(3.0f);
+    }
+    void look_from(float distance, float elevation = 35.0f) {
+        Bounds bounds;
+        bounds.half_size = glm::vec3(1.0f);
+        bounds.radius = 1.0f;
+        camera_ = orbit_camera(bounds, 15.0f, elevation, distance, Camera{}.vertical_fov);
+    }
+    void set(const Scene& scene) {
+        renderer().set_scene(scene);
+        renderer().set_environment(uniform_environment(glm::vec3(environment_)));
+        renderer().set_camera(camera_);
+    }
+    RenderResult draw(std::string technique, std::uint32_t samples) {
+        settings_.technique = std::move(technique);
+        settings_.samples = samples;
+        return renderer().render(settings_);
+    }
+    /// Mean radiance of the frame beside that of `path`, within `share` of it.
+    void expect_that_of_path(const Scene& scene, std::uint32_t samples, std::uint32_t path_samples, double share = 0.02) {
+        set(scene);
+        const glm::dvec3 found = mean_light(draw(GetParam(), samples).radiance);
+        const glm::dvec3 expected = mean_light(draw("path", path_samples).radiance);
+        EXPECT_GT(expected.g, 0.0);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], share * expected[c]) << "channel " << c;
+    }
+
+    RenderSettings settings_;
+    Camera camera_;
+    float environment_ = 0.0f;
+};
+
+// Two suns that fill the sky shine on a ball. It sends out what it gets, so it looks like the sky: E / (2 pi).
+TEST_P(RoughLights, ABallIsUnseenBetweenTwoSuns) {
+    for (const float roughness : {0.3f, 0.8f}) {
+        SCOPED_TRACE(roughness);
+        Scene scene = scene_of(ball(), rough_glass(roughness));
+        for (const float side : {1.0f, -1.0f}) scene.lights.push_back(disc({0.0f, side, 0.2f}, 2.0f, 179.99f));
+        scene.lights[1].direction = -scene.lights[0].direction;
+        set(scene);
+        const double sky = 2.0 / (2.0 * double(kPi));
+        EXPECT_NEAR(mean_light(draw(GetParam(), 64).radiance).g, sky, 0.01 * sky);
+    }
+}
+
+// From above, what a plate reflects; from below, what it lets pass.
+TEST_P(RoughLights, PlatesAreThoseOfThePathTracer) {
+    Scene scene = scene_of(box({1.0f, 0.1f, 1.0f}), rough_glass(0.6f));
+    for (const float side : {1.0f, -1.0f}) {
+        const glm::vec3 way(-0.2f, -side, 0.6f), place(0.2f, 1.5f * side, -1.0f);
+        for (const Light& light : {disc(way, 2.0f, 0.53f), disc(way, 2.0f, 60.0f), lamp(place, 3.0f), lamp(place, 3.0f, 0.3f)}) {
+            SCOPED_TRACE(testing::Message() << "side " << side << ", radius " << light.radius << ", diameter "
+                                            << light.angular_diameter);
+            scene.lights = {light};
+            expect_that_of_path(scene, 128, 2048);
+        }
+    }
+}
+
+// A lamp inside of a ball, whose light is understood as seen from outside, and lamps with a spot around it.
+TEST_P(RoughLights, LampsMayBeInside) {
+    Scene scene = scene_of(ball(), rough_glass(0.6f));
+    for (const float radius : {0.0f, 0.2f}) {
+        SCOPED_TRACE(radius);
+        scene.lights = {lamp({0.3f, 0.2f, 0.1f}, 1.0f, radius)};
+        expect_that_of_path(scene, 64, 1024);
+    }
+}
+
+// A bright plate beside a rough one.
+TEST_P(RoughLights, EmissiveSurfacesAreSeen) {
+    Scene scene = scene_of(box({1.0f, 0.1f, 1.0f}), rough_glass(0.6f));
+    Material bright;
+    bright.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    bright.ior = 1.0f;
+    bright.emission = glm::vec3(3.0f, 2.0f, 1.0f);
+    add(scene, square(), bright, glm::translate(glm::mat4(1.0f), {0.0f, 1.2f, -1.0f}));
+    expect_that_of_path(scene, 64, 1024);
+}
+
+// One refraction is `indirect` behind the first rough surface, and its reflection `direct`.
+TEST_P(RoughLights, PartsAreThoseOfThePathTracer) {
+    Scene scene = scene_of(box({1.0f, 0.1f, 1.0f}), rough_glass(0.6f));
+    scene.lights = {disc({-0.2f, -1.0f, 0.6f}, 2.0f, 20.0f)};
+    set(scene);
+    settings_.aovs = {kLightParts.begin(), kLightParts.end()};
+    const RenderResult drawn = draw(GetParam(), 128), traced = draw("path", 2048);
+    for (const std::string_view part : kLightParts) {
+        const std::string name(part);
+        SCOPED_TRACE(name);
+        const double expected = mean_light(traced.aovs.at(name)).g;
+        EXPECT_NEAR(mean_light(drawn.aovs.at(name)).g, expected, 0.03 * expected + 1e-5);
+    }
+}
+
+// Frames of one sample stand a lobe for the facets: about as bright, without what is reflected inside.
+TEST_P(RoughLights, OneSampleShowsHighlights) {
+    Scene scene = scene_of(box({1.0f, 0.1f, 1.0f}), rough_glass(0.6f));
+    for (const float side : {1.0f, -1.0f}) {
+        SCOPED_TRACE(side);
+        scene.lights = {lamp({0.2f, 1.5f * side, -1.0f}, 3.0f)};
+        expect_that_of_path(scene, 1, 256, 0.3);
+    }
+    // A lamp without light changes nothing.
+    environment_ = 1.0f;
+    set(scene);
+    settings_.light.transport = LightTransport::kEnvironment;
+    const Image without = draw(GetParam(), 1).radiance;
+    scene.lights = {lamp({0.2f, 1.5f, -1.0f}, 1e-9f)};
+    set(scene);
+    settings_.light.transport = LightTransport::kDirect;
+    const Image with = draw(GetParam(), 1).radiance;
+    for (std::size_t i = 0; i < with.pixels.size(); ++i) ASSERT_NEAR(with.pixels[i], without.pixels[i], 1e-6f) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, RoughLights, ::testing::Values("visibility-layers", "ray-tracing-cpu", "ray-tracing"),
+                         technique_test_name);
+
+}  // namespace
+}  // namespace pellucid::test
