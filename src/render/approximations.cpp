@@ -15,6 +15,13 @@ std::size_t translucent_objects(const Scene& scene) {
     }));
 }
 
+std::size_t rough_glass_objects(const Scene& scene) {
+    return std::size_t(std::count_if(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        const Material& material = scene.materials[std::size_t(object.material)];
+        return material.refractive() && material.roughness > 0.0f;
+    }));
+}
+
 /// What the path tracer leaves out of volumes. It names itself the lights whose light needs photons there.
 std::vector<std::string> volumes_of_truth(const Scene& scene) {
     std::vector<std::string> lines;
@@ -31,7 +38,10 @@ std::vector<std::string> volumes_of_truth(const Scene& scene) {
 std::vector<std::string> light_left_out(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light,
                                         std::size_t refractive, std::size_t opaque, bool photons) {
     const std::size_t translucent = translucent_objects(scene);
-    const std::size_t lit = opaque + (technique.lit_glass ? refractive : 0);
+    const std::size_t lit_glass = technique.lit_glass     ? refractive
+                                  : technique.whole_scene ? rough_glass_objects(scene)
+                                                          : 0;
+    const std::size_t lit = opaque + lit_glass;
     const bool shown = light.transport != LightTransport::kEnvironment, followed = shown && lit > 0;
     if (!followed && translucent == 0) {  // lights with a size are seen themselves
         const auto counts = [&](const Light& each) { return !shown || !has_size(each); };

@@ -33,6 +33,8 @@ TEST(Approximations, LightsWithASizeAreSeenThoughNothingIsLit) {
     scene.lights.push_back(sun({0, -1, 0}, 1.0f));
     EXPECT_THAT(of_lights(scene, LightTransport::kDirect), ElementsAre("2 lights without a size are not drawn"));
     EXPECT_THAT(of_lights(scene, LightTransport::kEnvironment), ElementsAre("3 lights are not drawn"));
+    scene.materials[0].roughness = 0.3f;
+    EXPECT_THAT(of_lights(scene, LightTransport::kDirect), IsEmpty());
 }
 
 TEST(Approximations, TheTruthLosesScatteredLightOfVolumesAlone) {

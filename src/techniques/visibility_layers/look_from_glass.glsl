@@ -34,6 +34,9 @@ vec3 scattered_light(Crossing crossing, Meeting m, vec3 wo, vec3 wi) {
     return m.carried * tint;
 }
 
+// Glass blocks what comes to a path inside of it from infinity.
+bool can_arrive(PathState state, float distance_) { return distance_ < kFarLight || filling_body(state.media) == kAir; }
+
 // Sends a shadow ray to one light, chosen by about what it contributes unshadowed.
 void look_from_glass(PathState state, Crossing crossing, Meeting m) {
     if (!draws_part(part_met(state.mark))) return;
@@ -53,11 +56,12 @@ void look_from_glass(PathState state, Crossing crossing, Meeting m) {
         pdf = light_density(scene_lights[i], state.path.position);
     }
     if (!(share > 0.0) || !sides_agree(crossing, light.to_light, wi)) return;
+    state.path.direction = light.to_light;
+    settle(state, crossing);
+    if (!can_arrive(state, light.distance_)) return;
     vec3 weight = scattered_light(crossing, m, wo, wi) * light.irradiance * (sum / share);
     if (samples_facets() && pdf > 0.0) weight *= power_heuristic(pdf, density);
     if (!(largest(weight) > 0.0)) return;
-    state.path.direction = light.to_light;
-    settle(state, crossing);
     state.mark |= kFromGlass;
     if (crossing.first && wi.z > 0.0) state.mark |= kOuterBranch;
     push_shadow_ray(state, light, weight);
@@ -73,7 +77,7 @@ void leave_lights(inout PathState state, Crossing crossing, Meeting m) {
     for (uint i = 0u; i < kVisibleLights; ++i) {
         float distance_;
         vec3 radiance = light_ahead(scene_lights[i], state.path.position, state.path.direction, distance_);
-        if (radiance == vec3(0.0)) continue;
+        if (radiance == vec3(0.0) || !can_arrive(state, distance_)) continue;
         if (density == 0.0)
             density = stand_in_density(-m.incident * m.lobe.world_from_surface, wi, m.eta, m.lobe.alpha);
         float weight = power_heuristic(density, light_density(scene_lights[i], state.path.position));

@@ -111,8 +111,7 @@ private:
             (std::min(push_.direct_lights + (push_.emitter_count > 0 ? 1 : 0), kMostShadowRays) +
              (frame_.environment_shares != nullptr ? kMostSkyRays : 0)) *
             (1 + branches);
-        const std::uint32_t glass_rays =
-            task_.looks_from_glass(frame_.scene) ? push_.max_events + 2 * branches : 0;
+        const std::uint32_t glass_rays = task_.looks_from_glass(frame_.scene) ? push_.max_events + 2 * branches : 0;
         return in_passes(surfaces) + branches * in_passes(kSurfacesPerBranch + surfaces_per_pass_ - 1) +
                (shadow_rays + glass_rays) * in_passes(kSurfacesPerShadowRay + surfaces_per_pass_ - 1);
     }

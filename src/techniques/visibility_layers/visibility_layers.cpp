@@ -44,7 +44,8 @@ PathTask view_task(const Frame& frame, const ParameterValues& parameters, const 
     task.ways = ways_of(parameters, push.most_branches, volumes != nullptr);
     if (task.ways == Ways::kStochastic) push.most_branches = 0;
     light_surfaces(task, frame);
-    task.ends_together = task.ways != Ways::kTree && !task.lights_surfaces && frame.scene.opaque.empty() && volumes == nullptr;
+    task.ends_together =
+        task.ways != Ways::kTree && !task.lights_surfaces && frame.scene.opaque.empty() && volumes == nullptr;
     const bool at_eye = push.whole_picture != 0 || !topology.all_alone;
     if (task.lights_surfaces && push.whole_picture == 0 && !frame.scene.opaque.empty())
         task.begin_at_end = shaders::begin_on_opaque_comp;
