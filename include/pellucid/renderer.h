@@ -28,6 +28,10 @@
 
 namespace pellucid {
 
+namespace vulkan {
+struct LentDevice;
+}
+
 struct RenderSettings {
     std::uint32_t width = 512;  ///< pixels, >= 1
     std::uint32_t height = 512;
@@ -81,8 +85,8 @@ struct RenderResult {
     std::map<std::string, Image, std::less<>> aovs;
     std::vector<RefractedPath> paths;  ///< if asked for: one per pixel, through its centre, rows from the top
     Image standard_error;              ///< RGB, of `radiance`, where the technique estimates it (path); else empty
-    Image sample_counts;  ///< 1 channel: samples of every pixel, where RenderSettings::error chose them; else empty
-    PhotonFlux photon_flux;                                ///< of the first frame, if asked for
+    Image sample_counts;     ///< 1 channel: samples of every pixel, where RenderSettings::error chose them; else empty
+    PhotonFlux photon_flux;  ///< of the first frame, if asked for
     std::uint64_t cut_paths = 0;  ///< technique path: paths that reached its limit of length
     float adapted_cd_m2 = 0.0f;   ///< tone map kKrawczyk: the luminance that the eye has adapted to; else 0
     /// One entry per sample; empty where the device has no timestamps. On the software driver the
@@ -101,6 +105,9 @@ struct RenderResult {
 class PELLUCID_API Renderer {
 public:
     explicit Renderer(const DeviceOptions& options = {});
+    /// On a device of the caller's (pellucid/vulkan.h). Throws DeviceError, naming what is missing, if the device was not made
+    /// with what Pellucid needs. `threads`: as DeviceOptions::threads.
+    explicit Renderer(const vulkan::LentDevice& device, std::uint32_t threads = 0);
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
@@ -147,6 +154,8 @@ public:
     const std::vector<std::string>& validation_messages() const;
 
 private:
+    void begin();
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

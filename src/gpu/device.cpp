@@ -15,11 +15,6 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-constexpr std::array kRayTracingExtensions = {
-    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
-    VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,  // the first needs it; nothing is deferred here
-};
-
 VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
@@ -51,39 +46,6 @@ int rank(std::string_view type) {
     return int(std::find(kBestFirst.begin(), kBestFirst.end(), type) - kBestFirst.begin());
 }
 
-std::optional<std::uint32_t> universal_queue_family(const vk::raii::PhysicalDevice& physical) {
-    const auto families = physical.getQueueFamilyProperties();
-    const auto wanted = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
-    for (std::uint32_t i = 0; i < families.size(); ++i) {
-        if ((families[i].queueFlags & wanted) == wanted) return i;
-    }
-    return std::nullopt;
-}
-
-bool has_long_atomics(const vk::raii::PhysicalDevice& physical) {
-    const auto chain = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
-    return chain.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 &&
-           chain.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics;
-}
-
-bool has_ray_tracing(const vk::raii::PhysicalDevice& physical) {
-    const auto available = physical.enumerateDeviceExtensionProperties();
-    const bool extensions =
-        std::all_of(kRayTracingExtensions.begin(), kRayTracingExtensions.end(), [&](std::string_view wanted) {
-            return std::any_of(available.begin(), available.end(), [&](const vk::ExtensionProperties& e) {
-                return std::string_view(e.extensionName) == wanted;
-            });
-        });
-    if (!extensions) return false;  // the features below may not even be asked for
-    const auto chain =
-        physical
-            .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
-                          vk::PhysicalDeviceAccelerationStructureFeaturesKHR, vk::PhysicalDeviceRayQueryFeaturesKHR>();
-    return chain.get<vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress &&
-           chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure &&
-           chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery;
-}
-
 RayTracingLimits ray_tracing_limits(const vk::raii::PhysicalDevice& physical) {
     const auto chain =
         physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
@@ -93,31 +55,29 @@ RayTracingLimits ray_tracing_limits(const vk::raii::PhysicalDevice& physical) {
             .max_instances = structure.maxInstanceCount};
 }
 
+std::vector<std::string> absent_features(const TurnedOn& features) {
+    std::vector<std::string> absent;
+    if (!features.fragment_atomics) absent.emplace_back("fragmentStoresAndAtomics: layers are built by depth peeling");
+    if (!features.ray_tracing) absent.emplace_back("ray tracing: technique ray-tracing is not offered");
+    return absent;
+}
+
 DeviceInfo describe(const vk::raii::PhysicalDevice& physical) {
     const vk::PhysicalDeviceProperties properties = physical.getProperties();
     DeviceInfo info;
     info.name = properties.deviceName.data();
     info.type = type_name(properties.deviceType);
     info.api_version = version_text(properties.apiVersion);
-    if (properties.apiVersion < VK_API_VERSION_1_3) {
-        info.missing.push_back("Vulkan 1.3");
-        return info;
-    }
+    info.missing = missing_features(physical);
+    if (properties.apiVersion < VK_API_VERSION_1_3) return info;
     const auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan12Properties>();
     const auto& driver = chain.get<vk::PhysicalDeviceVulkan12Properties>();
     info.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
 
-    const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
-    if (!features.get<vk::PhysicalDeviceVulkan13Features>().dynamicRendering)
-        info.missing.push_back("dynamicRendering");
-    if (!features.get<vk::PhysicalDeviceVulkan13Features>().synchronization2)
-        info.missing.push_back("synchronization2");
-    if (!features.get<vk::PhysicalDeviceVulkan13Features>().maintenance4) info.missing.push_back("maintenance4");
-    if (!universal_queue_family(physical)) info.missing.push_back("a queue with graphics and compute");
-    if (!features.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics) {
-        info.absent.push_back("fragmentStoresAndAtomics: layers are built by depth peeling");
-    }
-    if (!has_ray_tracing(physical)) info.absent.push_back("ray tracing: technique ray-tracing is not offered");
+    TurnedOn available;
+    available.fragment_atomics = physical.getFeatures().fragmentStoresAndAtomics;
+    available.ray_tracing = has_ray_tracing(physical);
+    info.absent = absent_features(available);
     return info;
 }
 
@@ -231,44 +191,88 @@ Device::Device(const DeviceOptions& options) : messages_(std::make_unique<std::v
     }
 }
 
-Device::~Device() = default;
+std::string name_of(const vulkan::LentDevice& lent) {
+    if (!lent.instance || !lent.physical_device) return {};
+    const vk::raii::Context context;
+    vk::raii::Instance instance(context, lent.instance);
+    std::string name = vk::raii::PhysicalDevice(instance, lent.physical_device).getProperties().deviceName.data();
+    instance.release();
+    return name;
+}
 
-void Device::create_device(const vk::raii::PhysicalDevice& physical) {
-    queue_family_ = *universal_queue_family(physical);
+Device::Device(const vulkan::LentDevice& lent) : messages_(std::make_unique<std::vector<std::string>>()) {
+    const bool whole = lent.instance && lent.physical_device && lent.device && lent.queue && lent.features;
+    if (!whole) throw DeviceError("a lent device needs instance, physical_device, device, queue and features");
+    try {
+        borrow(lent);
+    } catch (const vk::SystemError& error) {
+        give_back();
+        throw DeviceError(fmt::format("Vulkan is not usable: {}", error.what()));
+    } catch (...) {
+        give_back();
+        throw;
+    }
+}
+
+Device::~Device() { give_back(); }
+
+/// Leaves to the caller what is the caller's.
+void Device::give_back() {
+    if (!lent_) return;
+    device_.release();
+    instance_.release();
+}
+
+void Device::describe_limits(const vk::raii::PhysicalDevice& physical) {
     const auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan11Properties>();
     limits_ = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
     max_allocation_ = chain.get<vk::PhysicalDeviceVulkan11Properties>().maxMemoryAllocationSize;
     memory_ = physical.getMemoryProperties();
-    fragment_atomics_ = physical.getFeatures().fragmentStoresAndAtomics;
     is_cpu_ = physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
     float_blending_ = bool(physical.getFormatProperties(vk::Format::eR32G32B32A32Sfloat).optimalTilingFeatures &
                            vk::FormatFeatureFlagBits::eColorAttachmentBlend);
     const std::uint32_t timestamp_bits = physical.getQueueFamilyProperties()[queue_family_].timestampValidBits;
     timestamp_period_ns_ = timestamp_bits > 0 ? double(limits_.timestampPeriod) : 0.0;
+}
 
-    vk::PhysicalDeviceRayQueryFeaturesKHR queries{.rayQuery = true};
-    vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures{.pNext = &queries, .accelerationStructure = true};
-    const bool traces = has_ray_tracing(physical);
-    long_atomics_ = has_long_atomics(physical);
-    vk::PhysicalDeviceVulkan12Features features12{.pNext = traces ? &structures : nullptr,
-                                                  .shaderBufferInt64Atomics = long_atomics_,
-                                                  .bufferDeviceAddress = traces};
-    if (traces) ray_tracing_ = ray_tracing_limits(physical);
+void Device::use(const TurnedOn& features, const vk::raii::PhysicalDevice& physical) {
+    fragment_atomics_ = features.fragment_atomics;
+    long_atomics_ = features.long_atomics;
+    if (features.ray_tracing) ray_tracing_ = ray_tracing_limits(physical);
+}
 
-    vk::PhysicalDeviceVulkan13Features features13{
-        .pNext = &features12, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
-    const vk::PhysicalDeviceFeatures2 features{
-        .pNext = &features13,
-        .features = {.fragmentStoresAndAtomics = fragment_atomics_, .shaderInt64 = long_atomics_}};
+void Device::create_device(const vk::raii::PhysicalDevice& physical) {
+    const vulkan::DeviceFeatures wanted(*instance_, *physical);
+    queue_family_ = wanted.queue_family();
+    describe_limits(physical);
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queue{
         .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
-    device_ = physical.createDevice({.pNext = &features,
+    device_ = physical.createDevice({.pNext = wanted.features(),
                                      .queueCreateInfoCount = 1,
                                      .pQueueCreateInfos = &queue,
-                                     .enabledExtensionCount = traces ? std::uint32_t(kRayTracingExtensions.size()) : 0u,
-                                     .ppEnabledExtensionNames = kRayTracingExtensions.data()});
+                                     .enabledExtensionCount = std::uint32_t(wanted.extensions().size()),
+                                     .ppEnabledExtensionNames = wanted.extensions().data()});
     queue_ = device_.getQueue(queue_family_, 0);
+    use(turned_on(wanted.features(), wanted.extensions()), physical);
+}
+
+void Device::borrow(const vulkan::LentDevice& lent) {
+    const TurnedOn features = turned_on(lent.features, lent.extensions);
+    if (const auto missing = features.missing(); !missing.empty())
+        throw DeviceError(fmt::format("the lent device was made without {}", fmt::join(missing, ", ")));
+    instance_ = vk::raii::Instance(context_, lent.instance);
+    lent_ = true;
+    const vk::raii::PhysicalDevice physical(instance_, lent.physical_device);
+    info_ = describe(physical);
+    if (!info_.missing.empty())
+        throw DeviceError(fmt::format("{} lacks {}", info_.name, fmt::join(info_.missing, ", ")));
+    info_.absent = absent_features(features);
+    device_ = vk::raii::Device(physical, lent.device);
+    queue_ = vk::raii::Queue(device_, lent.queue);
+    queue_family_ = lent.queue_family;
+    describe_limits(physical);
+    use(features, physical);
 }
 
 std::uint32_t Device::memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags required,

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "gpu/device_features.h"
 #include "gpu/vulkan.h"
 
 #include <pellucid/device.h>
+#include <pellucid/vulkan.h>
 
 #include <cstdint>
 #include <memory>
@@ -19,11 +21,16 @@ struct RayTracingLimits {
     std::uint64_t max_instances;
 };
 
+/// The name of a lent device; empty if it has no instance or physical device.
+std::string name_of(const vulkan::LentDevice& lent);
+
 /// A Vulkan 1.3 device with one queue that does graphics and compute. Needs no surface.
 class Device {
 public:
     /// Throws DeviceError if no device fits, Error if `options.device` names none.
     explicit Device(const DeviceOptions& options);
+    /// A device of the caller's. Throws DeviceError if it was not made with what Pellucid needs.
+    explicit Device(const vulkan::LentDevice& lent);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -58,7 +65,11 @@ public:
     const std::vector<std::string>& validation_messages() const { return *messages_; }
 
 private:
+    void describe_limits(const vk::raii::PhysicalDevice& physical);
     void create_device(const vk::raii::PhysicalDevice& physical);
+    void use(const TurnedOn& features, const vk::raii::PhysicalDevice& physical);
+    void borrow(const vulkan::LentDevice& lent);
+    void give_back();
 
     vk::raii::Context context_;
     std::unique_ptr<std::vector<std::string>> messages_;  // its address is given to the messenger
@@ -78,6 +89,7 @@ private:
     std::optional<RayTracingLimits> ray_tracing_;
     bool debug_labels_ = false;
     double timestamp_period_ns_ = 0.0;
+    bool lent_ = false;  ///< instance and device are the caller's
 };
 
 }  // namespace pellucid

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 namespace pellucid {
 namespace {
@@ -26,13 +27,30 @@ PhotonStore::PhotonStore(const Device& device)
     : list_("photons", sizeof(Photon), {}, device.is_cpu()), entries_("entries of photons", sizeof(glm::uvec2)) {}
 
 const Buffer& PhotonStore::begin(Recorder& recorder, Workspace& workspace, std::uint64_t guess) {
-    photons_ = &list_.begin(recorder, workspace, guess);
+    photons_ = &list_.begin(recorder, workspace, std::min(guess, most_photons(workspace.device())));
     return *photons_;
 }
 
 bool PhotonStore::grow() {
     const bool photons = list_.grow();
     return entries_.grow() || photons;
+}
+
+/// That list and cells have room for.
+std::uint64_t PhotonStore::most_photons(const Device& device) const {
+    const std::uint64_t slots = (device.max_storage_binding() - sizeof(PhotonGrid)) / kSlotSize;
+    return std::min<std::uint64_t>(list_.limit(device), std::bit_floor(slots) / 2);
+}
+
+double PhotonStore::fit(const Device& device) {
+    double share = 1.0;
+    for (const auto& [buffer, most] :
+         {std::pair(&list_, most_photons(device)), {&entries_, std::uint64_t(entries_.limit(device))}}) {
+        if (buffer->capacity() <= most) continue;
+        share = std::min(share, double(most) / double(buffer->capacity()));
+        buffer->set_capacity(most);
+    }
+    return share;
 }
 
 void PhotonStore::build(Recorder& recorder, Workspace& workspace, const PhotonScale& scale) {

@@ -47,11 +47,16 @@ public:
     bool grow();
     /// Photons that the list holds; 0: none was begun.
     std::uint32_t capacity() const { return list_.capacity(); }
+    /// After grow(): 1 if the device has room for what was counted; otherwise the share of it that has, and the capacities
+    /// are then those of the device.
+    double fit(const Device& device);
     /// By the names of photon_lookup.glsl; after build().
     const std::vector<Binding>& bindings() const { return bindings_; }
     const Buffer& photons() const { return *photons_; }
 
 private:
+    std::uint64_t most_photons(const Device& device) const;
+
     CountedBuffer list_, entries_;
     const Buffer* photons_ = nullptr;
     std::vector<Binding> bindings_;

@@ -110,6 +110,8 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
                   "walls"
                 : "opaque objects and thin walls are drawn where they are seen directly, not through refracting glass");
     }
+    if (technique.volumes && !scene.lights.empty() && photons)
+        lines.emplace_back("wavefronts bring the light of lights: photons sent besides are not looked up");
     // A technique that draws volumes says itself what lights do: glass may have become a volume.
     if (!technique.volumes && !scene.lights.empty()) {
         const std::vector<std::string> left_out = light_left_out(scene, technique, light, refractive, opaque, photons);

@@ -191,12 +191,20 @@ void Renderer::Impl::forget_frame() {
     for (int i = 0; i < 2; ++i) workspace.trim();  // the first marks everything as unused
 }
 
-Renderer::Renderer(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options)) {
+Renderer::Renderer(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options, options)) { begin(); }
+
+Renderer::Renderer(const vulkan::LentDevice& device, std::uint32_t threads)
+    : impl_(std::make_unique<Impl>(device, DeviceOptions{.device = name_of(device), .threads = threads})) {
+    begin();
+}
+
+void Renderer::begin() {
     impl_->constants.emplace(impl_->device, "frame constants", sizeof(gpu::FrameConstants),
                              vk::BufferUsageFlagBits::eStorageBuffer, true);
     set_scene(Scene{});
     set_environment(Environment{});
 }
+
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

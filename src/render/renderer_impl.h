@@ -26,8 +26,9 @@ inline bool draws_picture(const FrameSettings& chosen) {
 }
 
 struct Renderer::Impl {
-    explicit Impl(const DeviceOptions& given)
-        : device(given), workspace(device), recorder(device), cpu(given.threads), options(given),
+    template <class Given>
+    Impl(const Given& of_device, const DeviceOptions& given)
+        : device(of_device), workspace(device), recorder(device), cpu(given.threads), options(given),
           solid_lighting(device), photons(device), irradiance(device), adaptation(device) {}
 
     Device device;

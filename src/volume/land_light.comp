@@ -25,7 +25,6 @@ layout(std430, set = 0, binding = 5) readonly buffer Fronts { LightFront fronts[
 
 layout(constant_id = 0) const bool kStraight = false;  // patches as the light emits them
 
-const float kMostRays = 16.0;    // of a patch with all its first power; of others in proportion
 const uint kMostSurfaces = 16u;  // along a straight way
 const float kKernelWidth = 2.0;  // radius of a kernel, of the spacing of photons
 const float kLeastCosine = 0.1;
@@ -44,7 +43,7 @@ float cosine_of(OpaqueHit hit, vec3 direction) {
 // As many rays as keep photons photon_spacing apart where the middle of the patch lands, if its power is worth them.
 ivec2 rays_of(Quad quad, float slack) {
     if (opaque_count == 0u) return ivec2(1);
-    float most = kMostRays * max(quad.power.r, max(quad.power.g, quad.power.b)) / fronts[quad.front].intensity.w;
+    float most = most_photons * max(quad.power.r, max(quad.power.g, quad.power.b)) / fronts[quad.front].intensity.w;
     if (most <= 1.0) return ivec2(1);
     vec3 direction = normalize(quad.v[0] + quad.v[1] + quad.v[2] + quad.v[3]);
     OpaqueHit hit = first_opaque(0.25 * (quad.x[0] + quad.x[1] + quad.x[2] + quad.x[3]), direction, -slack, 1e30);

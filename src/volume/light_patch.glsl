@@ -25,6 +25,7 @@ layout(push_constant) uniform Push {
     float shown_spacing;    // optical length between wavefronts that are shown, m
     float photon_spacing;   // wanted where patches land, m
     float least_radius;     // of photons' kernels, m
+    float most_photons;     // of a patch with all its first power; of others in proportion
 };
 
 struct Quad {

@@ -28,7 +28,7 @@ struct LightPush {
     float power_scale;
     float finest, weakest;
     std::uint32_t reflections;
-    float shown_spacing, photon_spacing, least_radius;
+    float shown_spacing, photon_spacing, least_radius, most_photons;
 };
 struct SumPush {
     std::uint32_t own;
@@ -174,7 +174,7 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
                          settings.steps_per_round, std::ldexp(1.0f, std::min(exponent, 120)), settings.finest,
                          settings.weakest, std::min(settings.reflections, PELLUCID_MOST_REFLECTIONS),
                          shows ? settings.shown_spacing * smallest_voxel_ : 0.0f,
-                         settings.photon_spacing * smallest_voxel_, kLeastRadius * smallest_voxel_},
+                         settings.photon_spacing * smallest_voxel_, kLeastRadius * smallest_voxel_, most_photons_},
                 .rounds = settings.rounds > 0 ? settings.rounds
                                               : std::uint32_t(steps / std::max(1u, settings.steps_per_round)) + 48,
                 .overlapping = volumes.overlapping});
@@ -213,8 +213,19 @@ void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tra
                                     tally = tracing.settings.tally](const gpu::LightState& state) {
                                        read_statistics(state, scale, tally);
                                        lacks_room_ = photons_[shown_].store.grow();
+                                       if (lacks_room_) leave_fewer_photons(photons_[shown_].store);
                                        if (!lacks_room_) key_ = key;
                                    });
+}
+
+/// Where the device has no room for the photons of a tracing, the next one's patches leave fewer.
+void WavefrontTracer::leave_fewer_photons(PhotonStore& store) {
+    constexpr double kMargin = 0.8;
+    constexpr float kLeast = 1e-3f;  // of a patch: below, patches themselves are too many
+    const double share = store.fit(device_);
+    if (share < 1.0) most_photons_ *= float(kMargin * share);
+    if (most_photons_ < kLeast)
+        throw TooLarge(fmt::format("{} has no room for the light of volumes; give fewer patches", device_.info().name));
 }
 
 void WavefrontTracer::build_photons(Recorder& recorder, const Tracing& tracing) {

@@ -82,6 +82,7 @@ private:
     void finish(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
     void build_photons(Recorder& recorder, const Tracing& tracing);
     void resolve_voxels(Recorder& recorder, Workspace& workspace, const Tracing& tracing);
+    void leave_fewer_photons(PhotonStore& store);
     void read_statistics(const gpu::LightState& state, double power_scale, bool tally);
 
     const Device& device_;
@@ -99,6 +100,7 @@ private:
     std::array<KeptPhotons, 2> photons_;
     std::size_t shown_ = 0, filled_ = 0;  ///< of photons_: for look-ups; by the tracing
     bool lacks_room_ = false;
+    float most_photons_ = 16.0f;  ///< that a patch with all its first power leaves
     LightFronts front_list_;
     LightVolumes light_;
     std::vector<Light> lights_;

@@ -57,6 +57,16 @@ inline std::string technique_test_name(const ::testing::TestParamInfo<const char
     return name;
 }
 
+/// All AOVs but the parts of the light, for which every frame is drawn once more.
+inline std::vector<std::string> aovs_of_paths() {
+    std::vector<std::string> names;
+    for (const AovInfo& aov : aov_infos()) {
+        const bool light = std::find(kLightParts.begin(), kLightParts.end(), aov.name) != kLightParts.end();
+        if (!light) names.emplace_back(aov.name);
+    }
+    return names;
+}
+
 inline Environment uniform_environment(glm::vec3 radiance = glm::vec3(1.0f)) {
     Environment environment;
     environment.kind = Environment::Kind::kUniform;

@@ -50,7 +50,7 @@ RenderSettings settings_for(std::string technique) {
     RenderSettings settings;
     settings.width = settings.height = kSize;
     settings.technique = std::move(technique);
-    for (const AovInfo& aov : aov_infos()) settings.aovs.emplace_back(aov.name);
+    settings.aovs = aovs_of_paths();
     return settings;
 }
 

@@ -15,12 +15,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-std::vector<std::string> all_aovs() {
-    std::vector<std::string> names;
-    for (const AovInfo& aov : aov_infos()) names.emplace_back(aov.name);
-    return names;
-}
-
 RenderSettings sized(std::uint32_t width, std::uint32_t height) {
     RenderSettings settings;
     settings.width = width;
@@ -38,7 +32,7 @@ TEST_F(RendererSuite, AnySizeInAnyOrder) {
                                            LayerBuilder::kDepthPeeling, LayerBuilder::kDualDepthPeeling}) {
             RenderSettings settings = sized(width, height);
             settings.layer_builder = builder;
-            settings.aovs = all_aovs();
+            settings.aovs = aovs_of_paths();
             const RenderResult result = renderer().render(settings);
             EXPECT_EQ(result.display.width, int(width));
             EXPECT_EQ(result.display.height, int(height));
@@ -89,7 +83,7 @@ TEST_F(RendererSuite, SameFrameTwiceIsTheSameBitForBit) {
         RenderSettings settings = sized(128, 96);
         settings.technique = technique->name;
         settings.samples = 3;
-        settings.aovs = all_aovs();
+        settings.aovs = aovs_of_paths();
         const RenderResult first = renderer().render(settings);
         const RenderResult second = renderer().render(settings);
         EXPECT_EQ(first.radiance.pixels, second.radiance.pixels) << technique->name;
@@ -113,7 +107,7 @@ TEST_F(RendererSuite, EveryPixelHasAStatusAndNoNanWhateverTheMesh) {
             if (!renderer().lacking(*technique).empty()) continue;
             RenderSettings settings = sized(96, 96);
             settings.technique = technique->name;
-            settings.aovs = all_aovs();
+            settings.aovs = aovs_of_paths();
             const RenderResult result = renderer().render(settings);
             EXPECT_GT(result.covered, 100u) << scene;
             std::uint64_t with_status = 0;
@@ -135,7 +129,7 @@ TEST_F(RendererSuite, SamplesConvergeAndAovsStay) {
     renderer().set_scene(load_scene("shape:sphere"));
     renderer().set_environment(load_environment("checker"));
     RenderSettings settings = sized(48, 48);
-    settings.aovs = all_aovs();
+    settings.aovs = aovs_of_paths();
     const RenderResult one = renderer().render(settings);
     EXPECT_EQ(one.frames.size(), 1u);
     settings.samples = 64;

@@ -22,7 +22,7 @@ RenderSettings settings_of(const char* technique) {
     settings.technique = technique;
     settings.samples = 3;
     settings.paths = true;
-    for (const AovInfo& aov : aov_infos()) settings.aovs.emplace_back(aov.name);
+    settings.aovs = aovs_of_paths();
     return settings;
 }
 
