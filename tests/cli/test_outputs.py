@@ -129,11 +129,11 @@ class PathTraced(CliTest):
         flux = json.loads(self.read("out.json"))["light_flux"]
         self.assertEqual([sorted(entry) for entry in flux], [["direct_w", "object", "photons_w"]])
 
-    def test_other_techniques_have_no_parts(self):
-        run = self.render("shape:sphere", "--technique", "visibility-layers", "--aov", "direct=direct.exr")
+    def test_other_views_have_no_parts(self):
+        run = self.render("shape:sphere", "--view", "analysis", "--aov", "direct=direct.exr")
         self.assertEqual(run.returncode, 2)
         self.assertIn("'direct'", run.stderr)
-        self.assertIn("path", run.stderr)
+        self.assertIn("radiance", run.stderr)
 
     def test_light_that_needs_photons_is_told(self):
         run = self.render("shape:sphere", "--technique", "path", "--photons", "0", "--add-light", "lamp:0,3,0,9")
