@@ -1,6 +1,7 @@
 // The parts of a frame's light as AOVs: emitted, direct, caustic and indirect.
 #include "closed_form/lights.h"
 #include "gpu/gpu_test.h"
+#include "gpu/mean_color.h"
 #include "unit/built_scenes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -86,13 +87,6 @@ protected:
     RenderSettings settings_;
 };
 
-glm::dvec3 mean_light(const Image& image) {
-    glm::dvec3 sum(0.0);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) sum += glm::dvec3(rgb(image, x, y));
-    return sum / double(image.width * image.height);
-}
-
 TEST_P(LightParts, AddUpToThePicture) {
     set(of_everything(), 0.3f, above(6.0f));
     for (const LightTransport transport : {LightTransport::kEnvironment, LightTransport::kFull}) {
@@ -127,10 +121,10 @@ TEST_P(LightPartsByPaths, AGlowingRoomSendsEveryPart) {
     settings_.light.transport = LightTransport::kFull;
     settings_.samples = 40;  // rays look at the cache behind one bounce, which is 1% short by then
     const RenderResult drawn = renderer().render(settings_);
-    EXPECT_NEAR(mean_light(drawn.aovs.at("emitted")).g, 0.5, 1e-5);
-    EXPECT_NEAR(mean_light(drawn.aovs.at("direct")).g, 0.25, 0.005);
-    EXPECT_NEAR(mean_light(drawn.aovs.at("indirect")).g, 0.25, 0.01);
-    EXPECT_EQ(mean_light(drawn.aovs.at("caustic")).g, 0.0);
+    EXPECT_NEAR(mean_color(drawn.aovs.at("emitted")).g, 0.5, 1e-5);
+    EXPECT_NEAR(mean_color(drawn.aovs.at("direct")).g, 0.25, 0.005);
+    EXPECT_NEAR(mean_color(drawn.aovs.at("indirect")).g, 0.25, 0.01);
+    EXPECT_EQ(mean_color(drawn.aovs.at("caustic")).g, 0.0);
 }
 
 // Against the path tracer, which tells the parts apart by its own walk.
@@ -150,9 +144,9 @@ TEST_P(LightPartsByPaths, AreThoseOfThePathTracer) {
     for (const std::string_view part : kLightParts) {
         const std::string name(part);
         SCOPED_TRACE(name);
-        const double expected = mean_light(traced.aovs.at(name)).g;
+        const double expected = mean_color(traced.aovs.at(name)).g;
         // Of the sun's image in the ball, a few pixels, 32 samples know 10%.
-        EXPECT_NEAR(mean_light(drawn.aovs.at(name)).g, expected, (part == "emitted" ? 0.1 : 0.03) * expected + 0.001);
+        EXPECT_NEAR(mean_color(drawn.aovs.at(name)).g, expected, (part == "emitted" ? 0.1 : 0.03) * expected + 0.001);
     }
 }
 

@@ -1,6 +1,7 @@
 // Light of emissive surfaces and of the environment that glass bends and metal reflects, in frames: photons against closed
 // forms and the path tracer.
 #include "gpu/gpu_test.h"
+#include "gpu/mean_color.h"
 #include "unit/built_scenes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -100,12 +101,6 @@ glm::dvec3 integral(const Environment& environment) {
         }
     }
     return sum;
-}
-
-glm::dvec3 mean_color(const Image& image) {
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) sum[int(i % 3)] += double(image.pixels[i]);
-    return 3.0 / double(image.pixels.size()) * sum;
 }
 
 Camera looking_down_on(glm::vec3 target, glm::vec3 from, float extent) {

@@ -1,6 +1,7 @@
 // Light of lights at rough glass in frames, against closed forms and the path tracer.
 #include "closed_form/lights.h"
 #include "gpu/gpu_test.h"
+#include "gpu/mean_color.h"
 #include "unit/built_scenes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -30,13 +31,6 @@ Light disc(glm::vec3 direction, float irradiance, float degrees) {
     Light light = sun(direction, irradiance);
     light.angular_diameter = glm::radians(degrees);
     return light;
-}
-
-glm::dvec3 mean_light(const Image& image) {
-    glm::dvec3 sum(0.0);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) sum += glm::dvec3(rgb(image, x, y));
-    return sum / double(image.width * image.height);
 }
 
 class RoughLights : public TechniqueTest {
@@ -72,8 +66,8 @@ protected:
     void expect_that_of_path(const Scene& scene, std::uint32_t samples, std::uint32_t path_samples,
                              double share = 0.02) {
         set(scene);
-        const glm::dvec3 found = mean_light(draw(GetParam(), samples).radiance);
-        const glm::dvec3 expected = mean_light(draw("path", path_samples).radiance);
+        const glm::dvec3 found = mean_color(draw(GetParam(), samples).radiance);
+        const glm::dvec3 expected = mean_color(draw("path", path_samples).radiance);
         EXPECT_GT(expected.g, 0.0);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], share * expected[c]) << "channel " << c;
     }
@@ -92,7 +86,7 @@ TEST_P(RoughLights, ABallIsUnseenBetweenTwoSuns) {
         scene.lights[1].direction = -scene.lights[0].direction;
         set(scene);
         const double sky = 2.0 / (2.0 * double(kPi));
-        EXPECT_NEAR(mean_light(draw(GetParam(), 16).radiance).g, sky, 0.003 * sky);
+        EXPECT_NEAR(mean_color(draw(GetParam(), 16).radiance).g, sky, 0.003 * sky);
     }
 }
 
@@ -138,8 +132,8 @@ TEST_P(RoughLights, PartsAreThoseOfThePathTracer) {
     for (const std::string_view part : kLightParts) {
         const std::string name(part);
         SCOPED_TRACE(name);
-        const double expected = mean_light(traced.aovs.at(name)).g;
-        EXPECT_NEAR(mean_light(drawn.aovs.at(name)).g, expected, 0.03 * expected + 1e-5);
+        const double expected = mean_color(traced.aovs.at(name)).g;
+        EXPECT_NEAR(mean_color(drawn.aovs.at(name)).g, expected, 0.03 * expected + 1e-5);
     }
 }
 
@@ -153,8 +147,8 @@ TEST_P(RoughLights, OneSampleShowsHighlights) {
         SCOPED_TRACE(part);
         scene.lights = {lamp({0.2f, 1.5f * side, -1.0f}, 3.0f)};
         set(scene);
-        const double found = mean_light(draw(GetParam(), 1).aovs.at(part)).g;
-        const double expected = mean_light(draw("path", 256).aovs.at(part)).g;
+        const double found = mean_color(draw(GetParam(), 1).aovs.at(part)).g;
+        const double expected = mean_color(draw("path", 256).aovs.at(part)).g;
         EXPECT_NEAR(found, expected, (side > 0.0f ? 0.05 : 0.3) * expected);
     }
     settings_.aovs.clear();
@@ -191,8 +185,8 @@ TEST_P(RoughLights, TranslucentFloorsShowCaustics) {
     set(scene);
     settings_.light.transport = LightTransport::kFull;
     settings_.aovs = {"caustic"};
-    const glm::dvec3 found = mean_light(draw(GetParam(), 16).aovs.at("caustic"));
-    const glm::dvec3 expected = mean_light(draw("path", 64).aovs.at("caustic"));
+    const glm::dvec3 found = mean_color(draw(GetParam(), 16).aovs.at("caustic"));
+    const glm::dvec3 expected = mean_color(draw("path", 64).aovs.at("caustic"));
     EXPECT_GT(expected.g, 0.0);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 0.05 * expected[c]) << "channel " << c;
 }

@@ -36,9 +36,10 @@ struct IrradianceGrid {
 static_assert(sizeof(IrradianceGrid) == 48);
 constexpr vk::DeviceSize kNodeSize = 48;
 
-/// Frames send on what earlier ones have found, so the later ones' samples know of more light. Weighted by the square of the
-/// frame's number, what is missing after n frames where surfaces reflect a share r falls as n^(3r - 3), not as n^(r - 1), and
-/// the mean is as noisy as that of 5 n / 9 samples alike.
+/// Frames send on what earlier ones have found, so the later ones' samples know of more light. From the fourth frame to the
+/// sixteenth, weights grow as the square of the frame's number n: what is missing where surfaces reflect a share r then falls
+/// as n^(3r - 3), not as n^(r - 1), and the mean is as noisy as that of 5 n / 9 samples alike. After that they stay, so that
+/// counts fit.
 std::uint32_t weight_of(std::uint32_t frame) { return std::clamp(frame * frame / 16, 1u, 16u); }
 
 gpu::FrameConstants constants_of(const Frame& frame) {
