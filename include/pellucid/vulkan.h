@@ -2,12 +2,17 @@
 
 // Pellucid on a Vulkan device of the caller's. The only public header with Vulkan's types.
 #include <pellucid/api.h>
+#include <pellucid/renderer.h>
 
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace pellucid::vulkan {
 
@@ -46,6 +51,97 @@ struct LentDevice {
     /// not turned on is not used: info `absent` of Renderer::device() says what happens instead.
     const VkPhysicalDeviceFeatures2* features = nullptr;
     std::span<const char* const> extensions;
+    /// Locked around every use of `queue`, if given: Frames::submit() uses it from a thread of its own. Whoever else uses the
+    /// queue locks it, too.
+    std::mutex* queue_mutex = nullptr;
+};
+
+/// An image of the caller's that a frame is drawn to: two-dimensional, one sample, of usage TRANSFER_DST.
+struct Target {
+    VkImage image = VK_NULL_HANDLE;
+    /// R8G8B8A8 or B8G8R8A8, UNORM or SRGB: RenderResult::display, with alpha 1. R32G32B32A32_SFLOAT: RenderResult::radiance,
+    /// the mean of the samples that the picture has so far.
+    VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
+    VkOffset2D offset{0, 0};                           ///< of the frame's first texel
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< before the frame; UNDEFINED: what the image holds may go
+    VkImageLayout layout_after = VK_IMAGE_LAYOUT_GENERAL;
+};
+
+/// A semaphore to wait for or to signal. `value`: of a timeline semaphore; binary ones have none.
+struct SemaphoreValue {
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    std::uint64_t value = 0;
+};
+
+/// A frame that was recorded or submitted; ascending from 1.
+using Ticket = std::uint64_t;
+
+/// What is known of a frame once it has run.
+struct FrameReport {
+    /// Of the picture, with this frame's. RenderSettings::samples: the picture is finished. 0: something overflowed.
+    std::uint32_t samples = 0;
+    /// What had no room in this frame, which therefore shows less than there is: one line each. The next frame has room.
+    std::vector<std::string> overflows;
+    std::vector<PassTime> passes;  ///< empty where the device has no timestamps
+    LightTransport light = LightTransport::kEnvironment;
+    std::vector<std::string> warnings;  ///< what of the scene is drawn otherwise than it is; one line each
+};
+
+/// Objects of Vulkan that a renderer has made so far.
+struct Made {
+    std::uint64_t allocations = 0;  ///< of device memory
+    std::uint64_t pipelines = 0;
+    std::uint64_t pools = 0;  ///< of commands, descriptors and queries
+};
+
+/// Frames of a Renderer that run while the caller goes on. Not thread safe; used by the thread that uses the renderer, which
+/// outlives it. While a ticket has not been read, Renderer::render() and set_scene() throw Error; the other setters do not
+/// wait, and hold for the frames after them.
+///
+/// RenderSettings::samples frames of equal settings, of a scene that does not change, make a picture together: each adds a
+/// sample, and what its target gets is their mean, in the end that of Renderer::render(), bit for bit. Frames after that
+/// show it again. With `samples` 1 every frame is a picture. AOVs, `error`, `paths` and the tone map kKrawczyk are of
+/// stills: frames refuse them.
+class PELLUCID_API Frames {
+public:
+    /// `in_flight`: tickets that may be unread at a time, 1 to 8.
+    explicit Frames(Renderer& renderer, std::uint32_t in_flight = 2);
+    /// Waits for frames that were submitted. Commands that were recorded must have run, or never will.
+    ~Frames();
+    Frames(const Frames&) = delete;
+    Frames& operator=(const Frames&) = delete;
+
+    /// Why record() would refuse these settings, in words that follow "cannot be recorded: "; empty: it would not.
+    std::string unrecordable(const RenderSettings& settings) const;
+
+    /// Records a frame into `commands`, which are recording, outside of a render pass, for the renderer's queue family. Does
+    /// not wait. The commands run once, in the order of the tickets; read() comes after they have, and lets go of what they
+    /// use. Throws Error if the settings cannot be recorded, or if in_flight tickets are unread.
+    Ticket record(VkCommandBuffer commands, const RenderSettings& settings, const Target& target);
+
+    /// Draws a frame by submissions of its own, after `wait` and before `signal`. Takes every technique; does not wait: where
+    /// the host has a part in the frame, a thread of the renderer's sees to it. Then binary semaphores are signalled by
+    /// submissions that may come later; timeline semaphores may be waited for before. Throws Error for settings out of range,
+    /// or if in_flight tickets are unread.
+    Ticket submit(const RenderSettings& settings, const Target& target, std::span<const SemaphoreValue> wait = {},
+                  std::span<const SemaphoreValue> signal = {});
+
+    /// What became of a frame; nothing while it runs. Tickets are read in their order, each once. Throws DeviceError if
+    /// the frame failed.
+    std::optional<FrameReport> read(Ticket ticket);
+    /// Waits for a frame that was submitted, then reads it.
+    FrameReport wait(Ticket ticket);
+    std::uint32_t unread() const;
+
+    /// The next frame begins a new picture.
+    void restart();
+
+    /// What the renderer has made so far: steady frames make nothing.
+    Made made() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace pellucid::vulkan
