@@ -36,6 +36,8 @@ struct LightOptions {
     /// interface, reflections included. Techniques that see the whole scene do as empty does.
     std::string caustics = {};
     std::uint32_t bounces = 2;  ///< reflections that rays follow, 0 to 7, before a cache has the rest; kFull
+
+    bool operator==(const LightOptions&) const = default;
 };
 
 }  // namespace pellucid

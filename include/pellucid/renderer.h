@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pellucid/animation.h>
 #include <pellucid/api.h>
 #include <pellucid/device.h>
 #include <pellucid/display.h>
@@ -30,7 +31,8 @@ namespace pellucid {
 
 namespace vulkan {
 struct LentDevice;
-}
+class Frames;
+}  // namespace vulkan
 
 struct RenderSettings {
     std::uint32_t width = 512;  ///< pixels, >= 1
@@ -124,9 +126,19 @@ public:
     /// of them is next asked for, and techniques that bake (TechniqueInfo::bakes) do so again if glass has moved. If
     /// the device fails in between, the shape is undefined until the next call. A camera that was not set keeps framing what there is.
     void set_positions(const std::vector<MovedMesh>& moved);
+    /// Moves objects of the scene that was set. Throws Error, and moves nothing, if there is no such object or a placement is
+    /// not affine and invertible. Which solid displaces which is found anew, and what techniques bake.
+    void set_transforms(const std::vector<PosedObject>& moved);
+    /// Replaces one of Scene::materials; its textures must be those that it has. Throws Error, and changes nothing, if it
+    /// must not, or if there is no such material.
+    void set_material(int index, const Material& material);
+    /// Replaces one of the lights. Throws Error, and changes nothing, if there is no such light or it is out of range.
+    void set_light(int index, const Light& light);
     /// The lights from now on, in place of the scene's. Throws Error, and changes nothing, if one is out of range.
     void set_lights(const std::vector<Light>& lights);
     void set_environment(const Environment& environment);
+    /// Turns and scales the environment that was set (Environment::rotation and intensity).
+    void turn_environment(float rotation, float intensity);
     /// Default: the scene's first camera, or one that frames the scene (azimuth 0, elevation 15
     /// degrees, 30 degrees of field, the bounding sphere filling 70% of the height).
     void set_camera(const Camera& camera);
@@ -154,6 +166,7 @@ public:
     const std::vector<std::string>& validation_messages() const;
 
 private:
+    friend class vulkan::Frames;
     void begin();
 
     struct Impl;

@@ -57,6 +57,8 @@ struct TechniqueInfo {
     bool volumes = false;
     /// Lights of the scene light its refracting glass.
     bool lit_glass = false;
+    /// Its frames run on the device alone, so that vulkan::Frames can record them into commands of the caller's.
+    bool recordable = true;
 };
 
 /// Every technique by its publication, then those that trace rays, then the truths (TechniqueInfo::reference).

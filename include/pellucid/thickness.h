@@ -39,6 +39,8 @@ struct ThicknessSettings {
     /// one is not counted; an odd one out is the entry of a solid whose exit is not known, and counts nothing.
     std::uint32_t layers = 8;
     std::uint32_t resolution = 1024;  ///< texels along a side of a light's map, from 2
+
+    bool operator==(const ThicknessSettings&) const = default;
 };
 
 /// What is measured for one light.

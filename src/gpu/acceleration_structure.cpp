@@ -67,20 +67,20 @@ void AccelerationStructure::create(const Device& device, std::string name, Type 
     const vk::AccelerationStructureBuildSizesInfoKHR sizes = device.handle().getAccelerationStructureBuildSizesKHR(
         vk::AccelerationStructureBuildTypeKHR::eDevice, build_info(Mode::eBuild), primitive_count_);
     scratch_size_ = std::max(sizes.buildScratchSize, sizes.updateScratchSize);
-    storage_ = Buffer(
+    handles_->storage = Buffer(
         device, std::move(name), sizes.accelerationStructureSize,
         vk::BufferUsageFlagBits::eAccelerationStructureStorageKHR | vk::BufferUsageFlagBits::eShaderDeviceAddress);
-    structure_ = device.handle().createAccelerationStructureKHR(
-        {.buffer = storage_.handle(), .size = sizes.accelerationStructureSize, .type = type});
-    address_ = device.handle().getAccelerationStructureAddressKHR({.accelerationStructure = *structure_});
+    handles_->structure = device.handle().createAccelerationStructureKHR(
+        {.buffer = handles_->storage.handle(), .size = sizes.accelerationStructureSize, .type = type});
+    address_ = device.handle().getAccelerationStructureAddressKHR({.accelerationStructure = *handles_->structure});
 }
 
 vk::AccelerationStructureBuildGeometryInfoKHR AccelerationStructure::build_info(Mode mode) const {
     return {.type = type_,
             .flags = flags_,
             .mode = mode,
-            .srcAccelerationStructure = mode == Mode::eUpdate ? *structure_ : vk::AccelerationStructureKHR(),
-            .dstAccelerationStructure = *structure_,
+            .srcAccelerationStructure = mode == Mode::eUpdate ? *handles_->structure : vk::AccelerationStructureKHR(),
+            .dstAccelerationStructure = *handles_->structure,
             .geometryCount = 1,
             .pGeometries = &geometry_};
 }

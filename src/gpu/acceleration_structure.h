@@ -36,9 +36,11 @@ public:
     AccelerationStructure(const Device& device, std::string name, Triangles triangles, StructureUse use);
     AccelerationStructure(const Device& device, std::string name, Instances instances, StructureUse use);
 
-    vk::AccelerationStructureKHR handle() const { return *structure_; }
+    vk::AccelerationStructureKHR handle() const { return *handles_->structure; }
     vk::DeviceAddress address() const { return address_; }
-    ResourceId id() const { return storage_.id(); }
+    ResourceId id() const { return handles_->storage.id(); }
+    /// As Buffer::held().
+    std::shared_ptr<const void> held() const { return handles_; }
 
     /// Bytes of scratch memory that building it, or refitting it, needs at most.
     vk::DeviceSize scratch_size() const { return scratch_size_; }
@@ -49,8 +51,11 @@ public:
 private:
     void create(const Device& device, std::string name, vk::AccelerationStructureTypeKHR type, StructureUse use);
 
-    Buffer storage_;  // outlives structure_
-    vk::raii::AccelerationStructureKHR structure_ = nullptr;
+    struct Handles {
+        Buffer storage;  // outlives the structure
+        vk::raii::AccelerationStructureKHR structure = nullptr;
+    };
+    std::shared_ptr<Handles> handles_ = std::make_shared<Handles>();
     vk::DeviceAddress address_ = 0;
     vk::AccelerationStructureTypeKHR type_ = vk::AccelerationStructureTypeKHR::eGeneric;
     vk::BuildAccelerationStructureFlagsKHR flags_;
@@ -65,6 +70,7 @@ public:
     BuildScratch(const Device& device, vk::DeviceSize size);
     vk::DeviceAddress address() const { return address_; }  ///< aligned as the device wants it
     ResourceId id() const { return buffer_.id(); }
+    std::shared_ptr<const void> held() const { return buffer_.held(); }
 
 private:
     Buffer buffer_;

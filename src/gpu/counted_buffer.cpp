@@ -37,9 +37,9 @@ const Buffer& CountedBuffer::begin(Recorder& recorder, Workspace& workspace, std
 }
 
 void CountedBuffer::end(Recorder& recorder, std::function<void(std::uint32_t)> then) {
-    recorder.read<glm::uvec2>(*buffer_, 0, [this, then = std::move(then)](const glm::uvec2& counts) {
+    recorder.read<glm::uvec2>(*buffer_, 0, [counted = counted_, then = std::move(then)](const glm::uvec2& counts) {
         const std::uint32_t items = std::max(counts.x, counts.y);
-        counted_ = std::max(counted_, items);
+        *counted = std::max(*counted, items);
         if (then) then(items);
     });
 }
@@ -53,7 +53,7 @@ const Buffer& CountedBuffer::groups(Recorder& recorder, Workspace& workspace) co
 }
 
 bool CountedBuffer::grow() {
-    const std::uint32_t needed = std::exchange(counted_, 0);
+    const std::uint32_t needed = std::exchange(*counted_, 0);
     if (needed <= capacity_) return false;
     set_capacity(std::max<std::uint64_t>(needed, std::min<std::uint64_t>(limit_, needed + std::uint64_t(needed) / 4)));
     return true;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace pellucid {
@@ -31,6 +32,7 @@ public:
 
     /// After the frame has run: true if items did not fit. The capacity is then a quarter more than they need.
     bool grow();
+    const std::string& name() const { return name_; }
 
     const Buffer& buffer() const { return *buffer_; }     ///< begun in this frame
     std::uint32_t capacity() const { return capacity_; }  ///< items; 0: not set
@@ -44,7 +46,8 @@ private:
     vk::Format texels_;
     bool host_visible_;
     std::uint32_t capacity_ = 0, limit_ = 0;
-    std::uint32_t counted_ = 0;       ///< the most items since the last grow()
+    /// The most items since the last grow(); shared with frames that run.
+    std::shared_ptr<std::uint32_t> counted_ = std::make_shared<std::uint32_t>(0);
     const Buffer* buffer_ = nullptr;  ///< of this frame
 };
 

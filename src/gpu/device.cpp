@@ -271,8 +271,14 @@ void Device::borrow(const vulkan::LentDevice& lent) {
     device_ = vk::raii::Device(physical, lent.device);
     queue_ = vk::raii::Queue(device_, lent.queue);
     queue_family_ = lent.queue_family;
+    if (lent.queue_mutex != nullptr) queue_mutex_ = lent.queue_mutex;
     describe_limits(physical);
     use(features, physical);
+}
+
+void Device::submit(const vk::SubmitInfo2& info, vk::Fence fence) const {
+    const std::lock_guard lock(*queue_mutex_);
+    queue_.submit2(info, fence);
 }
 
 std::uint32_t Device::memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags required,

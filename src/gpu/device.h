@@ -7,9 +7,12 @@
 #include <pellucid/vulkan.h>
 
 #include <cstdint>
+#include <iterator>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pellucid {
@@ -19,6 +22,15 @@ struct RayTracingLimits {
     std::uint32_t scratch_alignment;  ///< bytes, of the address of a build's scratch memory
     std::uint64_t max_triangles;      ///< in one acceleration structure
     std::uint64_t max_instances;
+};
+
+/// Words that a buffer gets at the beginning of the next frame; see upload_later() in gpu/memory.h.
+struct PendingUpload {
+    vk::Buffer buffer;
+    std::uint64_t id;                  ///< its ResourceId
+    std::shared_ptr<const void> held;  ///< Buffer::held()
+    std::vector<std::byte> data;
+    vk::DeviceSize offset;
 };
 
 /// The name of a lent device; empty if it has no instance or physical device.
@@ -36,7 +48,8 @@ public:
     Device& operator=(const Device&) = delete;
 
     const vk::raii::Device& handle() const { return device_; }
-    const vk::raii::Queue& queue() const { return queue_; }
+    /// Throws vk::DeviceLostError.
+    void submit(const vk::SubmitInfo2& info, vk::Fence fence) const;
     std::uint32_t queue_family() const { return queue_family_; }
     const DeviceInfo& info() const { return info_; }
     const vk::PhysicalDeviceLimits& limits() const { return limits_; }
@@ -61,6 +74,16 @@ public:
     std::uint32_t memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags required,
                               vk::MemoryPropertyFlags preferred = {}) const;
 
+    /// What has been made on it so far.
+    vulkan::Made& made() const { return *made_; }
+    void add_upload(PendingUpload upload) const { uploads_->push_back(std::move(upload)); }
+    /// Puts them before those that have been added since they were taken.
+    void give_uploads_back(std::vector<PendingUpload> taken) const {
+        uploads_->insert(uploads_->begin(), std::make_move_iterator(taken.begin()),
+                         std::make_move_iterator(taken.end()));
+    }
+    std::vector<PendingUpload> take_uploads() const { return std::exchange(*uploads_, {}); }
+
     /// What the validation layer has said so far, in order.
     const std::vector<std::string>& validation_messages() const { return *messages_; }
 
@@ -78,6 +101,10 @@ private:
     vk::raii::Device device_ = nullptr;
     vk::raii::Queue queue_ = nullptr;
     std::uint32_t queue_family_ = 0;
+    std::mutex own_queue_mutex_;
+    std::mutex* queue_mutex_ = &own_queue_mutex_;
+    std::unique_ptr<vulkan::Made> made_ = std::make_unique<vulkan::Made>();
+    std::unique_ptr<std::vector<PendingUpload>> uploads_ = std::make_unique<std::vector<PendingUpload>>();
     DeviceInfo info_;
     vk::PhysicalDeviceLimits limits_;
     vk::PhysicalDeviceMemoryProperties memory_;

@@ -75,7 +75,6 @@ GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Envi
     recorder.compute(workspace.compute(shaders::tabulate_irradiance_comp),
                      {reads_layer("pyramid", pyramid, 0), writes("filtered_environment", filtered)},
                      {PELLUCID_FACET_TABLE_SIZE, PELLUCID_FACET_TABLE_SIZE});
-    recorder.submit_and_wait();
     return filtered;
 }
 

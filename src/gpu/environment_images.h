@@ -15,7 +15,7 @@ void set_environment(gpu::FrameConstants& constants, const Environment& environm
 GpuImage upload_environment(const Device& device, const Environment& environment);
 
 /// The environment as rough surfaces reflect it, for gpu/filtered_environment.glsl. `map` is what
-/// upload_environment() made of it. Waits for the device; nothing may be in recording.
+/// upload_environment() made of it. Records; what it returns holds that once the recording has run.
 GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Environment& environment,
                             const GpuImage& map);
 

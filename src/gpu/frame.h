@@ -2,6 +2,7 @@
 
 #include "gpu/binding.h"
 #include "gpu/gpu_scene.h"
+#include "gpu/structs.h"
 #include "gpu/workspace.h"
 
 #include <optional>
@@ -34,6 +35,7 @@ struct Frame {
     Workspace& workspace;
     const GpuScene& scene;
     const Buffer& constants;               ///< one gpu::FrameConstants, bound as "Frame"
+    gpu::FrameConstants view;              ///< what `constants` holds when the frame runs
     const GpuImage& environment;           ///< map, or one texel if the environment is a formula
     const GpuImage& filtered_environment;  ///< see gpu/environment_images.h; what stands in for it if !scene.rough
     std::uint32_t environment_kind;        ///< pellucid::Environment::Kind
@@ -48,6 +50,7 @@ struct Frame {
         nullptr;  ///< gpu/environment_shares.h, where surfaces look for what hides it; null: none do
     const std::vector<Binding>* irradiance = nullptr;    ///< of a cache, for look-ups; null: there is none
     std::uint32_t bounces_before_cache = 0;              ///< that paths follow before the cache stands for the rest
+    bool recorded = false;                               ///< into commands of the caller's: the host has no part in it
     std::optional<float> front_exposure = std::nullopt;  ///< View::kWavefront: factor of what it shows
 
     std::vector<Binding> group = {reads("Frame", constants),
@@ -66,10 +69,13 @@ struct Frame {
     Binding bindings() const { return all_of(group); }
 };
 
-/// The scene of a frame as another view sees it, without light on surfaces. `constants`: of that view.
-inline Frame seen_from(const Frame& frame, Workspace& workspace, const Buffer& constants, vk::Extent2D extent) {
-    return {workspace, frame.scene, constants, frame.environment, frame.filtered_environment, frame.environment_kind,
-            extent};
+/// The scene of a frame as another view sees it, without light on surfaces. `constants`: a buffer that `view` has been, or will
+/// be, written to.
+inline Frame seen_from(const Frame& frame, Workspace& workspace, const Buffer& constants,
+                       const gpu::FrameConstants& view, vk::Extent2D extent) {
+    return {
+        workspace, frame.scene, constants, view, frame.environment, frame.filtered_environment, frame.environment_kind,
+        extent};
 }
 
 }  // namespace pellucid

@@ -41,6 +41,16 @@ Buffer upload_buffer(const Device& device, const char* name, const std::vector<T
     return buffer;
 }
 
+/// As the frames after this see it. The buffer is made anew where its size differs.
+template <class T>
+void write_buffer(const Device& device, Buffer& buffer, const char* name, const std::vector<T>& data) {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(data));
+    if (buffer.size() != bytes.size())
+        buffer = Buffer(device, name, bytes.size(),
+                        vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
+    upload_later(device, buffer, bytes);
+}
+
 /// Vertices and triangles of every mesh, one after the other.
 struct Geometry {
     std::vector<std::uint32_t> indices;
@@ -99,8 +109,9 @@ Geometry join_meshes(const Scene& scene) {
     return geometry;
 }
 
-gpu::MaterialRecord material_record(const Material& material, TextureTable& textures) {
-    gpu::MaterialRecord record{};
+/// All of it but textures.
+void fill_record(const Material& material, gpu::MaterialRecord& record) {
+    record = {};
     record.base_color = material.base_color;
     record.emission = glm::vec4(material.emission, 0.0f);
     record.sigma_a = glm::vec4(material.sigma_a(), material.thickness);
@@ -110,10 +121,6 @@ gpu::MaterialRecord material_record(const Material& material, TextureTable& text
     record.flags = (material.unlit ? PELLUCID_MATERIAL_UNLIT : 0u) |
                    (material.alpha_is_coverage ? PELLUCID_MATERIAL_COVERAGE : 0u) |
                    (material.single_sided() ? PELLUCID_MATERIAL_SINGLE_SIDED : 0u);
-    record.base_color_texture = textures.add(material.base_color_texture, true);
-    record.emission_texture = textures.add(material.emission_texture, true);
-    record.transmission_texture = textures.add(material.transmission_texture, false);
-    record.metallic_roughness_texture = textures.add(material.metallic_roughness_texture, false);
     record.metallic = material.metallic;
     record.roughness = material.roughness;
     record.dispersion = material.dispersion;
@@ -123,6 +130,15 @@ gpu::MaterialRecord material_record(const Material& material, TextureTable& text
         record.diffuse_transmission = glm::vec4(share * material.diffuse_transmission_color, 0.0f);
         record.base_color = glm::vec4((1.0f - share) * glm::vec3(material.base_color), material.base_color.a);
     }
+}
+
+gpu::MaterialRecord material_record(const Material& material, TextureTable& textures) {
+    gpu::MaterialRecord record;
+    fill_record(material, record);
+    record.base_color_texture = textures.add(material.base_color_texture, true);
+    record.emission_texture = textures.add(material.emission_texture, true);
+    record.transmission_texture = textures.add(material.transmission_texture, false);
+    record.metallic_roughness_texture = textures.add(material.metallic_roughness_texture, false);
     return record;
 }
 
@@ -145,12 +161,9 @@ void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, st
     }
 }
 
-GpuScene::GpuScene(const Device& device, const Scene& scene)
-    : bounds(scene_bounds(scene)), refractive_corners(box_corners(scene, &Material::refractive)),
-      translucent_corners(box_corners(scene, &Material::translucent)) {
+GpuScene::GpuScene(const Device& device, const Scene& scene) {
     const Geometry geometry = join_meshes(scene);
     TextureTable texture_table(scene);
-    std::vector<gpu::MaterialRecord> material_records;
     for (const Material& material : scene.materials)
         material_records.push_back(material_record(material, texture_table));
 
@@ -158,6 +171,36 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
         const auto [low, high] = box_of(scene.meshes[m]);
         meshes.push_back({geometry.first_corner[m], std::uint32_t(scene.meshes[m].triangles.size()), low, high});
     }
+    const std::vector<gpu::ObjectRecord> object_records = list_objects(scene);
+    object_count = std::uint32_t(object_records.size());
+    vertex_count = std::uint32_t(geometry.vertices.size());
+
+    using Usage = vk::BufferUsageFlagBits;
+    vk::BufferUsageFlags geometry_usage = Usage::eStorageBuffer;
+    if (device.ray_tracing()) {
+        geometry_usage |= Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress;
+    }
+    indices = upload_buffer(device, "the scene's triangles", geometry.indices, geometry_usage);
+    vertices = upload_buffer(device, "the scene's vertices", geometry.vertices, geometry_usage);
+    appearance = upload_buffer(device, "the scene's texture coordinates", geometry.appearance, Usage::eStorageBuffer);
+    objects = upload_buffer(device, "the scene's objects", object_records, Usage::eStorageBuffer);
+    materials = upload_buffer(device, "the scene's materials", material_records, Usage::eStorageBuffer);
+    texture_pages = texture_table.upload_pages(device);
+    textures = upload_buffer(device, "the scene's textures", texture_table.records(), Usage::eStorageBuffer);
+    set_lights(device, scene.lights);
+    list_emitters(device, scene);
+}
+
+std::vector<gpu::ObjectRecord> GpuScene::list_objects(const Scene& scene) {
+    bounds = scene_bounds(scene);
+    refractive_corners = box_corners(scene, &Material::refractive);
+    translucent_corners = box_corners(scene, &Material::translucent);
+    for (auto* list : {&refractive, &thin_walled, &opaque, &translucent}) list->clear();
+    first_triangles.clear();
+    mesh_of_object.clear();
+    world_from_object.clear();
+    rough_glass = textured_glass = dispersive = rough = false;
+    triangle_count = 0;
     std::vector<gpu::ObjectRecord> object_records;
     for (const Object& object : scene.objects) {
         const Mesh& mesh = scene.meshes[std::size_t(object.mesh)];
@@ -170,7 +213,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
         first_triangles.push_back(record.first_triangle);
         world_from_object.push_back(object.world_from_object);
         mesh_of_object.push_back(std::uint32_t(object.mesh));
-        record.first_corner = geometry.first_corner[std::size_t(object.mesh)];
+        record.first_corner = meshes[std::size_t(object.mesh)].first_corner;
         record.mirrored = glm::determinant(glm::mat3(object.world_from_object)) < 0.0f ? 1u : 0u;
 
         const DrawCall call{record.first_corner, std::uint32_t(3 * mesh.triangles.size()),
@@ -193,23 +236,7 @@ GpuScene::GpuScene(const Device& device, const Scene& scene)
     if (triangle_count >= PELLUCID_BACK_FACE) {
         throw Error(fmt::format("{}: {} triangles are more than can be addressed", scene.source, triangle_count));
     }
-    object_count = std::uint32_t(object_records.size());
-    vertex_count = std::uint32_t(geometry.vertices.size());
-
-    using Usage = vk::BufferUsageFlagBits;
-    vk::BufferUsageFlags geometry_usage = Usage::eStorageBuffer;
-    if (device.ray_tracing()) {
-        geometry_usage |= Usage::eAccelerationStructureBuildInputReadOnlyKHR | Usage::eShaderDeviceAddress;
-    }
-    indices = upload_buffer(device, "the scene's triangles", geometry.indices, geometry_usage);
-    vertices = upload_buffer(device, "the scene's vertices", geometry.vertices, geometry_usage);
-    appearance = upload_buffer(device, "the scene's texture coordinates", geometry.appearance, Usage::eStorageBuffer);
-    objects = upload_buffer(device, "the scene's objects", object_records, Usage::eStorageBuffer);
-    materials = upload_buffer(device, "the scene's materials", material_records, Usage::eStorageBuffer);
-    texture_pages = texture_table.upload_pages(device);
-    textures = upload_buffer(device, "the scene's textures", texture_table.records(), Usage::eStorageBuffer);
-    set_lights(device, scene.lights);
-    list_emitters(device, scene);
+    return object_records;
 }
 
 void GpuScene::list_emitters(const Device& device, const Scene& scene) {
@@ -222,14 +249,14 @@ void GpuScene::list_emitters(const Device& device, const Scene& scene) {
         emitted_power = (emission.r + emission.g + emission.b) / records.front().density;
     }
     if (records.empty()) records.push_back({});  // something has to be bound
-    emitters = upload_buffer(device, "emissive triangles", records, vk::BufferUsageFlagBits::eStorageBuffer);
+    write_buffer(device, emitters, "emissive triangles", records);
 }
 
 void GpuScene::set_lights(const Device& device, std::span<const Light> given) {
     std::vector<PunctualLight> records(std::max<std::size_t>(given.size(), 1));  // something has to be bound
     std::transform(given.begin(), given.end(), records.begin(), punctual_light);
     light_count = std::uint32_t(given.size());
-    lights = upload_buffer(device, "the scene's lights", records, vk::BufferUsageFlagBits::eStorageBuffer);
+    write_buffer(device, lights, "the scene's lights", records);
 }
 
 void GpuScene::prepare_topology(const Device& device, const Scene& scene) {
@@ -256,9 +283,44 @@ void GpuScene::move_vertices(const Device& device, const Scene& scene, std::span
         std::size_t first = 0;  // vertices of the meshes before
         for (int m = 0; m < mesh; ++m) first += scene.meshes[std::size_t(m)].positions.size();
         const std::vector<Vertex> data = vertices_of(scene.meshes[std::size_t(mesh)]);
-        upload(device, vertices, std::as_bytes(std::span(data)), first * sizeof(Vertex));
+        upload_later(device, vertices, std::as_bytes(std::span(data)), first * sizeof(Vertex));
     }
     if (emitter_count > 0) list_emitters(device, scene);
+}
+
+void GpuScene::move_objects(const Device& device, const Scene& scene, std::span<const int> moved) {
+    if (moved.empty()) return;
+    ++moves;
+    object_moves.resize(object_count, 0);
+    bool glass = false;
+    for (const int object : moved) {
+        object_moves[std::size_t(object)] = moves;
+        const Object& own = scene.objects[std::size_t(object)];
+        glass = glass || scene.materials[std::size_t(own.material)].refractive();
+    }
+    if (glass) prepared.clear();
+    topology.reset();  // who displaces whom may differ
+    const std::vector<gpu::ObjectRecord> records = list_objects(scene);
+    upload_later(device, objects, std::as_bytes(std::span(records)));
+    if (emitter_count > 0) list_emitters(device, scene);
+}
+
+void GpuScene::set_material(const Device& device, const Scene& scene, std::size_t material, bool was_refractive) {
+    ++moves;
+    object_moves.assign(object_count, moves);
+    if (was_refractive != scene.materials[material].refractive()) prepared.clear();
+    topology.reset();
+    gpu::MaterialRecord& record = material_records[material];
+    const gpu::MaterialRecord before = record;
+    fill_record(scene.materials[material], record);
+    record.base_color_texture = before.base_color_texture;
+    record.emission_texture = before.emission_texture;
+    record.transmission_texture = before.transmission_texture;
+    record.metallic_roughness_texture = before.metallic_roughness_texture;
+    upload_later(device, materials, std::as_bytes(std::span(&record, 1)), material * sizeof(record));
+    const std::vector<gpu::ObjectRecord> records = list_objects(scene);
+    upload_later(device, objects, std::as_bytes(std::span(records)));
+    list_emitters(device, scene);
 }
 
 }  // namespace pellucid

@@ -37,14 +37,19 @@ struct PreparedState {
 struct GpuScene {
     GpuScene(const Device& device, const Scene& scene);
 
-    /// Uploads the vertices of the `moved` meshes as `scene` has them now; all else of it is as it was. No frame may
-    /// be in flight.
+    /// The next frame sees the vertices of the `moved` meshes as `scene` has them now; all else of it is as it was.
     void move_vertices(const Device& device, const Scene& scene, std::span<const int> moved);
 
-    /// Uploads the lights from now on. No frame may be in flight.
+    /// The next frame sees the `moved` objects where `scene` has them now.
+    void move_objects(const Device& device, const Scene& scene, std::span<const int> moved);
+
+    /// The next frame sees a material as `scene` has it now, whose textures are as they were.
+    void set_material(const Device& device, const Scene& scene, std::size_t material, bool was_refractive);
+
+    /// The lights from the next frame on.
     void set_lights(const Device& device, std::span<const Light> given);
 
-    /// Lists the triangles that emit light, as `scene` is now. No frame may be in flight.
+    /// Lists the triangles that emit light, as `scene` is now.
     void list_emitters(const Device& device, const Scene& scene);
 
     /// Makes `topology`, or brings it up to date; `scene` as it is now.
@@ -68,6 +73,7 @@ struct GpuScene {
     std::uint32_t vertex_count = 0;
     std::uint64_t moves = 0;  ///< how often vertices have moved; what is derived from them is as old as its count
     std::vector<GpuMesh> meshes;
+    std::vector<std::uint64_t> object_moves;     ///< per object, `moves` when it last moved as a whole; empty: none has
     std::vector<std::uint32_t> first_triangles;  ///< per object; ascending
     std::vector<std::uint32_t> mesh_of_object;
     std::vector<glm::mat4> world_from_object;  ///< per object
@@ -87,6 +93,11 @@ struct GpuScene {
     std::unique_ptr<PreparedState> volumes;  ///< SceneVolumes (volume/scene_volumes.h), where a technique draws them
     /// What techniques have computed from the scene, by name; kept as long as the scene is.
     std::map<std::string, Buffer, std::less<>> prepared;
+
+private:
+    /// Fills all that follows from the scene's objects and materials.
+    std::vector<gpu::ObjectRecord> list_objects(const Scene& scene);
+    std::vector<gpu::MaterialRecord> material_records;
 };
 
 /// Appends the eight corners of a mesh's box, world, m.

@@ -30,6 +30,7 @@ vk::raii::DeviceMemory allocate(const Device& device, const std::string& name, c
                                    double(device.max_allocation()) / double(1u << 30), device.info().name));
     }
     const vk::MemoryAllocateFlagsInfo flags_info{.flags = flags};
+    ++device.made().allocations;
     try {
         return device.handle().allocateMemory(
             {.pNext = flags ? &flags_info : nullptr,
@@ -44,6 +45,7 @@ vk::raii::DeviceMemory allocate(const Device& device, const std::string& name, c
 /// Records, submits and waits. For uploads and downloads only: a frame goes through the Recorder.
 void submit_once(const Device& device, const std::function<void(const vk::raii::CommandBuffer&)>& record) {
     const auto& handle = device.handle();
+    ++device.made().pools;
     const vk::raii::CommandPool pool = handle.createCommandPool(
         {.flags = vk::CommandPoolCreateFlagBits::eTransient, .queueFamilyIndex = device.queue_family()});
     const auto commands = handle.allocateCommandBuffers({.commandPool = *pool, .commandBufferCount = 1});
@@ -51,8 +53,8 @@ void submit_once(const Device& device, const std::function<void(const vk::raii::
     record(commands[0]);
     commands[0].end();
     const vk::raii::Fence fence = handle.createFence({});
-    const vk::CommandBuffer command = *commands[0];
-    device.queue().submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &command}, *fence);
+    const vk::CommandBufferSubmitInfo command{.commandBuffer = *commands[0]};
+    device.submit({.commandBufferInfoCount = 1, .pCommandBufferInfos = &command}, *fence);
     while (handle.waitForFences(*fence, true, ~0ull) == vk::Result::eTimeout) {
     }
 }
@@ -137,19 +139,21 @@ Buffer::Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::
         throw TooLarge(fmt::format("{} needs {} MiB in one storage buffer; {} allows {} MiB", name_, size_ >> 20,
                                    device.info().name, device.max_storage_binding() >> 20));
     }
-    buffer_ = device.handle().createBuffer({.size = size_, .usage = usage});
+    handles_ = std::make_shared<Handles>();
+    handles_->buffer = device.handle().createBuffer({.size = size_, .usage = usage});
     using Property = vk::MemoryPropertyFlagBits;
     const vk::MemoryPropertyFlags required =
         host_visible ? Property::eHostVisible | Property::eHostCoherent : vk::MemoryPropertyFlags{};
     const vk::MemoryPropertyFlags preferred = host_visible ? required | Property::eHostCached : Property::eDeviceLocal;
-    memory_ = allocate(device, name_, buffer_.getMemoryRequirements(), required, preferred,
-                       addressed ? vk::MemoryAllocateFlagBits::eDeviceAddress : vk::MemoryAllocateFlags{});
-    buffer_.bindMemory(*memory_, 0);
+    handles_->memory = allocate(device, name_, handles_->buffer.getMemoryRequirements(), required, preferred,
+                                addressed ? vk::MemoryAllocateFlagBits::eDeviceAddress : vk::MemoryAllocateFlags{});
+    handles_->buffer.bindMemory(*handles_->memory, 0);
     if (texels != vk::Format::eUndefined) {
-        texel_view_ = device.handle().createBufferView({.buffer = *buffer_, .format = texels, .range = VK_WHOLE_SIZE});
+        handles_->texel_view =
+            device.handle().createBufferView({.buffer = *handles_->buffer, .format = texels, .range = VK_WHOLE_SIZE});
     }
-    if (addressed) address_ = device.handle().getBufferAddress({.buffer = *buffer_});
-    if (host_visible) mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+    if (addressed) address_ = device.handle().getBufferAddress({.buffer = *handles_->buffer});
+    if (host_visible) mapped_ = static_cast<std::byte*>(handles_->memory.mapMemory(0, VK_WHOLE_SIZE));
 }
 
 GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent2D extent, std::uint32_t layers,
@@ -170,29 +174,31 @@ GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk
                                    name_, extent.width, extent.height, layers, double(bytes) / double(1u << 30),
                                    device.info().name, double(device.max_allocation()) / double(1u << 30)));
     }
-    image_ = device.handle().createImage({.imageType = vk::ImageType::e2D,
-                                          .format = format,
-                                          .extent = {extent.width, extent.height, 1},
-                                          .mipLevels = 1,
-                                          .arrayLayers = layers,
-                                          .samples = vk::SampleCountFlagBits::e1,
-                                          .tiling = vk::ImageTiling::eOptimal,
-                                          .usage = usage,
-                                          .initialLayout = vk::ImageLayout::eUndefined});
-    memory_ = allocate(device, name_, image_.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
-    image_.bindMemory(*memory_, 0);
+    handles_ = std::make_shared<Handles>();
+    handles_->image = device.handle().createImage({.imageType = vk::ImageType::e2D,
+                                                   .format = format,
+                                                   .extent = {extent.width, extent.height, 1},
+                                                   .mipLevels = 1,
+                                                   .arrayLayers = layers,
+                                                   .samples = vk::SampleCountFlagBits::e1,
+                                                   .tiling = vk::ImageTiling::eOptimal,
+                                                   .usage = usage,
+                                                   .initialLayout = vk::ImageLayout::eUndefined});
+    handles_->memory =
+        allocate(device, name_, handles_->image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    handles_->image.bindMemory(*handles_->memory, 0);
 
     const auto view = [&](vk::ImageViewType type, std::uint32_t first, std::uint32_t count) {
         return device.handle().createImageView(
-            {.image = *image_,
+            {.image = *handles_->image,
              .viewType = type,
              .format = format,
              .subresourceRange = {
                  .aspectMask = aspect_of(format), .levelCount = 1, .baseArrayLayer = first, .layerCount = count}});
     };
-    array_view_ = view(vk::ImageViewType::e2DArray, 0, layers);
+    handles_->array_view = view(vk::ImageViewType::e2DArray, 0, layers);
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        layer_views_.push_back(view(vk::ImageViewType::e2D, layer, 1));
+        handles_->layer_views.push_back(view(vk::ImageViewType::e2D, layer, 1));
     }
     submit_once(device, [&](const vk::raii::CommandBuffer& commands) {
         change_layout(commands, *this, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral);
@@ -215,19 +221,21 @@ GpuImage::GpuImage(const Device& device, std::string name, vk::Format format, vk
                                 extent.height, extent.depth, bytes / double(1u << 30), device.info().name,
                                 double(device.max_allocation()) / double(1u << 30)));
     }
-    image_ = device.handle().createImage({.imageType = vk::ImageType::e3D,
-                                          .format = format,
-                                          .extent = extent,
-                                          .mipLevels = 1,
-                                          .arrayLayers = 1,
-                                          .samples = vk::SampleCountFlagBits::e1,
-                                          .tiling = vk::ImageTiling::eOptimal,
-                                          .usage = usage,
-                                          .initialLayout = vk::ImageLayout::eUndefined});
-    memory_ = allocate(device, name_, image_.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
-    image_.bindMemory(*memory_, 0);
-    array_view_ = device.handle().createImageView(
-        {.image = *image_,
+    handles_ = std::make_shared<Handles>();
+    handles_->image = device.handle().createImage({.imageType = vk::ImageType::e3D,
+                                                   .format = format,
+                                                   .extent = extent,
+                                                   .mipLevels = 1,
+                                                   .arrayLayers = 1,
+                                                   .samples = vk::SampleCountFlagBits::e1,
+                                                   .tiling = vk::ImageTiling::eOptimal,
+                                                   .usage = usage,
+                                                   .initialLayout = vk::ImageLayout::eUndefined});
+    handles_->memory =
+        allocate(device, name_, handles_->image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    handles_->image.bindMemory(*handles_->memory, 0);
+    handles_->array_view = device.handle().createImageView(
+        {.image = *handles_->image,
          .viewType = vk::ImageViewType::e3D,
          .format = format,
          .subresourceRange = {.aspectMask = aspect_of(format), .levelCount = 1, .layerCount = 1}});
@@ -247,6 +255,11 @@ void upload(const Device& device, const Buffer& buffer, std::span<const std::byt
                                 vk::BufferCopy{.dstOffset = offset + done, .size = bytes});
         });
     }
+}
+
+void upload_later(const Device& device, const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize offset) {
+    if (data.empty()) return;
+    device.add_upload({buffer.handle(), buffer.id(), buffer.held(), {data.begin(), data.end()}, offset});
 }
 
 void upload(const Device& device, const GpuImage& image, std::uint32_t layer, std::span<const std::byte> data) {

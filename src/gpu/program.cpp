@@ -159,6 +159,7 @@ Program Program::compute(const Device& device, ShaderCode shader, std::span<cons
                                                 .pData = values.data()};
     vk::PipelineShaderStageCreateInfo stage = stage_info(vk::ShaderStageFlagBits::eCompute, module);
     stage.pSpecializationInfo = &specialization;
+    ++device.made().pipelines;
     program.pipeline_ = device.handle().createComputePipeline(nullptr, {.stage = stage, .layout = *program.layout_});
     return program;
 }
@@ -206,6 +207,7 @@ Program Program::graphics(const Device& device, const Graphics& state) {
         .colorAttachmentCount = std::uint32_t(state.colors.size()),
         .pColorAttachmentFormats = state.colors.data(),
         .depthAttachmentFormat = state.depth ? vk::Format::eD32Sfloat : vk::Format::eUndefined};
+    ++device.made().pipelines;
     program.pipeline_ = device.handle().createGraphicsPipeline(nullptr, {.pNext = &rendering,
                                                                          .stageCount = std::uint32_t(stages.size()),
                                                                          .pStages = stages.data(),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace pellucid {
 namespace {
@@ -13,6 +14,8 @@ using Stage = vk::PipelineStageFlagBits2;
 using AccessBit = vk::AccessFlagBits2;
 
 constexpr vk::DeviceSize kReadBufferSize = 1 << 16;
+constexpr vk::DeviceSize kStagingSize = 1 << 20;
+constexpr std::size_t kLargestUpdate = 65536;  // that Vulkan writes from within commands
 constexpr std::uint32_t kQueriesPerPool = 64;
 constexpr std::uint32_t kSetsPerPool = 64;
 constexpr std::uint32_t kDescriptorsPerPool = 16 * kSetsPerPool;
@@ -21,15 +24,17 @@ constexpr std::uint32_t kDescriptorsPerPool = 16 * kSetsPerPool;
 
 Recorder::Recorder(const Device& device) : device_(device) {
     const auto& handle = device.handle();
+    ++device.made().pools;
     pool_ = handle.createCommandPool({.queueFamilyIndex = device.queue_family()});
     fence_ = handle.createFence({});
     restart();
 }
 
-void Recorder::restart() {
-    commands_.clear();
-    host_steps_.clear();
+void Recorder::restart(vk::CommandBuffer commands) {
+    device_.give_uploads_back(std::exchange(uploads_, {}));  // that did not run
+    parts_.clear();
     pool_.reset();
+    own_used_ = 0;
     for (const auto& pool : descriptor_pools_) pool.reset();
     descriptor_pool_ = 0;
     scopes_.clear();
@@ -37,23 +42,31 @@ void Recorder::restart() {
     timestamps_ = 0;
     states_.clear();
     when_done_.clear();
-    read_end_ = 0;
+    read_end_ = staging_end_ = 0;
+    staging_used_ = 0;
+    callers_ = bool(commands);
+    commands_ = commands;
     begin_commands();
 }
 
 void Recorder::begin_commands() {
-    const vk::CommandBufferAllocateInfo one{.commandPool = *pool_, .commandBufferCount = 1};
-    commands_ = std::move(device_.handle().allocateCommandBuffers(one).front());
-    commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    if (!callers_) {
+        if (own_used_ == own_.size()) {
+            const vk::CommandBufferAllocateInfo one{.commandPool = *pool_, .commandBufferCount = 1};
+            own_.push_back(std::move(device_.handle().allocateCommandBuffers(one).front()));
+        }
+        commands_ = *own_[own_used_++];
+        commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}, dispatch());
+    }
     // What earlier submissions and the host wrote becomes visible here; from now on states_ knows.
     const vk::MemoryBarrier2 all{.srcStageMask = Stage::eAllCommands,
                                  .srcAccessMask = AccessBit::eMemoryWrite,
                                  .dstStageMask = Stage::eAllCommands,
                                  .dstAccessMask = AccessBit::eMemoryRead | AccessBit::eMemoryWrite};
-    commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &all});
+    commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &all}, dispatch());
 }
 
-void Recorder::synchronise(std::span<const Use> uses) {
+void Recorder::synchronise(std::span<Use> uses) {
     vk::MemoryBarrier2 barrier;
     for (const Use& use : uses) {
         State& state = states_[use.id];
@@ -70,14 +83,18 @@ void Recorder::synchronise(std::span<const Use> uses) {
             barrier.dstStageMask |= use.stage;
             barrier.dstAccessMask |= use.access;
         }
-        commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
+        commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &barrier}, dispatch());
     }
-    for (const Use& use : uses) {
+    for (Use& use : uses) {
         State& state = states_[use.id];
-        if (use.write)
-            state = {use, {}};
-        else if (std::ranges::none_of(state.reads, [&](const Use& read) { return read.covers(use); }))
+        if (!state.holder) state.holder = std::move(use.holder);
+        use.holder.reset();
+        if (use.write) {
+            state.write = use;
+            state.reads.clear();
+        } else if (std::ranges::none_of(state.reads, [&](const Use& read) { return read.covers(use); })) {
             state.reads.push_back(use);
+        }
     }
 }
 
@@ -94,6 +111,7 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
             if (device_.ray_tracing()) {
                 sizes.push_back({vk::DescriptorType::eAccelerationStructureKHR, kSetsPerPool});
             }
+            ++device_.made().pools;
             descriptor_pools_.push_back(handle.createDescriptorPool(
                 {.maxSets = kSetsPerPool, .poolSizeCount = std::uint32_t(sizes.size()), .pPoolSizes = sizes.data()}));
             fresh = true;
@@ -130,37 +148,38 @@ void Recorder::bind(const Program& program, Bindings bindings, std::span<const s
         const std::size_t i = set_writes.size();
         vk::WriteDescriptorSet& write = set_writes.emplace_back(vk::WriteDescriptorSet{
             .dstSet = set, .dstBinding = slot.binding, .descriptorCount = 1, .descriptorType = slot.type});
-        ResourceId id = 0;
+        const auto add_use = [&](const auto& resource) {
+            uses.push_back(use_of(resource, stages_of(slot), access_of(slot), slot.writable));
+        };
         if (slot.type == vk::DescriptorType::eUniformTexelBuffer) {
             texels[i] = binding.buffer->texel_view();
             write.pTexelBufferView = &texels[i];
-            id = binding.buffer->id();
+            add_use(*binding.buffer);
         } else if (binding.buffer) {
             buffers[i] =
                 vk::DescriptorBufferInfo{.buffer = binding.buffer->handle(), .offset = 0, .range = VK_WHOLE_SIZE};
             write.pBufferInfo = &buffers[i];
-            id = binding.buffer->id();
+            add_use(*binding.buffer);
         } else if (binding.image) {
             images[i] = vk::DescriptorImageInfo{
                 .imageView = binding.layer ? binding.image->layer_view(*binding.layer) : binding.image->array_view(),
                 .imageLayout = vk::ImageLayout::eGeneral};
             write.pImageInfo = &images[i];
-            id = binding.image->id();
+            add_use(*binding.image);
         } else {
             structures[i] = binding.structure->handle();
             structure_writes[i] = {.accelerationStructureCount = 1, .pAccelerationStructures = &structures[i]};
             write.pNext = &structure_writes[i];
-            id = binding.structure->id();
+            add_use(*binding.structure);
         }
-        uses.push_back({id, stages_of(slot), access_of(slot), slot.writable});
     }
     check_own(program, bindings);
     device_.handle().updateDescriptorSets(set_writes, nullptr);
-    commands_.bindPipeline(program.bind_point(), program.pipeline());
-    commands_.bindDescriptorSets(program.bind_point(), program.layout(), 0, set, nullptr);
+    commands_.bindPipeline(program.bind_point(), program.pipeline(), dispatch());
+    commands_.bindDescriptorSets(program.bind_point(), program.layout(), 0, set, nullptr, dispatch());
     if (!push.empty()) {
-        commands_.pushConstants<std::byte>(program.layout(), program.stages(), std::uint32_t(push_offset),
-                                           vk::ArrayProxy<const std::byte>(std::uint32_t(push.size()), push.data()));
+        commands_.pushConstants(program.layout(), program.stages(), std::uint32_t(push_offset),
+                                std::uint32_t(push.size()), push.data(), dispatch());
     }
 }
 
@@ -171,16 +190,16 @@ void Recorder::compute_bytes(const Program& program, Bindings bindings, std::spa
     synchronise(uses);
     const vk::Extent2D group = program.workgroup();
     commands_.dispatch((threads.width + group.width - 1) / group.width,
-                       (threads.height + group.height - 1) / group.height, 1);
+                       (threads.height + group.height - 1) / group.height, 1, dispatch());
 }
 
 void Recorder::compute_indirect_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                                       const Buffer& arguments) {
     std::vector<Use> uses;
     bind(program, bindings, push, uses);
-    uses.push_back({arguments.id(), Stage::eDrawIndirect, AccessBit::eIndirectCommandRead, false});
+    uses.push_back(use_of(arguments, Stage::eDrawIndirect, AccessBit::eIndirectCommandRead, false));
     synchronise(uses);
-    commands_.dispatchIndirect(arguments.handle(), 0);
+    commands_.dispatchIndirect(arguments.handle(), 0, dispatch());
 }
 
 void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
@@ -198,14 +217,14 @@ void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<c
     std::vector<vk::RenderingAttachmentInfo> colors;
     for (const auto& a : target.colors) {
         colors.push_back(attachment(a));
-        uses.push_back({a.image->id(), Stage::eColorAttachmentOutput,
-                        AccessBit::eColorAttachmentRead | AccessBit::eColorAttachmentWrite, true});
+        uses.push_back(use_of(*a.image, Stage::eColorAttachmentOutput,
+                              AccessBit::eColorAttachmentRead | AccessBit::eColorAttachmentWrite, true));
     }
     vk::RenderingAttachmentInfo depth;
     if (target.depth) {
         depth = attachment(*target.depth);
-        uses.push_back({target.depth->image->id(), Stage::eEarlyFragmentTests | Stage::eLateFragmentTests,
-                        AccessBit::eDepthStencilAttachmentRead | AccessBit::eDepthStencilAttachmentWrite, true});
+        uses.push_back(use_of(*target.depth->image, Stage::eEarlyFragmentTests | Stage::eLateFragmentTests,
+                              AccessBit::eDepthStencilAttachmentRead | AccessBit::eDepthStencilAttachmentWrite, true));
     }
     synchronise(uses);
 
@@ -214,15 +233,16 @@ void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<c
                               .layerCount = 1,
                               .colorAttachmentCount = std::uint32_t(colors.size()),
                               .pColorAttachments = colors.data(),
-                              .pDepthAttachment = target.depth ? &depth : nullptr});
+                              .pDepthAttachment = target.depth ? &depth : nullptr},
+                             dispatch());
     const vk::Viewport viewport{0.0f, 0.0f, float(target.extent.width), float(target.extent.height), 0.0f, 1.0f};
-    commands_.setViewport(0, viewport);
-    commands_.setScissor(0, target.scissor.extent.width > 0 ? target.scissor : everything);
+    commands_.setViewport(0, viewport, dispatch());
+    commands_.setScissor(0, target.scissor.extent.width > 0 ? target.scissor : everything, dispatch());
     for (const DrawCall& call : calls) {
-        commands_.pushConstants<std::uint32_t>(program.layout(), program.stages(), 0, call.object);
-        commands_.draw(call.corner_count, 1, call.first_corner, 0);
+        commands_.pushConstants(program.layout(), program.stages(), 0, sizeof(call.object), &call.object, dispatch());
+        commands_.draw(call.corner_count, 1, call.first_corner, 0, dispatch());
     }
-    commands_.endRendering();
+    commands_.endRendering(dispatch());
 }
 
 // A structure that others are placed in stands for them: whoever waits for its build waits for theirs, since
@@ -232,39 +252,101 @@ void Recorder::build(const AccelerationStructure& structure, vk::BuildAccelerati
     const auto stage = Stage::eAccelerationStructureBuildKHR;
     const auto read = AccessBit::eAccelerationStructureReadKHR;
     const auto write = AccessBit::eAccelerationStructureWriteKHR;
-    std::vector<Use> uses = {{structure.id(), stage, read | write, true}, {scratch.id(), stage, read | write, true}};
+    std::vector<Use> uses = {use_of(structure, stage, read | write, true), use_of(scratch, stage, read | write, true)};
     for (const ResourceId input : inputs) uses.push_back({input, stage, AccessBit::eShaderRead | read, false});
     synchronise(uses);
     vk::AccelerationStructureBuildGeometryInfoKHR info = structure.build_info(mode);
     info.scratchData.deviceAddress = scratch.address();
     const vk::AccelerationStructureBuildRangeInfoKHR range{.primitiveCount = structure.primitive_count()};
-    commands_.buildAccelerationStructuresKHR(info, &range);
+    commands_.buildAccelerationStructuresKHR(info, &range, dispatch());
 }
 
 void Recorder::clear(const GpuImage& image, vk::ClearColorValue value) {
-    synchronise(std::array{Use{image.id(), Stage::eAllTransfer, AccessBit::eTransferWrite, true}});
+    synchronise(use_of(image, Stage::eAllTransfer, AccessBit::eTransferWrite, true));
     const vk::ImageSubresourceRange range{
         .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = image.layers()};
-    commands_.clearColorImage(image.handle(), vk::ImageLayout::eGeneral, value, range);
+    commands_.clearColorImage(image.handle(), vk::ImageLayout::eGeneral, value, range, dispatch());
 }
 
 void Recorder::clear_layer(const GpuImage& image, std::uint32_t layer, vk::ClearColorValue value) {
-    synchronise(std::array{Use{image.id(), Stage::eAllTransfer, AccessBit::eTransferWrite, true}});
+    synchronise(use_of(image, Stage::eAllTransfer, AccessBit::eTransferWrite, true));
     const vk::ImageSubresourceRange range{
         .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .baseArrayLayer = layer, .layerCount = 1};
-    commands_.clearColorImage(image.handle(), vk::ImageLayout::eGeneral, value, range);
+    commands_.clearColorImage(image.handle(), vk::ImageLayout::eGeneral, value, range, dispatch());
 }
 
 void Recorder::fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize bytes, std::uint32_t word) {
     // eAllTransfer, not eClear: validation layers up to 1.3.239 take a fill for a copy.
-    synchronise(std::array{Use{buffer.id(), Stage::eAllTransfer, AccessBit::eTransferWrite, true}});
-    commands_.fillBuffer(buffer.handle(), offset, bytes, word);
+    synchronise(use_of(buffer, Stage::eAllTransfer, AccessBit::eTransferWrite, true));
+    commands_.fillBuffer(buffer.handle(), offset, bytes, word, dispatch());
 }
 
 void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes) {
-    synchronise(std::array{Use{source.id(), Stage::eCopy, AccessBit::eTransferRead, false},
-                           Use{destination.id(), Stage::eCopy, AccessBit::eTransferWrite, true}});
-    commands_.copyBuffer(source.handle(), destination.handle(), vk::BufferCopy{.size = bytes});
+    std::array uses{use_of(source, Stage::eCopy, AccessBit::eTransferRead, false),
+                    use_of(destination, Stage::eCopy, AccessBit::eTransferWrite, true)};
+    synchronise(uses);
+    commands_.copyBuffer(source.handle(), destination.handle(), vk::BufferCopy{.size = bytes}, dispatch());
+}
+
+std::byte* Recorder::stage(vk::DeviceSize bytes, const Buffer*& buffer, vk::DeviceSize& offset) {
+    while (staging_used_ == 0 || staging_end_ + bytes > staging_[staging_used_ - 1].size()) {
+        if (staging_used_ == staging_.size()) {
+            staging_.emplace_back(device_, "values written", std::max(bytes, kStagingSize),
+                                  vk::BufferUsageFlagBits::eTransferSrc, true);
+        }
+        ++staging_used_;
+        staging_end_ = 0;
+    }
+    buffer = &staging_[staging_used_ - 1];
+    offset = std::exchange(staging_end_, staging_end_ + bytes);
+    return buffer->mapped() + offset;
+}
+
+void Recorder::write_bytes(const PendingUpload& to, std::span<const std::byte> data) {
+    if (data.empty()) return;
+    synchronise({to.id, Stage::eAllTransfer, AccessBit::eTransferWrite, true, to.held});
+    if (data.size() <= kLargestUpdate) {
+        commands_.updateBuffer(to.buffer, to.offset, data.size(), data.data(), dispatch());
+        return;
+    }
+    const Buffer* from = nullptr;
+    vk::DeviceSize at = 0;
+    std::memcpy(stage(data.size(), from, at), data.data(), data.size());
+    commands_.copyBuffer(from->handle(), to.buffer, vk::BufferCopy{at, to.offset, data.size()}, dispatch());
+}
+
+void Recorder::upload_pending() {
+    for (PendingUpload& pending : device_.take_uploads()) {
+        write_bytes(pending, pending.data);
+        uploads_.push_back(std::move(pending));
+    }
+}
+
+void Recorder::copy_to(const GpuImage& source, vk::Image target, vk::Offset2D at, vk::ImageLayout before,
+                       vk::ImageLayout after) {
+    synchronise(use_of(source, Stage::eCopy, AccessBit::eTransferRead, false));
+    const vk::ImageSubresourceLayers layer{.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};
+    const auto change = [&](vk::ImageLayout from, vk::ImageLayout to) {
+        const auto everything = AccessBit::eMemoryRead | AccessBit::eMemoryWrite;
+        const vk::ImageMemoryBarrier2 barrier{
+            .srcStageMask = Stage::eAllCommands,
+            .srcAccessMask = everything,
+            .dstStageMask = Stage::eAllCommands,
+            .dstAccessMask = everything,
+            .oldLayout = from,
+            .newLayout = to,
+            .image = target,
+            .subresourceRange = {.aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1}};
+        commands_.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier}, dispatch());
+    };
+    change(before, vk::ImageLayout::eTransferDstOptimal);
+    const vk::ImageCopy region{.srcSubresource = layer,
+                               .dstSubresource = layer,
+                               .dstOffset = {at.x, at.y, 0},
+                               .extent = {source.extent().width, source.extent().height, 1}};
+    commands_.copyImage(source.handle(), vk::ImageLayout::eGeneral, target, vk::ImageLayout::eTransferDstOptimal,
+                        region, dispatch());
+    change(vk::ImageLayout::eTransferDstOptimal, after);
 }
 
 // Values lie side by side in buffers on the host, so no copy waits for another.
@@ -278,8 +360,9 @@ const std::byte* Recorder::read_bytes(const Buffer& source, vk::DeviceSize offse
         read_buffers_.emplace_back(device_, "values read", kReadBufferSize, vk::BufferUsageFlagBits::eTransferDst,
                                    true);
     }
-    synchronise(std::array{Use{source.id(), Stage::eCopy, AccessBit::eTransferRead, false}});
-    commands_.copyBuffer(source.handle(), read_buffers_[number].handle(), vk::BufferCopy{offset, at, bytes});
+    synchronise(use_of(source, Stage::eCopy, AccessBit::eTransferRead, false));
+    commands_.copyBuffer(source.handle(), read_buffers_[number].handle(), vk::BufferCopy{offset, at, bytes},
+                         dispatch());
     return read_buffers_[number].mapped() + at;
 }
 
@@ -288,20 +371,21 @@ void Recorder::write_timestamp(Stage stage) {
     const std::uint32_t pool = timestamps_ / kQueriesPerPool;
     const std::uint32_t query = timestamps_ % kQueriesPerPool;
     if (pool == query_pools_.size()) {
+        ++device_.made().pools;
         query_pools_.push_back(
             device_.handle().createQueryPool({.queryType = vk::QueryType::eTimestamp, .queryCount = kQueriesPerPool}));
     }
-    if (query == 0) commands_.resetQueryPool(*query_pools_[pool], 0, kQueriesPerPool);
-    commands_.writeTimestamp2(stage, *query_pools_[pool], query);
+    if (query == 0) commands_.resetQueryPool(*query_pools_[pool], 0, kQueriesPerPool, dispatch());
+    commands_.writeTimestamp2(stage, *query_pools_[pool], query, dispatch());
     ++timestamps_;
 }
 
 void Recorder::begin_label() {
-    if (device_.debug_labels()) commands_.beginDebugUtilsLabelEXT({.pLabelName = scopes_.back().c_str()});
+    if (device_.debug_labels()) commands_.beginDebugUtilsLabelEXT({.pLabelName = scopes_.back().c_str()}, dispatch());
 }
 
 void Recorder::end_label() {
-    if (device_.debug_labels()) commands_.endDebugUtilsLabelEXT();
+    if (device_.debug_labels()) commands_.endDebugUtilsLabelEXT(dispatch());
 }
 
 Recorder::Scope::Scope(Recorder& recorder, std::string_view name) : recorder_(recorder) {
@@ -345,14 +429,7 @@ void Recorder::make_visible_to_host() {
                                      .srcAccessMask = AccessBit::eMemoryWrite,
                                      .dstStageMask = Stage::eHost,
                                      .dstAccessMask = AccessBit::eHostRead};
-    commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
-}
-
-void Recorder::submit_commands(vk::CommandBuffer commands) {
-    device_.queue().submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &commands}, *fence_);
-    while (device_.handle().waitForFences(*fence_, true, ~0ull) == vk::Result::eTimeout) {
-    }
-    device_.handle().resetFences(*fence_);
+    commands_.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host}, dispatch());
 }
 
 void Recorder::on_host(std::function<bool()> step) { add_step(std::move(step)); }
@@ -360,29 +437,52 @@ void Recorder::on_host(std::function<bool()> step) { add_step(std::move(step)); 
 void Recorder::end_of_steps() { add_step({}); }
 
 void Recorder::add_step(std::function<bool()> step) {
+    if (callers_) throw std::logic_error("a step on the host, in commands of the caller's");
     // Mesa's software driver wants labels to end in the commands in which they begin.
     if (in_scope_) end_label();
     make_visible_to_host();
-    commands_.end();
-    host_steps_.push_back({std::move(commands_), std::move(step)});
-    states_.clear();
+    commands_.end(dispatch());
+    parts_.push_back({commands_, std::move(step)});
+    for (auto& [id, state] : states_) state = {{}, {}, std::move(state.holder)};
     begin_commands();
     if (in_scope_) begin_label();
 }
 
-std::vector<PassTime> Recorder::submit_and_wait() {
+const std::vector<Recorder::Part>& Recorder::end(vk::Event done) {
     make_visible_to_host();
-    commands_.end();
+    const vk::MemoryBarrier2 all{.srcStageMask = Stage::eAllCommands, .dstStageMask = Stage::eAllCommands};
+    if (done) commands_.setEvent2(done, {.memoryBarrierCount = 1, .pMemoryBarriers = &all}, dispatch());
+    if (!callers_) commands_.end(dispatch());
+    parts_.push_back({commands_, {}});
+    return parts_;
+}
+
+void Recorder::run_parts(std::span<const Part> parts, const std::function<void(vk::CommandBuffer, bool last)>& submit) {
     bool goes_on = true;
-    for (const HostStep& part : host_steps_) {
-        if (goes_on) submit_commands(*part.before);
+    for (const Part& part : parts) {
+        const bool last = &part == &parts.back();
+        if (goes_on || last) submit(part.commands, last);
         goes_on = part.step ? goes_on && part.step() : true;
     }
-    submit_commands(*commands_);
+}
+
+std::vector<PassTime> Recorder::finish() {
     std::vector<PassTime> times = read_times();
+    uploads_.clear();
     for (const auto& then : when_done_) then();
     restart();
     return times;
+}
+
+std::vector<PassTime> Recorder::submit_and_wait() {
+    run_parts(end(), [&](vk::CommandBuffer commands, bool) {
+        const vk::CommandBufferSubmitInfo info{.commandBuffer = commands};
+        device_.submit({.commandBufferInfoCount = 1, .pCommandBufferInfos = &info}, *fence_);
+        while (device_.handle().waitForFences(*fence_, true, ~0ull) == vk::Result::eTimeout) {
+        }
+        device_.handle().resetFences(*fence_);
+    });
+    return finish();
 }
 
 }  // namespace pellucid

@@ -12,6 +12,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -48,7 +49,7 @@ struct DrawCall {
 /// gets its barriers from that; groups of calls are timed and labelled by scopes.
 ///
 /// The names and accesses given are checked against the shader; a mismatch is a bug and throws
-/// std::logic_error naming both sides. Resources must outlive submit_and_wait().
+/// std::logic_error naming both sides. Resources that go while it is recorded, or runs, live on until it has run.
 class Recorder {
 public:
     explicit Recorder(const Device& device);
@@ -112,6 +113,20 @@ public:
         });
     }
 
+    /// Writes `data`, of whole words, to byte `offset` of `buffer` once the device gets there.
+    void write(const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize offset = 0) {
+        write_bytes({buffer.handle(), buffer.id(), buffer.held(), {}, offset}, data);
+    }
+    template <class T>
+    void write(const Buffer& buffer, const T& value) {
+        write(buffer, std::as_bytes(std::span(&value, 1)));
+    }
+    /// What upload_later() was given since the last recording took it.
+    void upload_pending();
+    /// Copies a layer of `source` to an image of the caller's, of equal texels, that becomes readable in layout `after`.
+    void copy_to(const GpuImage& source, vk::Image target, vk::Offset2D at, vk::ImageLayout before,
+                 vk::ImageLayout after);
+
     /// Runs `step` on the host between what is recorded before, whose results it sees in mapped buffers, and what is
     /// recorded after, which sees what it wrote there. Where it returns false, what is recorded from here to end_of_steps()
     /// is left out. A recording with such steps cannot be part of another's commands.
@@ -123,8 +138,23 @@ public:
     /// scopes of one name are added up. The recorder is then empty and ready for the next frame.
     std::vector<PassTime> submit_and_wait();
 
-    /// Forgets what was recorded.
-    void restart();
+    /// Commands, and what the host does once they have run.
+    struct Part {
+        vk::CommandBuffer commands;
+        std::function<bool()> step;  ///< empty: the end of a row, or of the recording
+    };
+    /// Ends the recording. Its parts run one after the other (run_parts), the last one on the device. `done` is set in the end,
+    /// if given.
+    const std::vector<Part>& end(vk::Event done = {});
+    /// Calls `submit` with the commands of one part after the other, each of which has run when it returns but for the last
+    /// ones, and takes the host's steps.
+    static void run_parts(std::span<const Part> parts, const std::function<void(vk::CommandBuffer, bool last)>& submit);
+    /// After all of a recording that was ended has run: the times of its scopes, as submit_and_wait() has them. The recorder
+    /// is then empty.
+    std::vector<PassTime> finish();
+
+    /// Forgets what was recorded, and begins anew: in `commands` of the caller's, which are recording, if given.
+    void restart(vk::CommandBuffer commands = {});
 
     /// Calls `then` once what is being recorded has run; never if it is forgotten.
     void when_done(std::function<void()> then) { when_done_.push_back(std::move(then)); }
@@ -132,11 +162,14 @@ public:
     const Device& device() const { return device_; }
 
 private:
+    /// What keeps a resource alive.
+    using Holder = std::shared_ptr<const void>;
     struct Use {
         ResourceId id;
         vk::PipelineStageFlags2 stage;
         vk::AccessFlags2 access;
         bool write;
+        Holder holder = {};
         bool covers(const Use& other) const {
             return (stage & other.stage) == other.stage && (access & other.access) == other.access;
         }
@@ -144,7 +177,12 @@ private:
     struct State {
         std::optional<Use> write;  // the last,
         std::vector<Use> reads;    // and those since, which see it
+        Holder holder;
     };
+    template <class Resource>
+    static Use use_of(const Resource& resource, vk::PipelineStageFlags2 stage, vk::AccessFlags2 access, bool write) {
+        return {resource.id(), stage, access, write, resource.held()};
+    }
 
     void compute_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                        vk::Extent2D threads);
@@ -157,24 +195,25 @@ private:
     void begin_label();
     void add_step(std::function<bool()> step);
     void end_label();
-    void submit_commands(vk::CommandBuffer commands);
     void make_visible_to_host();
-    void synchronise(std::span<const Use> uses);
+    void synchronise(std::span<Use> uses);
+    void synchronise(Use use) { synchronise(std::span(&use, 1)); }
+    void write_bytes(const PendingUpload& to, std::span<const std::byte> data);
+    std::byte* stage(vk::DeviceSize bytes, const Buffer*& buffer, vk::DeviceSize& offset);
     void bind(const Program& program, Bindings bindings, std::span<const std::byte> push, std::vector<Use>& uses);
     vk::DescriptorSet allocate_set(const Program& program);
     void write_timestamp(vk::PipelineStageFlagBits2 stage);
     std::vector<PassTime> read_times() const;
 
-    /// Commands, and what the host does once they have run.
-    struct HostStep {
-        vk::raii::CommandBuffer before;
-        std::function<bool()> step;  ///< empty: the end of a row
-    };
+    const auto& dispatch() const { return *device_.handle().getDispatcher(); }
 
     const Device& device_;
     vk::raii::CommandPool pool_ = nullptr;
-    vk::raii::CommandBuffer commands_ = nullptr;
-    std::vector<HostStep> host_steps_;  // before commands_
+    std::vector<vk::raii::CommandBuffer> own_;  // kept from recording to recording
+    std::size_t own_used_ = 0;
+    vk::CommandBuffer commands_;  // what is being recorded: one of own_, or the caller's
+    bool callers_ = false;
+    std::vector<Part> parts_;  // before commands_
     vk::raii::Fence fence_ = nullptr;
     std::vector<vk::raii::DescriptorPool> descriptor_pools_;
     std::size_t descriptor_pool_ = 0;
@@ -186,6 +225,10 @@ private:
     std::vector<std::function<void()>> when_done_;
     std::vector<Buffer> read_buffers_;  // of kReadBufferSize, on the host
     vk::DeviceSize read_end_ = 0;       // in all of them
+    std::vector<Buffer> staging_;       // on the host, what is written to buffers
+    std::size_t staging_used_ = 0;
+    vk::DeviceSize staging_end_ = 0;      // in the last that is used
+    std::vector<PendingUpload> uploads_;  // that this recording has taken
 };
 
 }  // namespace pellucid

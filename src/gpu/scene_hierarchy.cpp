@@ -38,22 +38,12 @@ SceneHierarchy::SceneHierarchy(const Device& device, const GpuScene& scene, Stru
             .corner_count = 3 * mesh.triangle_count};
         meshes_.emplace_back(device, "a mesh's acceleration structure", triangles, use);
     }
-    std::vector<vk::AccelerationStructureInstanceKHR> instances;
-    for (std::uint32_t object = 0; object < scene.object_count; ++object) {
-        instances.push_back({.transform = transform_rows(scene.world_from_object[object]),
-                             .instanceCustomIndex = object,
-                             .mask = 0xff,
-                             .instanceShaderBindingTableRecordOffset = 0,
-                             .flags = 0,
-                             .accelerationStructureReference = meshes_[scene.mesh_of_object[object]].address()});
-    }
-    instances_ = Buffer(device, "instances of acceleration structures", instances.size() * sizeof(instances[0]),
+    using Instance = vk::AccelerationStructureInstanceKHR;
+    instances_ = Buffer(device, "instances of acceleration structures", scene.object_count * sizeof(Instance),
                         vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR |
-                            vk::BufferUsageFlagBits::eShaderDeviceAddress,
-                        true);
-    std::ranges::copy(std::as_bytes(std::span(instances)), instances_.mapped());
+                            vk::BufferUsageFlagBits::eShaderDeviceAddress | vk::BufferUsageFlagBits::eTransferDst);
     top_.emplace(device, "the scene's acceleration structure",
-                 AccelerationStructure::Instances{instances_.address(), std::uint32_t(instances.size())}, use);
+                 AccelerationStructure::Instances{instances_.address(), scene.object_count}, use);
     vk::DeviceSize scratch = top_->scratch_size();
     for (const AccelerationStructure& mesh : meshes_) scratch = std::max(scratch, mesh.scratch_size());
     scratch_.emplace(device, scratch);
@@ -69,12 +59,27 @@ void SceneHierarchy::update(Recorder& recorder, const GpuScene& scene, bool alwa
     std::vector<bool> changed;
     for (const GpuMesh& mesh : scene.meshes) changed.push_back(!built_ || always || mesh.moves > moves_);
     const Recorder::Scope scope(recorder, refit ? "refit" : "build");
+    write_instances(recorder, scene);
     record(recorder, refit ? Mode::eUpdate : Mode::eBuild, changed);
-    recorder.when_done([this, moves = scene.moves] {
+    recorder.when_done([this, moves = scene.moves, alive = std::weak_ptr<int>(alive_)] {
+        if (alive.expired()) return;
         built_ = true;
         moves_ = moves;
         if (use_ == StructureUse::kStatic) scratch_.reset();
     });
+}
+
+void SceneHierarchy::write_instances(Recorder& recorder, const GpuScene& scene) const {
+    std::vector<vk::AccelerationStructureInstanceKHR> instances;
+    for (std::uint32_t object = 0; object < scene.object_count; ++object) {
+        instances.push_back({.transform = transform_rows(scene.world_from_object[object]),
+                             .instanceCustomIndex = object,
+                             .mask = 0xff,
+                             .instanceShaderBindingTableRecordOffset = 0,
+                             .flags = 0,
+                             .accelerationStructureReference = meshes_[scene.mesh_of_object[object]].address()});
+    }
+    recorder.write(instances_, std::as_bytes(std::span(instances)));
 }
 
 // One after the other: they share the scratch memory, which for a large mesh is as large as the mesh.

@@ -3,6 +3,7 @@
 #include "gpu/acceleration_structure.h"
 #include "gpu/gpu_scene.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,7 @@ public:
     const AccelerationStructure& top() const { return *top_; }
 
 private:
+    void write_instances(Recorder& recorder, const GpuScene& scene) const;
     void record(Recorder& recorder, vk::BuildAccelerationStructureModeKHR mode, const std::vector<bool>& meshes) const;
 
     StructureUse use_;
@@ -37,6 +39,7 @@ private:
     std::optional<AccelerationStructure> top_;
     std::optional<BuildScratch> scratch_;  // none once a static hierarchy is built
     bool built_ = false;
+    std::shared_ptr<int> alive_ = std::make_shared<int>(0);  ///< gone with it, which frames that run may outlive
 };
 
 }  // namespace pellucid

@@ -291,9 +291,9 @@ void SceneTopology::update(const Device& device, const Scene& scene, std::uint64
         all_alone = all_alone && !touches;
         trait_words_.push_back(word | (touches ? kTouches : 0u));
     }
-    upload(device, traits, std::as_bytes(std::span(trait_words_)));
-    if (!slot_words_.empty()) upload(device, slots, std::as_bytes(std::span(slot_words_)));
-    if (!uploaded.empty()) upload(device, boxes, std::as_bytes(std::span(uploaded)));
+    upload_later(device, traits, std::as_bytes(std::span(trait_words_)));
+    if (!slot_words_.empty()) upload_later(device, slots, std::as_bytes(std::span(slot_words_)));
+    if (!uploaded.empty()) upload_later(device, boxes, std::as_bytes(std::span(uploaded)));
     moves = moves_now;
 }
 
@@ -311,8 +311,8 @@ void SceneTopology::mark_replaced(const Device& device, const std::vector<int>& 
             }
         }
     }
-    upload(device, traits, std::as_bytes(std::span(words)));
-    if (!records.empty()) upload(device, slots, std::as_bytes(std::span(records)));
+    upload_later(device, traits, std::as_bytes(std::span(words)));
+    if (!records.empty()) upload_later(device, slots, std::as_bytes(std::span(records)));
 }
 
 void SceneTopology::look_from(const Device& device, const Scene& scene, const Camera& camera) {
@@ -375,7 +375,8 @@ void SceneTopology::look_from(const Device& device, const Scene& scene, const Ca
             eye_in_solid = true;
         }
     }
-    upload(device, eye, std::as_bytes(std::span(bits)));
+    if (bits != eye_bits_) upload_later(device, eye, std::as_bytes(std::span(bits)));
+    eye_bits_ = std::move(bits);
 }
 
 }  // namespace pellucid

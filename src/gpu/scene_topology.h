@@ -61,6 +61,7 @@ private:
     std::vector<std::uint32_t> trait_words_, slot_words_;
     std::vector<std::uint32_t> shell_words_;  ///< per triangle of every mesh
     std::vector<Box> boxes_, body_boxes_;     ///< per object and per body, world
+    std::vector<std::uint32_t> eye_bits_;     ///< what `eye` holds
 };
 
 }  // namespace pellucid

@@ -250,7 +250,9 @@ void HostFinder::bring_up_to_date(const Device& device, const Scene& scene, cons
     const bool rebuild = first || own.deforming != deforming;
     own.deforming = deforming;
     for (std::uint32_t i = 0; i < own.objects.size(); ++i) {
-        if (!first && gpu_scene.meshes[gpu_scene.mesh_of_object[i]].moves <= own.moves) continue;
+        const std::uint64_t as_a_whole = gpu_scene.object_moves.empty() ? 0 : gpu_scene.object_moves[i];
+        const std::uint64_t moved = std::max(gpu_scene.meshes[gpu_scene.mesh_of_object[i]].moves, as_a_whole);
+        if (!first && moved <= own.moves) continue;
         own.place(i, scene, gpu_scene);
         if (!rebuild) own.refit(i);
     }

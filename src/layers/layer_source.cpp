@@ -26,14 +26,18 @@ void LayerSource::forget_size() {
 }
 
 bool LayerSource::must_repeat(const Frame& frame) {
-    bool repeat = std::exchange(repeats_, false);
-    repeat = mesh_maps_.must_repeat() || repeat;
-    repeat = must_peel_more() || repeat;
-    for (auto& [name, buffer] : counted_) repeat = buffer.grow() || repeat;
-    repeat = (paths_lost_ && !finishes_paths_) || repeat;
+    outgrown_.clear();
+    const auto note = [&](bool outgrown, const std::string& what) {
+        if (outgrown) outgrown_.push_back(what);
+    };
+    note(std::exchange(repeats_, false), "what the technique keeps");
+    note(mesh_maps_.must_repeat(), "maps of meshes");
+    note(must_peel_more(), "layers");
+    for (auto& [name, buffer] : counted_) note(buffer.grow(), name);
+    note(paths_lost_ && !finishes_paths_, "paths that the view's map lost");
     finishes_paths_ = paths_lost_;
     cut_bands(frame);
-    return repeat;
+    return !outgrown_.empty();
 }
 
 }  // namespace pellucid

@@ -118,6 +118,8 @@ public:
     /// After the frame has run: true if something did not fit. What build() does next will, and the frame must be
     /// recorded again. Throws Error if the device has no room for it.
     bool must_repeat(const Frame& frame);
+    /// What must_repeat() found too small, or lost, when it was last true.
+    const std::vector<std::string>& outgrown() const { return outgrown_; }
     /// How often the frame's builds drew their solids so far; bands of a picture count as one each.
     std::uint32_t geometry_passes() const { return geometry_passes_; }
 
@@ -137,6 +139,7 @@ private:
     DualPeeling dual_;
     std::map<std::string, CountedBuffer> counted_;
     MeshMaps mesh_maps_;
+    std::vector<std::string> outgrown_;
     bool paths_lost_ = false, finishes_paths_ = false, repeats_ = false;
 };
 

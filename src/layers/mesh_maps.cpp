@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace pellucid {
 namespace {
@@ -59,13 +58,13 @@ MapRecord record_along(std::uint32_t axis, const MapBox& box) {
 
 /// Grows a buffer that lives from frame to frame.
 void make_room(Buffer& buffer, const Device& device, const char* name, std::uint64_t bytes,
-               vk::Format texels = vk::Format::eUndefined, bool host_visible = false) {
+               vk::Format texels = vk::Format::eUndefined) {
     using Usage = vk::BufferUsageFlagBits;
     bytes = std::max<std::uint64_t>(bytes, 16);
     if (buffer.size() >= bytes) return;
     buffer = Buffer();  // freed first
-    buffer = Buffer(device, name, bytes, Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
-                    host_visible, texels);
+    buffer =
+        Buffer(device, name, bytes, Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst, false, texels);
 }
 
 /// How many items of a size a buffer of the device can have, in whole blocks.
@@ -170,14 +169,14 @@ void MeshMaps::lay_out(const Frame& frame) {
               kMapFormat);
     make_room(normals_, device, "normals of the meshes' maps", scene.indices.size() / 12 * kMapTriangleSize,
               kMapFormat);
-    make_room(maps_, device, "meshes' maps", meshes_.size() * kAxes * sizeof(MapRecord), {}, true);
-    make_room(objects_, device, "mapped objects", scene.object_count * sizeof(MappedObject), {}, true);
+    make_room(maps_, device, "meshes' maps", meshes_.size() * kAxes * sizeof(MapRecord));
+    make_room(objects_, device, "mapped objects", scene.object_count * sizeof(MappedObject));
     laid_out_ = true;
 }
 
-void MeshMaps::write_tables(const Frame& frame) {
+std::vector<MapRecord> MeshMaps::write_tables(Recorder& recorder, const Frame& frame) {
     const GpuScene& scene = frame.scene;
-    auto* records = reinterpret_cast<MapRecord*>(maps_.mapped());
+    std::vector<MapRecord> records(meshes_.size() * kAxes);
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         if (!meshes_[m].shown) continue;
         const MapBox box = box_of(scene.meshes[m], texels_across(scene.meshes[m]));
@@ -190,12 +189,15 @@ void MeshMaps::write_tables(const Frame& frame) {
             records[m * kAxes + axis] = record;
         }
     }
-    auto* objects = reinterpret_cast<MappedObject*>(objects_.mapped());
+    std::vector<MappedObject> objects(scene.object_count);
     for (std::uint32_t i = 0; i < scene.object_count; ++i) {
         const std::uint32_t m = scene.mesh_of_object[i];
         const MapBox box = box_of(scene.meshes[m], texels_across(scene.meshes[m]));
         objects[i] = {box.low, m * kAxes, box.high, scene.meshes[m].first_corner / 3};
     }
+    recorder.write(maps_, std::as_bytes(std::span(records)));
+    recorder.write(objects_, std::as_bytes(std::span(objects)));
+    return records;
 }
 
 SurfaceMap MeshMaps::bring_up_to_date(Recorder& recorder, const Frame& frame, std::uint32_t resolution) {
@@ -213,20 +215,18 @@ SurfaceMap MeshMaps::bring_up_to_date(Recorder& recorder, const Frame& frame, st
         if (meshes_[m].shown && scene.meshes[m].triangle_count > 0 && !current) building_.push_back(m);
     }
     if (building_.empty()) return buffers();
-    write_tables(frame);
+    const std::vector<MapRecord> records = write_tables(recorder, frame);
     const Recorder::Scope scope(recorder, "mesh maps");
     const SurfaceMap map = buffers();
     for (const std::uint32_t m : building_) {
         for (std::uint32_t axis = 0; axis < kAxes; ++axis) {
             Place& place = meshes_[m].places[axis];
             const std::uint32_t index = m * kAxes + axis;
-            MapRecord record;
-            std::memcpy(&record, maps_.mapped() + index * sizeof(MapRecord), sizeof(record));
             found_.begin(recorder, frame.workspace, 0);
             build_map(recorder, frame, *scene.topology,
-                      {map, record, index, true, scene.meshes[m].triangle_count, std::uint32_t(place.first_record),
-                       std::uint32_t(place.records), found_, tiles_,
-                       [&place](std::uint32_t records) { place.counted = records; }});
+                      {map, records[index], index, true, scene.meshes[m].triangle_count,
+                       std::uint32_t(place.first_record), std::uint32_t(place.records), found_, tiles_,
+                       [&place](std::uint32_t counted) { place.counted = counted; }});
         }
         meshes_[m].moves = scene.meshes[m].moves;
     }

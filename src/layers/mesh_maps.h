@@ -55,7 +55,7 @@ private:
     bool fits(const Frame& frame) const;
     Room place_maps(const GpuScene& scene);
     void lay_out(const Frame& frame);
-    void write_tables(const Frame& frame);
+    std::vector<MapRecord> write_tables(Recorder& recorder, const Frame& frame);
     SurfaceMap buffers() const;
 
     std::uint32_t texels_across(const GpuMesh& mesh) const;  ///< along the longest side of its box

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 
 namespace pellucid {
 namespace {
@@ -113,8 +112,8 @@ SurfaceMap LayerSource::map_surfaces(Recorder& recorder, const Frame& frame, con
     const std::uint64_t texels = texel_count(record);
     CountedBuffer& found = counted("surfaces in texels", kMapFoundSize, kMapFormat);
     found.begin(recorder, workspace, 4 * texels);
-    const Buffer& maps = workspace.buffer("map projections", sizeof(MapRecord), true);
-    std::memcpy(maps.mapped(), &record, sizeof(record));
+    const Buffer& maps = workspace.buffer("map projections", sizeof(MapRecord));
+    recorder.write(maps, record);
     const auto buffer = [&](const char* name, vk::DeviceSize size, vk::Format format) {
         return &workspace.buffer(name, size, false, format);
     };

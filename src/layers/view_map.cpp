@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace pellucid {
 namespace {
@@ -16,8 +15,7 @@ constexpr float kMostTrianglesPerTexel = 16.0f;
 constexpr std::uint32_t kMostTexels = 1u << 22;  ///< 90 MB with the pyramid over them
 
 gpu::FrameConstants view_of(const Frame& frame) {
-    gpu::FrameConstants view{};
-    std::memcpy(&view, frame.constants.mapped(), sizeof(view));
+    gpu::FrameConstants view = frame.view;
     view.film.x += float(view.first_x) * view.film.z;  // the tile's
     view.film.y -= float(view.first_y) * view.film.w;
     return view;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <utility>
 
 namespace pellucid {
@@ -58,12 +57,10 @@ void PhotonStore::build(Recorder& recorder, Workspace& workspace, const PhotonSc
     const Recorder::Scope scope(recorder, "photon store");
     const std::uint32_t slots = std::bit_ceil(2 * list_.capacity());
     const Buffer& cells = workspace.buffer("cells of photons", sizeof(PhotonGrid) + slots * kSlotSize);
-    const Buffer& header = workspace.buffer("grid of photons", sizeof(PhotonGrid), true);
     const float brightest = scale.most_flux / (scale.least_radius * scale.least_radius);
     const PhotonGrid grid{scale.least_radius, std::max(brightest, 1e-30f) / kUnitsOfBrightest, 0, slots - 1};
-    std::memcpy(header.mapped(), &grid, sizeof(grid));
     recorder.fill(cells, 0);
-    recorder.copy(header, cells, sizeof(grid));
+    recorder.write(cells, grid);
     const Buffer& groups = list_.groups(recorder, workspace);
     recorder.compute_indirect(workspace.compute(shaders::count_photons_comp),
                               {reads("Photons", *photons_), updates("PhotonCells", cells)}, groups);

@@ -1,5 +1,7 @@
 #include "render/cpu_tracing.h"
 
+#include "scene/check_scene.h"
+
 #include <pellucid/error.h>
 
 #include <fmt/format.h>
@@ -47,6 +49,44 @@ void CpuTracing::set_positions(const std::vector<MovedMesh>& moved) {
         std::copy(each.positions.begin(), each.positions.end(), mesh.positions.begin());
         std::copy(each.normals.begin(), each.normals.end(), mesh.normals.begin());
     }
+}
+
+void CpuTracing::set_transforms(const std::vector<PosedObject>& moved) {
+    const std::vector<Object> before = scene_.objects;
+    try {
+        for (const PosedObject& each : moved) {
+            if (each.object < 0 || std::size_t(each.object) >= scene_.objects.size()) {
+                throw Error(
+                    fmt::format("there is no object {} to move; the scene has {}", each.object, scene_.objects.size()));
+            }
+            scene_.objects[std::size_t(each.object)].world_from_object = each.world_from_object;
+        }
+        check_objects(scene_);
+    } catch (...) {
+        scene_.objects = before;
+        throw;
+    }
+    tracer_.reset();
+}
+
+void CpuTracing::set_material(int index, const Material& material) {
+    if (index < 0 || std::size_t(index) >= scene_.materials.size())
+        throw Error(fmt::format("there is no material {}; the scene has {}", index, scene_.materials.size()));
+    Material& own = scene_.materials[std::size_t(index)];
+    const auto same = [](const Texture& a, const Texture& b) { return a.image == b.image; };
+    if (!same(own.base_color_texture, material.base_color_texture) ||
+        !same(own.emission_texture, material.emission_texture) ||
+        !same(own.transmission_texture, material.transmission_texture) ||
+        !same(own.metallic_roughness_texture, material.metallic_roughness_texture))
+        throw Error(fmt::format("material {} '{}': its textures cannot be replaced", index, own.name));
+    const Material before = std::exchange(own, material);
+    try {
+        check_materials(scene_);
+    } catch (...) {
+        own = before;
+        throw;
+    }
+    tracer_.reset();
 }
 
 void CpuTracing::set_lights(const std::vector<Light>& lights) {

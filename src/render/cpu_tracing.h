@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pellucid/animation.h>
 #include <pellucid/reference.h>
 
 #include <cstdint>
@@ -19,6 +20,9 @@ public:
     /// Throws Error, and moves nothing, if a mesh does not exist, the counts differ, or a number is not finite. The
     /// hierarchy is built anew when it is next asked for.
     void set_positions(const std::vector<MovedMesh>& moved);
+    /// Throw Error, and change nothing, if what they give would be no valid scene.
+    void set_transforms(const std::vector<PosedObject>& moved);
+    void set_material(int index, const Material& material);
     void set_lights(const std::vector<Light>& lights);
     const Scene& scene() const { return scene_; }
     const Tracer& tracer();

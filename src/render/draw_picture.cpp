@@ -61,10 +61,10 @@ FrameImages Renderer::Impl::draw_until_fits(const Frame& frame, const FrameSetti
     }
 }
 
-std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameSettings& chosen,
+std::vector<PassTime> Renderer::Impl::run_frame(Frame& frame, const FrameSettings& chosen,
                                                 const RenderSettings& settings, std::optional<std::uint32_t> sample,
                                                 const Progress& progress, std::optional<FrameImages>& images) {
-    set_constants(frame, settings, sample);
+    begin_frame(recorder, frame, constants_of(frame, settings, sample));
     photons.count_flux(settings.photon_flux && !sample);
     std::optional<TracedView> traced;
     if (chosen.truth) traced.emplace(traced_view(settings, sample, progress));
@@ -74,7 +74,7 @@ std::vector<PassTime> Renderer::Impl::run_frame(const Frame& frame, const FrameS
     return times;
 }
 
-std::map<std::string, const GpuImage*> Renderer::Impl::draw_parts(const Frame& frame, const FrameSettings& chosen,
+std::map<std::string, const GpuImage*> Renderer::Impl::draw_parts(Frame& frame, const FrameSettings& chosen,
                                                                   const RenderSettings& settings,
                                                                   std::optional<std::uint32_t> sample,
                                                                   const GpuImage* wanted) {
@@ -84,7 +84,7 @@ std::map<std::string, const GpuImage*> Renderer::Impl::draw_parts(const Frame& f
     for (std::uint32_t part = 0; part < kLightParts.size(); ++part) {
         const std::string name(kLightParts[part]);
         if (std::find(settings.aovs.begin(), settings.aovs.end(), name) == settings.aovs.end()) continue;
-        set_constants(frame, settings, sample, part + 1);
+        begin_frame(recorder, frame, constants_of(frame, settings, sample, part + 1));
         std::vector<PassTime> times;
         const FrameImages images = draw_until_fits(frame, chosen, traced ? &*traced : nullptr, times);
         sums[name] = &accumulate(recorder, frame, images.radiance, sample.value_or(0), wanted, name);
@@ -93,16 +93,15 @@ std::map<std::string, const GpuImage*> Renderer::Impl::draw_parts(const Frame& f
     return sums;
 }
 
-const GpuImage& Renderer::Impl::draw_sample(const Frame& frame, const FrameSettings& chosen,
-                                            const RenderSettings& settings, std::uint32_t sample,
-                                            const Progress& progress, RenderResult& part) {
+const GpuImage& Renderer::Impl::draw_sample(Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                                            std::uint32_t sample, const Progress& progress, RenderResult& part) {
     std::optional<FrameImages> images;
     part.frames.push_back(run_frame(frame, chosen, settings, sample, progress, images));
     part.layer_passes = layer_source.geometry_passes();
     return images->radiance;
 }
 
-std::vector<std::uint32_t> Renderer::Impl::samples_for(const Frame& frame, const FrameSettings& chosen,
+std::vector<std::uint32_t> Renderer::Impl::samples_for(Frame& frame, const FrameSettings& chosen,
                                                        const RenderSettings& settings, const Progress& progress,
                                                        RenderResult& part) {
     PixelNoise noise;
@@ -115,7 +114,7 @@ std::vector<std::uint32_t> Renderer::Impl::samples_for(const Frame& frame, const
     return noise.samples_for(settings.error, settings.exposure_ev, settings.most_samples);
 }
 
-const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSettings& chosen,
+const GpuImage* Renderer::Impl::render_samples(Frame& frame, const FrameSettings& chosen,
                                                const RenderSettings& settings, RenderResult& part) {
     const bool draws = draws_picture(chosen);
     // The frame through pixel centres gives the AOVs and counts; alone, it is the picture too.
@@ -124,7 +123,7 @@ const GpuImage* Renderer::Impl::render_samples(const Frame& frame, const FrameSe
     const bool alone = draws && settings.samples == 1 && !adaptive;
     std::vector<PassTime> times =
         run_frame(frame, chosen, settings, std::nullopt, alone ? settings.progress : Progress(), images);
-    read_back(device, *images, current_constants(), scene->first_triangles, settings, part);
+    read_back(device, *images, frame.view, scene->first_triangles, settings, part);
     part.layer_passes = layer_source.geometry_passes();
     part.cut_rays = solid_lighting.transmitted().cut_rays();
     if (!draws) return nullptr;
@@ -176,8 +175,8 @@ Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSetting
     // Paths have 16 bytes per pixel in one buffer; other techniques list the pixels with glass.
     std::uint64_t most = most_tile_pixels(device, chosen.info.whole_scene ? 16 : 4);
     if (settings.tile_pixels > 0) most = std::min<std::uint64_t>(most, settings.tile_pixels);
-    set_constants(frame, settings, std::nullopt);
-    const std::optional<Tile> glass = tile_of_glass(current_constants(), scene->refractive_corners);
+    const std::optional<Tile> glass =
+        tile_of_glass(constants_of(frame, settings, std::nullopt), scene->refractive_corners);
     std::vector<Tile> left = tiles_of(size, glass, most, device);
     TileProgress progress(settings.progress, size);
     Drawn drawn;

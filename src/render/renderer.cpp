@@ -45,10 +45,10 @@ std::uint32_t photons_of(const FrameSettings& chosen, LightTransport transport) 
 
 }  // namespace
 
-const GpuImage& Renderer::Impl::filtered_environment_for_scene() {
+const GpuImage& Renderer::Impl::filtered_environment_for_scene(Recorder& of) {
     if (filtered_environment) return *filtered_environment;
     if (scene->rough)
-        return filtered_environment.emplace(filter_environment(workspace, recorder, environment, *environment_map));
+        return filtered_environment.emplace(filter_environment(workspace, of, environment, *environment_map));
     if (!no_filtered_environment) no_filtered_environment.emplace(pellucid::no_filtered_environment(device));
     return *no_filtered_environment;
 }
@@ -60,8 +60,9 @@ Camera Renderer::Impl::camera_for(const RenderSettings& settings) const {
     return framing_camera(scene->bounds, settings.width, settings.height, Camera{}.vertical_fov);
 }
 
-FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const {
-    TechniqueChoice choice = choose(settings.technique);
+FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings,
+                                             bool recorded) const {
+    TechniqueChoice choice = choose(settings.technique, recorded);
     const TechniqueInfo& info = *choice.technique;
     if (const std::string lacking = lacking_for(device, info); !lacking.empty()) {
         throw DeviceError(fmt::format("{} needs {}, which {} lacks", info.name, lacking, device.info().name));
@@ -99,7 +100,7 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
 }
 
 void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& light, const Camera& view,
-                             const Progress& progress, std::vector<std::string>& warnings) {
+                             const Progress& progress, std::vector<std::string>& warnings, bool recorded) {
     aim_photons(chosen, light);
     const bool caches = chosen.technique != nullptr && light.bounces > 0 && !scene->opaque.empty();
     irradiance.begin(caches ? scene_brightness(cpu.scene(), scene->bounds, environment_constants) : 0.0f);
@@ -112,7 +113,7 @@ void Renderer::Impl::prepare(const FrameSettings& chosen, const FrameLight& ligh
     // Shapes that a deforming mesh passes through are not worth a file each.
     bake::BakeCache passing{std::filesystem::path()};
     bake::BakeCache& cache = scene->moves > 0 ? passing : bake_cache;
-    const Preparation preparation{device, cpu.scene(), *scene, cache, options.threads, progress, warnings};
+    const Preparation preparation{device, cpu.scene(), *scene, cache, options.threads, progress, warnings, recorded};
     if (photons.any() || irradiance.any() || (!chosen.info.whole_scene && light.any() && !scene->opaque.empty()))
         prepare_light(preparation);
     if (chosen.technique->prepare != nullptr) chosen.technique->prepare(preparation, chosen.parameters);
@@ -138,8 +139,8 @@ const EnvironmentShares* Renderer::Impl::shares_of_environment() {
     return *environment_shares ? &**environment_shares : nullptr;
 }
 
-void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& settings,
-                                   std::optional<std::uint32_t> sample, std::uint32_t part) {
+gpu::FrameConstants Renderer::Impl::constants_of(const Frame& frame, const RenderSettings& settings,
+                                                 std::optional<std::uint32_t> sample, std::uint32_t part) const {
     gpu::FrameConstants values = environment_constants;
     const glm::vec2 jitter = jitter_of(settings, sample);
     pellucid::set_camera(values, camera_for(settings), settings.width, settings.height, jitter, scene->bounds,
@@ -148,7 +149,7 @@ void Renderer::Impl::set_constants(const Frame& frame, const RenderSettings& set
     values.object_count = scene->object_count;
     values.sample_index = settings.first_sample + sample.value_or(0);
     values.light_part = part;
-    std::memcpy(constants->mapped(), &values, sizeof(values));
+    return values;
 }
 
 LightOptions Renderer::Impl::chosen_light(const RenderSettings& settings) const {
@@ -172,17 +173,36 @@ FrameLight Renderer::Impl::frame_light(const LightOptions& wanted) const {
             .bounces = wanted.transport == LightTransport::kFull ? wanted.bounces : 0};
 }
 
-Frame Renderer::Impl::frame_of(const RenderSettings& settings) {
+Frame Renderer::Impl::frame_of(Recorder& of, const RenderSettings& settings) {
     return {workspace,
             *scene,
             *constants,
+            environment_constants,
             *environment_map,
-            filtered_environment_for_scene(),
+            filtered_environment_for_scene(of),
             std::uint32_t(environment.kind),
             {settings.width, settings.height},
             glm::uvec2(0),
             1,
             frame_light(chosen_light(settings))};
+}
+
+Frame Renderer::Impl::lit_frame(Recorder& of, const RenderSettings& settings) {
+    Frame frame = frame_of(of, settings);
+    frame.photons = photons.bindings();
+    frame.irradiance = irradiance.bindings();
+    if (const auto* shares = frame.light.bounces > 0 ? shares_of_environment() : nullptr)
+        frame.environment_shares = &shares->buffer;
+    frame.bounces_before_cache =
+        settings.still && (settings.samples > kSamplesOfCache || settings.error > 0.0f) ? 1 : 0;
+    frame.light.photons_of_emitters = photons.of_emitters();
+    frame.light.photons_of_environment = photons.of_environment();
+    if (settings.view == View::kWavefront) frame.front_exposure = std::exp2(settings.exposure_ev);
+    return frame;
+}
+
+void Renderer::Impl::require_no_frames() const {
+    if (unread_frames > 0) throw Error(fmt::format("{} frames have not been read (vulkan::Frames)", unread_frames));
 }
 
 void Renderer::Impl::forget_frame() {
@@ -200,7 +220,7 @@ Renderer::Renderer(const vulkan::LentDevice& device, std::uint32_t threads)
 
 void Renderer::begin() {
     impl_->constants.emplace(impl_->device, "frame constants", sizeof(gpu::FrameConstants),
-                             vk::BufferUsageFlagBits::eStorageBuffer, true);
+                             vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
     set_scene(Scene{});
     set_environment(Environment{});
 }
@@ -210,7 +230,9 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::set_scene(const Scene& scene) {
+    impl_->require_no_frames();
     check_scene(scene);
+    ++impl_->changes;
     if (!scene.cameras.empty()) check_camera(scene.cameras.front());
     Scene copy = scene;
     impl_->scene.reset();  // freed first: a large scene may fit once only
@@ -235,12 +257,39 @@ void Renderer::set_positions(const std::vector<MovedMesh>& moved) {
     std::vector<int> meshes;
     for (const MovedMesh& each : moved) meshes.push_back(each.mesh);
     impl_->scene->move_vertices(impl_->device, impl_->cpu.scene(), meshes);
+    ++impl_->changes;
+}
+
+void Renderer::set_transforms(const std::vector<PosedObject>& moved) {
+    impl_->cpu.set_transforms(moved);
+    std::vector<int> objects;
+    for (const PosedObject& each : moved) objects.push_back(each.object);
+    impl_->scene->move_objects(impl_->device, impl_->cpu.scene(), objects);
+    ++impl_->changes;
+}
+
+void Renderer::set_material(int index, const Material& material) {
+    const auto number = std::size_t(index);
+    const auto& materials = impl_->cpu.scene().materials;
+    const bool was_refractive = number < materials.size() && materials[number].refractive();
+    impl_->cpu.set_material(index, material);
+    impl_->scene->set_material(impl_->device, impl_->cpu.scene(), number, was_refractive);
+    ++impl_->changes;
+}
+
+void Renderer::set_light(int index, const Light& light) {
+    std::vector<Light> lights = impl_->cpu.scene().lights;
+    if (index < 0 || std::size_t(index) >= lights.size())
+        throw Error(fmt::format("there is no light {}; the scene has {}", index, lights.size()));
+    lights[std::size_t(index)] = light;
+    set_lights(lights);
 }
 
 void Renderer::set_lights(const std::vector<Light>& lights) {
     check_lights(lights);
     impl_->cpu.set_lights(lights);
     impl_->scene->set_lights(impl_->device, lights);
+    ++impl_->changes;
 }
 
 void Renderer::set_environment(const Environment& environment) {
@@ -251,32 +300,42 @@ void Renderer::set_environment(const Environment& environment) {
     impl_->environment_map = upload_environment(impl_->device, environment);
     impl_->environment = environment;
     pellucid::set_environment(impl_->environment_constants, environment);
+    ++impl_->changes;
+}
+
+void Renderer::turn_environment(float rotation, float intensity) {
+    Environment turned;
+    turned.rotation = rotation;
+    turned.intensity = intensity;
+    check_environment(turned);
+    impl_->filtered_environment.reset();
+    impl_->photons.begin({});
+    impl_->environment_shares.reset();
+    impl_->environment.rotation = rotation;
+    impl_->environment.intensity = intensity;
+    pellucid::set_environment(impl_->environment_constants, impl_->environment);
+    ++impl_->changes;
 }
 
 void Renderer::set_camera(const Camera& camera) {
     check_camera(camera);
     impl_->camera = camera;
+    ++impl_->changes;
 }
 
 RenderResult Renderer::render(const RenderSettings& settings) {
     Impl& impl = *impl_;
     check_settings(settings, impl.device);
+    impl.require_no_frames();
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
     impl.prepare(chosen, impl.frame_light(impl.chosen_light(settings)), impl.camera_for(settings), settings.progress,
                  result.warnings);
     result.light = impl.chosen_light(settings).transport;
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
-    Frame frame = impl.frame_of(settings);
-    frame.photons = impl.photons.bindings();
-    frame.irradiance = impl.irradiance.bindings();
-    if (const auto* shares = frame.light.bounces > 0 ? impl.shares_of_environment() : nullptr)
-        frame.environment_shares = &shares->buffer;
-    frame.bounces_before_cache =
-        settings.still && (settings.samples > kSamplesOfCache || settings.error > 0.0f) ? 1 : 0;
-    frame.light.photons_of_emitters = impl.photons.of_emitters();
-    frame.light.photons_of_environment = impl.photons.of_environment();
-    if (settings.view == View::kWavefront) frame.front_exposure = std::exp2(settings.exposure_ev);
+    const bool filtered = impl.filtered_environment.has_value();
+    Frame frame = impl.lit_frame(impl.recorder, settings);
+    if (!filtered) impl.recorder.submit_and_wait();  // apart from frames, which may be forgotten
     impl.workspace.trim();
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {
@@ -299,12 +358,14 @@ RenderResult Renderer::render(const RenderSettings& settings) {
         }
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
+        impl.filtered_environment.reset();
         impl.layer_source = LayerSource();
         impl.solid_lighting.forget();
         impl.photons.forget();
         impl.irradiance.forget();
         throw;
     }
+    ++impl.changes;  // frames have another workspace now
     return result;
 }
 
@@ -315,14 +376,17 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
     settings.height = request.height;
     settings.thickness = request.settings;
     check_settings(settings, impl.device);
+    impl.require_no_frames();
     if (request.light >= impl.cpu.scene().lights.size()) {
         throw Error(
             fmt::format("there is no light {}; the scene has {}", request.light, impl.cpu.scene().lights.size()));
     }
     ThicknessResult result;
     impl.light_solids(request.settings, {request.light}, request.progress, result.warnings);
-    const Frame frame = impl.frame_of(settings);
-    impl.set_constants(frame, settings, std::nullopt);
+    const bool filtered = impl.filtered_environment.has_value();
+    Frame frame = impl.frame_of(impl.recorder, settings);
+    if (!filtered) impl.recorder.submit_and_wait();
+    Impl::begin_frame(impl.recorder, frame, impl.constants_of(frame, settings, std::nullopt));
     TransmittedLight& transmitted = impl.solid_lighting.transmitted();
     try {
         const GpuImage* thickness = nullptr;
@@ -347,6 +411,7 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
         std::memcpy(result.thickness.pixels.data(), texels.data(), texels.size());
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
+        impl.filtered_environment.reset();
         impl.solid_lighting.forget();
         impl.photons.forget();
         impl.irradiance.forget();

@@ -53,6 +53,8 @@ struct Renderer::Impl {
     std::optional<Camera> camera;        // set by the caller
     std::optional<Camera> scene_camera;  // the scene's first
     gpu::FrameConstants environment_constants{};
+    std::uint64_t changes = 0;        ///< how often what was set has changed
+    std::uint32_t unread_frames = 0;  ///< of vulkan::Frames
 
     struct Drawn {
         std::vector<Tile> tiles;
@@ -60,38 +62,39 @@ struct Renderer::Impl {
         bool cut = false;                     ///< glass lies in several tiles, or beside opaque surfaces of others
     };
 
-    TechniqueChoice choose(std::string_view name) const {
+    /// `recorded`, here and below: for frames that are recorded into commands of the caller's.
+    TechniqueChoice choose(std::string_view name, bool recorded = false) const {
         const auto times = [&](auto techniques) { return measured_times(device.info(), options, techniques); };
-        return choose_technique(name, device, !cpu.scene().volume_objects.empty(), times);
+        return choose_technique(name, device, !cpu.scene().volume_objects.empty(), times, recorded);
     }
-    FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings) const;
+    FrameSettings frame_settings(const RenderSettings& settings, std::vector<std::string>& warnings,
+                                 bool recorded = false) const;
     /// Lets the technique compute what it wants of the scene; ParameterValues of `chosen` say what.
     void prepare(const FrameSettings& chosen, const FrameLight& light, const Camera& view, const Progress& progress,
-                 std::vector<std::string>& warnings);
+                 std::vector<std::string>& warnings, bool recorded = false);
     /// Draws one sample of every pixel, again if need be until the fragment pool is large enough; returns
     /// the pass times. `progress` is of this sample.
     /// `sample`: none for the frame through the centres of the pixels.
-    std::vector<PassTime> run_frame(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+    std::vector<PassTime> run_frame(Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
                                     std::optional<std::uint32_t> sample, const Progress& progress,
                                     std::optional<FrameImages>& images);
     /// Draws a sample of every pixel, of those that want one; counts and times go to `part`. Returns its radiance.
-    const GpuImage& draw_sample(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+    const GpuImage& draw_sample(Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
                                 std::uint32_t sample, const Progress& progress, RenderResult& part);
     /// Records a frame until what it gathers fits, and waits for it. Adds its times to `times`.
     FrameImages draw_until_fits(const Frame& frame, const FrameSettings& chosen, const TracedView* traced,
                                 std::vector<PassTime>& times);
     /// Draws the frame that run_frame() drew last again, once for every part of its light that `settings` ask for, and adds
     /// each to its sum. Returns the sums, by the parts' names.
-    std::map<std::string, const GpuImage*> draw_parts(const Frame& frame, const FrameSettings& chosen,
+    std::map<std::string, const GpuImage*> draw_parts(Frame& frame, const FrameSettings& chosen,
                                                       const RenderSettings& settings,
                                                       std::optional<std::uint32_t> sample, const GpuImage* wanted);
     /// Draws samples of a tile that tell how many each of its pixels needs.
-    std::vector<std::uint32_t> samples_for(const Frame& frame, const FrameSettings& chosen,
-                                           const RenderSettings& settings, const Progress& progress,
-                                           RenderResult& part);
+    std::vector<std::uint32_t> samples_for(Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+                                           const Progress& progress, RenderResult& part);
     /// Draws the samples of a tile; fills the radiance (the sum of the samples), AOVs, paths, counts and times of `part`.
     /// Returns the radiance on the device; null where a truth traces the image.
-    const GpuImage* render_samples(const Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
+    const GpuImage* render_samples(Frame& frame, const FrameSettings& chosen, const RenderSettings& settings,
                                    RenderResult& part);
     /// Draws all tiles; they are smaller in the end than at first where one did not fit the device.
     Drawn draw_tiles(Frame frame, const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
@@ -100,7 +103,10 @@ struct Renderer::Impl {
                            const Progress& progress);
     /// The image that a truth traces itself.
     void trace_image(const FrameSettings& chosen, const RenderSettings& settings, RenderResult& result);
-    Frame frame_of(const RenderSettings& settings);
+    /// `of`: records what it has to make first.
+    Frame frame_of(Recorder& of, const RenderSettings& settings);
+    /// A frame with all that its light needs; prepare() comes before.
+    Frame lit_frame(Recorder& of, const RenderSettings& settings);
     /// Settings::light with what kAutomatic stands for.
     LightOptions chosen_light(const RenderSettings& settings) const;
     FrameLight frame_light(const LightOptions& wanted) const;
@@ -123,20 +129,24 @@ struct Renderer::Impl {
     /// For a picture of a technique whose parameter `photons` asks for some of every light.
     void aim_photons(const FrameSettings& chosen, const FrameLight& light);
     const EnvironmentShares* shares_of_environment();
-    gpu::FrameConstants current_constants() const {
-        gpu::FrameConstants values{};
-        std::memcpy(&values, constants->mapped(), sizeof(values));
-        return values;
-    }
     /// `part`: PELLUCID_ALL_LIGHT, or the only part of the light that the frame draws.
-    void set_constants(const Frame& frame, const RenderSettings& settings, std::optional<std::uint32_t> sample,
-                       std::uint32_t part = PELLUCID_ALL_LIGHT);
+    gpu::FrameConstants constants_of(const Frame& frame, const RenderSettings& settings,
+                                     std::optional<std::uint32_t> sample,
+                                     std::uint32_t part = PELLUCID_ALL_LIGHT) const;
+    /// Begins to record `frame` as `view` sees it, after what has been set since the last one.
+    static void begin_frame(Recorder& recorder, Frame& frame, const gpu::FrameConstants& view) {
+        recorder.upload_pending();
+        frame.view = view;
+        recorder.write(frame.constants, view);
+    }
+    /// Throws Error if frames have not been read.
+    void require_no_frames() const;
     Camera camera_for(const RenderSettings& settings) const;
     /// Where in the pixel a sample lies, from its centre, pixels; none: at the centre.
     static glm::vec2 jitter_of(const RenderSettings& settings, std::optional<std::uint32_t> sample) {
         return sample ? sample_jitter(settings.first_sample + *sample) : glm::vec2(0.0f);
     }
-    const GpuImage& filtered_environment_for_scene();
+    const GpuImage& filtered_environment_for_scene(Recorder& of);
 };
 
 }  // namespace pellucid

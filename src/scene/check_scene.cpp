@@ -101,18 +101,14 @@ bool is_similarity(const glm::mat4& transform) {
            same(m[0], m[2], 0.0f) && same(m[1], m[2], 0.0f);
 }
 
-void check_scene(const Scene& scene) {
-    require(scene.image_names.size() == scene.images.size(), "scene", "needs one name per image");
-    for (std::size_t i = 0; i < scene.images.size(); ++i) {
-        require(holds_its_pixels(scene.images[i]), fmt::format("image {}", i), "its pixels do not fit its size");
-    }
+void check_materials(const Scene& scene) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         check_material(scene.materials[i], fmt::format("material {} '{}'", i, scene.materials[i].name),
                        scene.images.size());
     }
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        check_mesh(scene.meshes[i], fmt::format("mesh {} '{}'", i, scene.meshes[i].name));
-    }
+}
+
+void check_objects(const Scene& scene) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         const std::string what = fmt::format("object {} '{}'", i, object.name);
@@ -123,6 +119,18 @@ void check_scene(const Scene& scene) {
         require(finite(m) && glm::determinant(glm::dmat3(m)) != 0.0, what,
                 "its transform is not finite and invertible");
     }
+}
+
+void check_scene(const Scene& scene) {
+    require(scene.image_names.size() == scene.images.size(), "scene", "needs one name per image");
+    for (std::size_t i = 0; i < scene.images.size(); ++i) {
+        require(holds_its_pixels(scene.images[i]), fmt::format("image {}", i), "its pixels do not fit its size");
+    }
+    check_materials(scene);
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        check_mesh(scene.meshes[i], fmt::format("mesh {} '{}'", i, scene.meshes[i].name));
+    }
+    check_objects(scene);
     for (std::size_t i = 0; i < scene.volumes.size(); ++i) {
         require(scene.volumes[i] != nullptr, fmt::format("volume {}", i), "there is none");
         check_volume(*scene.volumes[i]);

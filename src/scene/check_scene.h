@@ -10,6 +10,8 @@ namespace pellucid {
 /// Throw Error naming what does not hold of the promises that the public headers state. Loaders keep
 /// them; a caller may build these by hand.
 void check_scene(const Scene& scene);
+void check_materials(const Scene& scene);
+void check_objects(const Scene& scene);
 void check_lights(std::span<const Light> lights);
 void check_camera(const Camera& camera);
 void check_environment(const Environment& environment);

@@ -126,17 +126,26 @@ const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImag
     return sum;
 }
 
-const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale, ToneMap curve) {
+const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale, ToneMap curve,
+                        bool swap_red_blue) {
     struct Push {
         float scale;
         std::uint32_t curve;
     };
     const GpuImage& display = frame.workspace.image("display", vk::Format::eR8G8B8A8Unorm, frame.extent);
     const Recorder::Scope scope(recorder, "tonemap");
-    recorder.compute(frame.workspace.compute(shaders::tonemap_comp),
+    recorder.compute(frame.workspace.compute(shaders::tonemap_comp, {{"kSwapRedBlue", swap_red_blue}}),
                      {reads("radiance", radiance), writes("display", display)}, Push{scale, std::uint32_t(curve)},
                      frame.extent);
     return display;
+}
+
+const GpuImage& scale_radiance(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale) {
+    const GpuImage& scaled = frame.workspace.image("scaled radiance", kRadianceFormat, frame.extent);
+    const Recorder::Scope scope(recorder, "scale");
+    recorder.compute(frame.workspace.compute(shaders::scale_radiance_comp),
+                     {reads("radiance", radiance), writes("scaled", scaled)}, scale, frame.extent);
+    return scaled;
 }
 
 }  // namespace pellucid

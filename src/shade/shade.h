@@ -32,6 +32,11 @@ const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImag
                            const GpuImage* wanted = nullptr, std::string_view name = "radiance sum");
 
 /// Display values (RGBA8, sRGB-encoded) of `scale * radiance`, by a curve other than kKrawczyk (adaptation.h).
-const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale, ToneMap curve);
+/// `swap_red_blue`: as BGRA8.
+const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale, ToneMap curve,
+                        bool swap_red_blue = false);
+
+/// `scale * radiance` (RGBA32F), alpha 1.
+const GpuImage& scale_radiance(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale);
 
 }  // namespace pellucid

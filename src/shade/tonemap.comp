@@ -5,6 +5,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) readonly uniform image2DArray radiance;
 layout(set = 0, binding = 1, rgba8) writeonly uniform image2DArray display;
+layout(constant_id = 0) const bool kSwapRedBlue = false;
 layout(push_constant) uniform Push {
     float scale;
     uint curve;  // pellucid::ToneMap
@@ -42,5 +43,6 @@ void main() {
     if (curve == 1u) c = reinhard(c);
     else if (curve == 2u) c = aces(c);
     else if (curve == 3u) c = neutral(c);
-    imageStore(display, at, vec4(srgb_from_linear(clamp(c, 0.0, 1.0)), 1.0));
+    c = srgb_from_linear(clamp(c, 0.0, 1.0));
+    imageStore(display, at, vec4(kSwapRedBlue ? c.bgr : c, 1.0));
 }

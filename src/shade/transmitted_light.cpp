@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace pellucid {
@@ -45,8 +44,9 @@ void TransmittedLight::begin(TransmittedLightSetup setup) {
 
 void TransmittedLight::forget() { source_ = LayerSource(); }
 
-Frame TransmittedLight::light_frame(const Frame& frame, const Buffer& constants) const {
-    return seen_from(frame, workspace_, constants, {setup_.resolution, setup_.resolution});
+Frame TransmittedLight::light_frame(const Frame& frame, const Buffer& constants,
+                                    const gpu::FrameConstants& view) const {
+    return seen_from(frame, workspace_, constants, view, {setup_.resolution, setup_.resolution});
 }
 
 TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, const Frame& frame,
@@ -76,18 +76,17 @@ TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, c
     return {triangle, normal, reflected, transmitted, pixels};
 }
 
-const Buffer& TransmittedLight::view_constants(const Frame& frame, std::size_t number) {
-    const Buffer& constants =
-        workspace_.buffer(fmt::format("light constants {}", number), sizeof(gpu::FrameConstants), true);
+Frame TransmittedLight::view_from(Recorder& recorder, const Frame& frame, std::size_t number) {
     gpu::FrameConstants values = setup_.views[number].constants;
     values.object_count = frame.scene.object_count;
-    std::memcpy(constants.mapped(), &values, sizeof(values));
-    return constants;
+    const Buffer& constants = workspace_.buffer(fmt::format("light constants {}", number), sizeof(values));
+    recorder.write(constants, values);
+    return light_frame(frame, constants, values);
 }
 
 const GpuImage& TransmittedLight::build_map(Recorder& recorder, const Frame& frame, const Opaque& opaque,
                                             std::size_t number) {
-    const Frame from_light = light_frame(frame, view_constants(frame, number));
+    const Frame from_light = view_from(recorder, frame, number);
     return source_.build(recorder, from_light, opaque, {frame.scene.opaque, layer_count(), false, "light"}).triangle;
 }
 
@@ -102,7 +101,7 @@ void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const
                                    bool measures) {
     const LightView& view = setup_.views[number];
     const GpuScene& scene = frame.scene;
-    const Buffer& constants = view_constants(frame, number);
+    const Frame from_light = view_from(recorder, frame, number);
     const GpuImage& triangles = needs_layers() ? build_map(recorder, frame, opaque, number)
                                                : workspace_.image("no layers", vk::Format::eR32Uint, {1, 1});
     // Something has to be bound where nothing is baked.
@@ -117,7 +116,7 @@ void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const
                                 {{"kMethod", method_constant(setup_.method)},
                                  {"kMeasures", measures},
                                  {"kOneObject", scene.opaque.size() == 1 && scene.object_count == 1}}),
-        {frame.bindings(), reads("LightFrame", constants), reads("surface_triangle", surfaces.triangle),
+        {frame.bindings(), reads("LightFrame", from_light.constants), reads("surface_triangle", surfaces.triangle),
          reads("surface_normals", surfaces.normal), reads("surface_reflected", surfaces.reflected),
          reads("surface_transmitted", surfaces.transmitted), reads("layer_triangle", triangles),
          reads("LocalThickness", setup_.local ? setup_.local->values : nothing),
@@ -153,7 +152,7 @@ const GpuImage& TransmittedLight::measure(Recorder& recorder, const Frame& frame
 
 bool TransmittedLight::must_repeat(const Frame& frame) {
     if (!any_ || !needs_layers()) return false;
-    return source_.must_repeat(light_frame(frame, frame.constants));
+    return source_.must_repeat(light_frame(frame, frame.constants, frame.view));
 }
 
 }  // namespace pellucid

@@ -58,13 +58,13 @@ private:
     void record(Recorder& recorder, const Frame& frame, const Opaque& opaque, const GpuImage& thickness, bool measures);
     void record_view(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Surfaces& surfaces,
                      const GpuImage& thickness, std::size_t view, bool measures);
-    const Buffer& view_constants(const Frame& frame, std::size_t number);
+    Frame view_from(Recorder& recorder, const Frame& frame, std::size_t number);
     const GpuImage& build_map(Recorder& recorder, const Frame& frame, const Opaque& opaque, std::size_t number);
     /// A shadow map is the first layer.
     std::uint32_t layer_count() const {
         return setup_.method == ThicknessMethod::kTranslucentShadowMap ? 1 : setup_.layers;
     }
-    Frame light_frame(const Frame& frame, const Buffer& constants) const;
+    Frame light_frame(const Frame& frame, const Buffer& constants, const gpu::FrameConstants& view) const;
     bool needs_layers() const { return setup_.method != ThicknessMethod::kLocalThickness; }
 
     mutable Workspace workspace_;

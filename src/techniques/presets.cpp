@@ -27,10 +27,12 @@ std::vector<TechniqueChoice> whole_scenes(const ParameterMap& parameters) {
 }
 
 /// The fastest of them on the device, and what says so.
-TechniqueChoice fastest(const std::vector<TechniqueChoice>& choices, const Device& device, const MeasuredTimes& times) {
+TechniqueChoice fastest(const std::vector<TechniqueChoice>& choices, const Device& device, const MeasuredTimes& times,
+                        bool recorded) {
     std::vector<TechniqueChoice> offered;
-    std::copy_if(choices.begin(), choices.end(), std::back_inserter(offered),
-                 [&](const TechniqueChoice& choice) { return lacking_for(device, *choice.technique).empty(); });
+    std::copy_if(choices.begin(), choices.end(), std::back_inserter(offered), [&](const TechniqueChoice& choice) {
+        return lacking_for(device, *choice.technique).empty() && (choice.technique->recordable || !recorded);
+    });
     if (offered.empty()) return choices.back();
     if (offered.size() == 1) return offered.front();
     std::vector<std::string_view> names;
@@ -76,13 +78,13 @@ void check_technique_name(std::string_view name) {
         throw Error(fmt::format("unknown technique '{}'; known: {}", name, fmt::join(known, ", ")));
 }
 
-TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes,
-                                 const MeasuredTimes& times) {
+TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes, const MeasuredTimes& times,
+                                 bool recorded) {
     check_technique_name(name);
     for (const Preset& preset : all_presets()) {
         if (preset.info.name != name) continue;
         if (volumes) return {&find_technique("ihrke-2007"), {}};
-        return fastest(preset.choices, device, times);
+        return fastest(preset.choices, device, times, recorded);
     }
     return {&find_technique(name), {}};
 }

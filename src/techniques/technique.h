@@ -82,6 +82,7 @@ struct Preparation {
     std::uint32_t threads;  ///< 0: all cores
     const Progress& progress;
     std::vector<std::string>& warnings;
+    bool recorded = false;  ///< Frame::recorded of the frames to come
 };
 
 /// A row of the registry: what the technique is, what it needs, and how it is recorded.
@@ -113,6 +114,8 @@ std::string lacking_for(const Device& device, const TechniqueInfo& info);
 /// `volumes`: the scene has some, and presets stand for what draws them. `times`: milliseconds per frame of techniques on
 /// this device, asked for where a preset may stand for several.
 using MeasuredTimes = std::function<std::vector<double>(std::span<const std::string_view> techniques)>;
-TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes, const MeasuredTimes& times);
+/// `recorded`: presets stand for techniques that are recordable.
+TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes, const MeasuredTimes& times,
+                                 bool recorded = false);
 
 }  // namespace pellucid

@@ -51,6 +51,7 @@ protected:
     void set(const Environment& environment) {
         map_ = upload_environment(device(), environment);
         filtered_ = filter_environment(workspace(), recorder(), environment, map_);
+        recorder().submit_and_wait();
         constants_ = {};
         set_environment(constants_, environment);
     }

@@ -310,10 +310,11 @@ TEST_F(MeshMapsTest, OnlyWhatMovesIsBuiltAnew) {
     const Buffer constants(device(), "constants", sizeof(gpu::FrameConstants), vk::BufferUsageFlagBits::eStorageBuffer,
                            true);
     const GpuImage& none = workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1});
-    const Frame frame{workspace(), on_device, constants, none, none, 0, {8, 8}};
+    const Frame frame{workspace(), on_device, constants, {}, none, none, 0, {8, 8}};
     MeshMaps maps;
     const auto built = [&] {
         on_device.prepare_topology(device(), scene);
+        recorder().upload_pending();
         maps.bring_up_to_date(recorder(), frame, 64);
         const std::vector<std::uint32_t> meshes = maps.building();
         recorder().submit_and_wait();

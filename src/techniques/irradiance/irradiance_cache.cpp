@@ -11,7 +11,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 namespace pellucid {
 namespace {
@@ -42,12 +41,6 @@ constexpr vk::DeviceSize kNodeSize = 48;
 /// counts fit.
 std::uint32_t weight_of(std::uint32_t frame) { return std::clamp(frame * frame / 16, 1u, 16u); }
 
-gpu::FrameConstants constants_of(const Frame& frame) {
-    gpu::FrameConstants values{};
-    std::memcpy(&values, frame.constants.mapped(), sizeof(values));
-    return values;
-}
-
 /// The same view with fewer pixels, each around a point that changes from frame to frame.
 gpu::FrameConstants coarse_view(gpu::FrameConstants values) {
     const glm::vec2 first(values.first_x, values.first_y);
@@ -77,7 +70,7 @@ void IrradianceCache::begin(float brightness) {
 }
 
 void IrradianceCache::write_grid(Recorder& recorder, const Frame& frame, bool first) {
-    const gpu::FrameConstants view = constants_of(frame);
+    const gpu::FrameConstants& view = frame.view;
     const std::uint32_t slots = slots_for(std::uint64_t(frame.extent.width) * frame.extent.height / 4);
     nodes_ = &workspace_.buffer("nodes of irradiance", sizeof(IrradianceGrid) + slots * kNodeSize);
     if (first) {
@@ -94,18 +87,16 @@ void IrradianceCache::write_grid(Recorder& recorder, const Frame& frame, bool fi
         0,
         weight_of(frames_),
         {}};
-    const Buffer& header = workspace_.buffer("grid of irradiance", sizeof(grid), true);
-    std::memcpy(header.mapped(), &grid, sizeof(grid));
-    recorder.copy(header, *nodes_, sizeof(grid));
+    recorder.write(*nodes_, grid);
 }
 
 void IrradianceCache::gather(Recorder& recorder, const Frame& frame, bool first) {
     if (!first && frames_ >= kMostFrames) return;
     const bool again = gathered_.has_value();
-    const gpu::FrameConstants values = coarse_view(constants_of(frame));
-    const Buffer& constants = workspace_.buffer("constants of gathering", sizeof(values), true);
-    std::memcpy(constants.mapped(), &values, sizeof(values));
-    gathered_.emplace(seen_from(frame, workspace_, constants, {values.width, values.height}));
+    const gpu::FrameConstants values = coarse_view(frame.view);
+    const Buffer& constants = workspace_.buffer("constants of gathering", sizeof(values));
+    recorder.write(constants, values);
+    gathered_.emplace(seen_from(frame, workspace_, constants, values, {values.width, values.height}));
     gathered_->light = frame.light;
     gathered_->photons = frame.photons;
     gathered_->environment_shares = frame.environment_shares;

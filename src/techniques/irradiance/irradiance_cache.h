@@ -25,6 +25,8 @@ public:
     void gather(Recorder& recorder, const Frame& frame, bool first);
     /// After gather() has run: as LayerSource::must_repeat().
     bool must_repeat() { return gathered_ && source_.must_repeat(*gathered_); }
+    /// Likewise of `frame`, after store() has run, too.
+    bool outgrown(const Frame& frame) { return any() && source_.must_repeat(frame); }
     /// Adds what gather() has found; then look-ups may begin.
     void store(Recorder& recorder);
     /// What look-ups bind; its address does not change. Null: there is no cache.

@@ -57,7 +57,8 @@ constexpr Truth kPath{
              .reference = true,
              .all_light = true,
              .many_media = true,
-             .volumes = true},
+             .volumes = true,
+             .recordable = false},
     .trace_image = trace_image,
 };
 

@@ -103,14 +103,12 @@ void Photons::begin(PhotonSetup setup) {
 Frame Photons::light_frame(const Frame& frame) {
     const std::uint32_t side = setup_.side, columns = columns_of(setup_.window_count());
     const std::uint32_t rows = (std::uint32_t(setup_.window_count()) + columns - 1) / columns;
-    gpu::FrameConstants values{};
-    std::memcpy(&values, frame.constants.mapped(), sizeof(values));
+    gpu::FrameConstants values = frame.view;
     values.width = side * columns;
     values.height = side * rows;
     values.first_x = values.first_y = kFirstTexel;
-    const Buffer& constants = workspace_.buffer("photon constants", sizeof(values), true);
-    std::memcpy(constants.mapped(), &values, sizeof(values));
-    return seen_from(frame, workspace_, constants, {values.width, values.height});
+    const Buffer& constants = workspace_.buffer("photon constants", sizeof(values));
+    return seen_from(frame, workspace_, constants, values, {values.width, values.height});
 }
 
 std::vector<PhotonWindow> Photons::windows_of(const Frame& frame) const {
@@ -135,10 +133,8 @@ std::vector<PhotonWindow> Photons::windows_of(const Frame& frame) const {
 
 /// `width`: of kernels, over the spacing of photons.
 void Photons::set_scale(const Frame& frame, float width) {
-    gpu::FrameConstants constants{};
-    std::memcpy(&constants, frame.constants.mapped(), sizeof(constants));
     scale_ = {std::numeric_limits<float>::max(), 0.0f};
-    scale_.sample = constants.sample_index;
+    scale_.sample = frame.view.sample_index;
     for (const LightView& view : setup_.views) {
         scale_.least_radius = std::min(scale_.least_radius, width * spacing_of(view, frame.scene.bounds));
         scale_.most_flux = std::max(scale_.most_flux, flux_of(setup_.lights.at(view.light), view));
@@ -153,7 +149,7 @@ void Photons::set_scale(const Frame& frame, float width) {
         scale_.most_flux = std::max(scale_.most_flux, 8.0f * setup_.environment->luminance * area / count);
 }
 
-const Buffer& Photons::upload_windows(const Frame& frame) {
+const Buffer& Photons::write_windows(Recorder& recorder, const Frame& frame) {
     const float width = kKernelWidth * shrinkage(frame.samples > 1 ? frame.sample : 0);
     set_scale(frame, width);
     const std::vector<PhotonWindow> windows = windows_of(frame);
@@ -161,9 +157,9 @@ const Buffer& Photons::upload_windows(const Frame& frame) {
                               width,       scale_.least_radius,        counts_ ? 1u : 0u,
                               {}};
     const std::span bytes = std::as_bytes(std::span(windows));
-    const Buffer& buffer = workspace_.buffer("photon windows", sizeof(header) + bytes.size(), true);
-    std::memcpy(buffer.mapped(), &header, sizeof(header));
-    std::memcpy(buffer.mapped() + sizeof(header), bytes.data(), bytes.size());
+    const Buffer& buffer = workspace_.buffer("photon windows", sizeof(header) + bytes.size());
+    recorder.write(buffer, header);
+    recorder.write(buffer, bytes, sizeof(header));
     return buffer;
 }
 
@@ -171,18 +167,15 @@ const Buffer& Photons::gather_exits(Recorder& recorder, const Frame& from_light,
     const ParameterValues parameters(setup_.by->info, setup_.parameters);
     const std::uint64_t texels = std::uint64_t(from_light.extent.width) * from_light.extent.height;
     const Buffer& exits = workspace_.buffer("photon exits", texels * kPhotonExitSize);
-    gpu::FrameConstants constants{};
-    std::memcpy(&constants, from_light.constants.mapped(), sizeof(constants));
     recorder.fill(exits, 0);
     for (std::uint32_t number = 0; number < setup_.views.size(); ++number) {
         gpu::FrameConstants values = setup_.views[number].constants;
         values.object_count = from_light.scene.object_count;
-        values.sample_index = constants.sample_index;
-        shift_film(values, sample_jitter(constants.sample_index));
-        const Buffer& own =
-            workspace_.buffer("constants of photon view " + std::to_string(number), sizeof(values), true);
-        std::memcpy(own.mapped(), &values, sizeof(values));
-        Frame view = seen_from(from_light, from_light.workspace, own, {values.width, values.height});
+        values.sample_index = from_light.view.sample_index;
+        shift_film(values, sample_jitter(values.sample_index));
+        const Buffer& own = workspace_.buffer("constants of photon view " + std::to_string(number), sizeof(values));
+        recorder.write(own, values);
+        Frame view = seen_from(from_light, from_light.workspace, own, values, {values.width, values.height});
         const Opaque opaque = setup_.draw_opaque(recorder, view);
         const Layers hidden =
             source_.build(recorder, view, opaque, {view.scene.refractive, setup_.by->layer_count(parameters)});
@@ -204,7 +197,8 @@ const Buffer& Photons::gather_exits(Recorder& recorder, const Frame& from_light,
 
 void Photons::record(Recorder& recorder, const Frame& frame) {
     const Frame from_light = light_frame(frame);
-    const Buffer& windows = upload_windows(frame);
+    recorder.write(from_light.constants, from_light.view);
+    const Buffer& windows = write_windows(recorder, frame);
     source_.begin_frame(setup_.layer_builder);
     const Buffer& exits = setup_.by != nullptr ? gather_exits(recorder, from_light, windows) : windows;
     {

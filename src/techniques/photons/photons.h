@@ -76,7 +76,7 @@ private:
     Frame light_frame(const Frame& frame);
     std::vector<PhotonWindow> windows_of(const Frame& frame) const;
     void set_scale(const Frame& frame, float width);
-    const Buffer& upload_windows(const Frame& frame);
+    const Buffer& write_windows(Recorder& recorder, const Frame& frame);
     const Buffer& gather_exits(Recorder& recorder, const Frame& from_light, const Buffer& windows);
     void count(Recorder& recorder, const Frame& from_light);
 

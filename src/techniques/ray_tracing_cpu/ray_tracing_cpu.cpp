@@ -59,7 +59,8 @@ constexpr Technique kRayTracingCpu{
                         "ACM Transactions on Graphics 33(4)", 2014, "4"},
              .parameters = kParameters,
              .many_media = true,
-             .whole_scene = true},
+             .whole_scene = true,
+             .recordable = false},
     .programs = kPathPrograms,
     .lacking = [](const Device& device) -> std::string {
         return device.is_cpu() ? "" : "a device that is a processor (a software driver)";

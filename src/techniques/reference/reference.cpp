@@ -14,7 +14,8 @@ constexpr Truth kReference{
              .source = {},
              .parameters = kParameters,
              .reference = true,
-             .many_media = true},
+             .many_media = true,
+             .recordable = false},
 };
 
 }  // namespace pellucid

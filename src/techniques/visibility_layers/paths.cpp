@@ -307,7 +307,7 @@ private:
 }  // namespace
 
 SurfaceFinder SurfaceFinder::of_device(Recorder& recorder, const Frame& frame, LayerSource& source) {
-    if (frame.workspace.device().is_cpu()) return on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
+    if (frame.workspace.device().is_cpu() && !frame.recorded) return on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
     return {.map = source.map_meshes(recorder, frame, kMeshMapResolution)};
 }
 

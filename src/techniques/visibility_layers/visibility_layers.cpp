@@ -127,7 +127,7 @@ HostFinder& host_finder_of(const Preparation& preparation) {
 void prepare_light(const Preparation& preparation) {
     GpuScene& scene = preparation.gpu_scene;
     scene.prepare_topology(preparation.device, preparation.scene);
-    if (preparation.device.is_cpu())
+    if (preparation.device.is_cpu() && !preparation.recorded)
         host_finder_of(preparation).bring_up_to_date(preparation.device, preparation.scene, scene);
 }
 

@@ -65,8 +65,7 @@ std::vector<SortedSolid> sort_solids(const GpuScene& scene, const gpu::FrameCons
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
     const Refraction refraction = clear_refraction(recorder, frame);
-    gpu::FrameConstants view{};
-    std::memcpy(&view, frame.constants.mapped(), sizeof(view));
+    const gpu::FrameConstants& view = frame.view;
     const GpuScene& scene = frame.scene;
     // Layers of all solids are those of the only one, unless something opaque hides a part of them.
     const bool alone = scene.refractive.size() == 1 && scene.opaque.empty();

@@ -1,0 +1,426 @@
+// Frames in commands and images of a program's own, against the pictures of render().
+#include "gpu/lent_device_test.h"
+
+#include <gmock/gmock.h>
+
+#include <cstring>
+
+namespace pellucid::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+using vulkan::FrameReport;
+using vulkan::Frames;
+using vulkan::Target;
+using vulkan::Ticket;
+
+/// An image of the program's, and the host's copy of it.
+class Screen {
+public:
+    Screen(const vk::raii::Device& device, const vk::raii::PhysicalDevice& physical, vk::Format format,
+           vk::Extent2D extent)
+        : device_(device), extent_(extent), format_(format), texel_(format == vk::Format::eR32G32B32A32Sfloat ? 16 : 4),
+          image_(device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
+                                             .format = format,
+                                             .extent = {extent.width, extent.height, 1},
+                                             .mipLevels = 1,
+                                             .arrayLayers = 1,
+                                             .usage = vk::ImageUsageFlagBits::eTransferDst |
+                                                      vk::ImageUsageFlagBits::eTransferSrc}),
+          buffer_(device, vk::BufferCreateInfo{.size = extent.width * extent.height * texel_,
+                                               .usage = vk::BufferUsageFlagBits::eTransferDst}) {
+        const auto allocate = [&](const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags wanted) {
+            const auto types = physical.getMemoryProperties();
+            for (std::uint32_t i = 0; i < types.memoryTypeCount; ++i) {
+                if ((needs.memoryTypeBits >> i & 1) != 0 && (types.memoryTypes[i].propertyFlags & wanted) == wanted)
+                    return vk::raii::DeviceMemory(
+                        device, vk::MemoryAllocateInfo{.allocationSize = needs.size, .memoryTypeIndex = i});
+            }
+            throw std::runtime_error("no memory of that kind");
+        };
+        using Property = vk::MemoryPropertyFlagBits;
+        image_memory_ = allocate(image_.getMemoryRequirements(), {});
+        buffer_memory_ = allocate(buffer_.getMemoryRequirements(), Property::eHostVisible | Property::eHostCoherent);
+        image_.bindMemory(*image_memory_, 0);
+        buffer_.bindMemory(*buffer_memory_, 0);
+        mapped_ = buffer_memory_.mapMemory(0, VK_WHOLE_SIZE);
+    }
+    Target target() const {
+        return {.image = *image_, .format = VkFormat(format_), .layout_after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+    }
+    void copy(const vk::raii::CommandBuffer& commands) const {
+        const vk::BufferImageCopy region{
+            .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1},
+            .imageExtent = {extent_.width, extent_.height, 1}};
+        commands.copyImageToBuffer(*image_, vk::ImageLayout::eTransferSrcOptimal, *buffer_, region);
+        const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
+                                         .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
+                                         .dstStageMask = vk::PipelineStageFlagBits2::eHost,
+                                         .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+        commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
+    }
+    std::vector<std::uint8_t> bytes() const {
+        std::vector<std::uint8_t> bytes(std::size_t(extent_.width) * extent_.height * texel_);
+        std::memcpy(bytes.data(), mapped_, bytes.size());
+        return bytes;
+    }
+    /// RGB of R32G32B32A32_SFLOAT.
+    std::vector<float> radiance() const {
+        const std::vector<std::uint8_t> all = bytes();
+        std::vector<float> rgb;
+        for (std::size_t i = 0; i < all.size(); i += 16) {
+            float texel[3];
+            std::memcpy(texel, all.data() + i, sizeof(texel));
+            rgb.insert(rgb.end(), texel, texel + 3);
+        }
+        return rgb;
+    }
+
+private:
+    const vk::raii::Device& device_;
+    vk::Extent2D extent_;
+    vk::Format format_;
+    vk::DeviceSize texel_;
+    vk::raii::DeviceMemory image_memory_ = nullptr, buffer_memory_ = nullptr;
+    vk::raii::Image image_;
+    vk::raii::Buffer buffer_;
+    void* mapped_ = nullptr;
+};
+
+/// RGBA8 of a picture.
+std::vector<std::uint8_t> bytes_of(const Image& display) {
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t i = 0; i < display.pixels.size(); i += 3) {
+        for (std::size_t c = 0; c < 3; ++c) bytes.push_back(std::uint8_t(std::lround(display.pixels[i + c] * 255.0f)));
+        bytes.push_back(255);
+    }
+    return bytes;
+}
+
+RenderSettings settings_of(const char* technique, std::uint32_t side = 64, std::uint32_t samples = 1) {
+    RenderSettings settings;
+    settings.width = settings.height = side;
+    settings.technique = technique;
+    settings.samples = samples;
+    return settings;
+}
+
+/// A ball and a goblet of glass on a floor.
+Scene table_scene() {
+    Scene scene = load_scene("shape:goblet");
+    const Scene ball = load_scene("shape:sphere");
+    scene.meshes.push_back(ball.meshes.front());
+    scene.materials.push_back(ball.materials.front());
+    Material floor;
+    floor.base_color = glm::vec4(0.6f, 0.4f, 0.3f, 1.0f);
+    floor.roughness = 1.0f;
+    scene.materials.push_back(floor);
+    const Scene cube = load_scene("shape:cube");
+    scene.meshes.push_back(cube.meshes.front());
+    glm::mat4 beside(0.3f);
+    beside[3] = glm::vec4(0.9f, -0.5f, 0.2f, 1.0f);
+    scene.objects.push_back({.name = "ball", .mesh = 1, .material = 1, .world_from_object = beside});
+    glm::mat4 below(1.0f);
+    below[0][0] = below[2][2] = 4.0f;
+    below[1][1] = 0.05f;
+    below[3] = glm::vec4(0.0f, -1.2f, 0.0f, 1.0f);
+    scene.objects.push_back({.name = "floor", .mesh = 2, .material = 2, .world_from_object = below});
+    Light lamp;
+    lamp.position = {2.0f, 3.0f, 1.0f};
+    lamp.intensity = glm::vec3(20.0f);
+    scene.lights.push_back(lamp);
+    return scene;
+}
+
+class FramesTest : public LentDeviceTest {
+protected:
+    void SetUp() override {
+        LentDeviceTest::SetUp();
+        if (IsSkipped()) return;
+        lent_ = make_device(wanted_->features());
+        renderer_.emplace(lent_);
+        pool_ = vk::raii::CommandPool(device_, {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                                .queueFamilyIndex = lent_.queue_family});
+    }
+    void TearDown() override {
+        renderer_.reset();
+        LentDeviceTest::TearDown();
+    }
+    Renderer& renderer() { return *renderer_; }
+    Screen screen(vk::Format format, std::uint32_t side = 64) { return {device_, physical_, format, {side, side}}; }
+    vk::raii::CommandBuffer commands() {
+        return std::move(device_.allocateCommandBuffers({.commandPool = *pool_, .commandBufferCount = 1}).front());
+    }
+    void run(const vk::raii::CommandBuffer& commands) {
+        const vk::raii::Fence fence(device_, vk::FenceCreateInfo{});
+        const vk::CommandBuffer handle = *commands;
+        queue_.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &handle}, *fence);
+        ASSERT_EQ(device_.waitForFences(*fence, true, ~0ull), vk::Result::eSuccess);
+    }
+    /// A frame in commands of its own, and the copy of `screen` after it.
+    FrameReport record(Frames& frames, const RenderSettings& settings, const Screen& screen) {
+        const vk::raii::CommandBuffer own = commands();
+        own.begin({});
+        const Ticket ticket = frames.record(*own, settings, screen.target());
+        screen.copy(own);
+        own.end();
+        run(own);
+        return frames.read(ticket).value();
+    }
+    FrameReport submit(Frames& frames, const RenderSettings& settings, const Screen& screen) {
+        const Ticket ticket = frames.submit(settings, screen.target());
+        FrameReport report = frames.wait(ticket);
+        const vk::raii::CommandBuffer own = commands();
+        own.begin({});
+        screen.copy(own);
+        own.end();
+        run(own);
+        return report;
+    }
+    /// Frames until one has all samples of its picture.
+    template <class Draw>
+    FrameReport finish(const RenderSettings& settings, const Draw& draw) {
+        for (int i = 0; i < 60; ++i) {
+            FrameReport report = draw();
+            if (report.samples == settings.samples) return report;
+        }
+        ADD_FAILURE() << settings.technique << ": the picture is never finished";
+        return {};
+    }
+
+    vulkan::LentDevice lent_;
+    std::optional<Renderer> renderer_;
+    vk::raii::CommandPool pool_ = nullptr;
+};
+
+TEST_F(FramesTest, RecordedFramesAreThePicturesOfRender) {
+    renderer().set_scene(table_scene());
+    const Screen shown = screen(vk::Format::eR8G8B8A8Unorm);
+    for (const TechniqueInfo* info : techniques()) {
+        if (!info->recordable || !renderer().lacking(*info).empty()) continue;
+        SCOPED_TRACE(info->name);
+        RenderSettings settings = settings_of(std::string(info->name).c_str());
+        settings.light.transport = LightTransport::kEnvironment;
+        const RenderResult picture = renderer().render(settings);
+        Frames frames(renderer());
+        finish(settings, [&] { return record(frames, settings, shown); });
+        EXPECT_EQ(shown.bytes(), bytes_of(picture.display));
+    }
+}
+
+TEST_F(FramesTest, SubmittedFramesAreThePicturesOfRender) {
+    renderer().set_scene(table_scene());
+    const Screen shown = screen(vk::Format::eR8G8B8A8Srgb);
+    for (const char* technique : {"balanced", "fast", "visibility-cube"}) {
+        for (const LightTransport light : {LightTransport::kDirect, LightTransport::kFull}) {
+            SCOPED_TRACE(technique);
+            RenderSettings settings = settings_of(technique);
+            settings.light.transport = light;
+            const RenderResult picture = renderer().render(settings);
+            Frames frames(renderer());
+            EXPECT_EQ(finish(settings, [&] { return submit(frames, settings, shown); }).light, light);
+            EXPECT_EQ(shown.bytes(), bytes_of(picture.display));
+        }
+    }
+}
+
+TEST_F(FramesTest, SamplesAddUpToAStill) {
+    renderer().set_scene(table_scene());
+    const Screen shown = screen(vk::Format::eR32G32B32A32Sfloat);
+    for (const char* technique : {"balanced", "wang-2014"}) {
+        SCOPED_TRACE(technique);
+        const RenderSettings settings = settings_of(technique, 64, 8);  // enough for all light
+        const RenderResult picture = renderer().render(settings);
+        EXPECT_EQ(picture.light, LightTransport::kFull);
+        Frames frames(renderer());
+        EXPECT_EQ(finish(settings, [&] { return submit(frames, settings, shown); }).light, LightTransport::kFull);
+        EXPECT_EQ(shown.radiance(), picture.radiance.pixels);
+        // A finished picture is shown again, and costs nothing.
+        const FrameReport again = submit(frames, settings, shown);
+        EXPECT_EQ(again.samples, 8u);
+        EXPECT_LE(again.passes.size(), 1u);
+        EXPECT_EQ(shown.radiance(), picture.radiance.pixels);
+    }
+}
+
+TEST_F(FramesTest, ChannelsAreInTheTargetsOrder) {
+    renderer().set_scene(table_scene());
+    const Screen rgba = screen(vk::Format::eR8G8B8A8Unorm), bgra = screen(vk::Format::eB8G8R8A8Unorm);
+    const RenderSettings settings = settings_of("one-interface");
+    Frames frames(renderer());
+    finish(settings, [&] { return record(frames, settings, rgba); });
+    finish(settings, [&] { return record(frames, settings, bgra); });
+    std::vector<std::uint8_t> swapped = bgra.bytes();
+    for (std::size_t i = 0; i < swapped.size(); i += 4) std::swap(swapped[i], swapped[i + 2]);
+    EXPECT_EQ(swapped, rgba.bytes());
+}
+
+// Recorded before either has run, of different sizes, so that one takes the other's images away.
+TEST_F(FramesTest, TwoAreInFlight) {
+    renderer().set_scene(table_scene());
+    const Screen small = screen(vk::Format::eR8G8B8A8Unorm, 48), large = screen(vk::Format::eR8G8B8A8Unorm, 80);
+    const RenderSettings of_small = settings_of("visibility-layers", 48),
+                         of_large = settings_of("visibility-layers", 80);
+    const Bounds bounds = scene_bounds(table_scene());
+    const Camera left = orbit_camera(bounds, -40.0f, 10.0f, 4.0f, 0.6f),
+                 right = orbit_camera(bounds, 60.0f, 30.0f, 5.0f, 0.6f);
+    Frames frames(renderer());
+    for (int round = 0; round < 3; ++round) {  // the first two learn how much room frames need
+        const vk::raii::CommandBuffer first = commands(), second = commands();
+        first.begin({});
+        renderer().set_camera(left);
+        const Ticket one = frames.record(*first, of_small, small.target());
+        small.copy(first);
+        first.end();
+        second.begin({});
+        renderer().set_camera(right);
+        const Ticket two = frames.record(*second, of_large, large.target());
+        large.copy(second);
+        second.end();
+        EXPECT_THAT([&] { frames.record(*second, of_large, large.target()); },
+                    ThrowsMessage<Error>(HasSubstr("in flight")));
+        EXPECT_FALSE(frames.read(one).has_value());
+        EXPECT_THAT([&] { renderer().render(of_small); }, ThrowsMessage<Error>(HasSubstr("not been read")));
+        run(first);
+        EXPECT_THAT([&] { frames.read(two); }, ThrowsMessage<Error>(HasSubstr("oldest")));
+        EXPECT_TRUE(frames.read(one).has_value());
+        run(second);
+        EXPECT_TRUE(frames.read(two).has_value());
+    }
+    renderer().set_camera(left);
+    EXPECT_EQ(small.bytes(), bytes_of(renderer().render(of_small).display));
+    renderer().set_camera(right);
+    EXPECT_EQ(large.bytes(), bytes_of(renderer().render(of_large).display));
+}
+
+TEST_F(FramesTest, SteadyFramesMakeNothing) {
+    renderer().set_scene(table_scene());
+    const Screen shown = screen(vk::Format::eR8G8B8A8Unorm);
+    const Bounds bounds = scene_bounds(table_scene());
+    for (const char* technique : {"visibility-layers", "fast", "balanced"}) {
+        SCOPED_TRACE(technique);
+        RenderSettings settings = settings_of(technique);
+        settings.light.transport = LightTransport::kDirect;
+        Frames frames(renderer());
+        const auto draw = [&](int frame) {
+            renderer().set_camera(orbit_camera(bounds, 0.1f * float(frame), 15.0f, 4.0f, 0.6f));
+            return submit(frames, settings, shown);
+        };
+        for (int i = 0; i < 10; ++i) draw(i);
+        const vulkan::Made before = frames.made();
+        for (int i = 10; i < 30; ++i) EXPECT_TRUE(draw(i).overflows.empty());
+        const vulkan::Made after = frames.made();
+        EXPECT_EQ(after.allocations, before.allocations);
+        EXPECT_EQ(after.pipelines, before.pipelines);
+        EXPECT_EQ(after.pools, before.pools);
+    }
+}
+
+TEST_F(FramesTest, WhatIsSetIsSeenByTheNextFrame) {
+    Scene scene = table_scene();
+    renderer().set_scene(scene);
+    Environment environment = uniform_environment(glm::vec3(0.4f));
+    environment.kind = Environment::Kind::kStudio;
+    renderer().set_environment(environment);
+    const Camera camera = orbit_camera(scene_bounds(scene), 20.0f, 20.0f, 4.0f, 0.6f);
+    renderer().set_camera(camera);
+    const Screen shown = screen(vk::Format::eR8G8B8A8Unorm);
+    for (const char* technique : {"visibility-layers", "balanced", "wyman-2005"}) {
+        SCOPED_TRACE(technique);
+        RenderSettings settings = settings_of(technique);
+        settings.light.transport = LightTransport::kDirect;
+        Frames frames(renderer());
+        const auto draw = [&] { return submit(frames, settings, shown); };
+        const auto expect_fresh = [&](const char* what) {
+            SCOPED_TRACE(what);
+            finish(settings, draw);
+            Renderer fresh(lent_);
+            fresh.set_scene(scene);
+            fresh.set_environment(environment);
+            fresh.set_camera(camera);
+            EXPECT_EQ(shown.bytes(), bytes_of(fresh.render(settings).display));
+        };
+        finish(settings, draw);
+        scene.objects[1].world_from_object[3].x -= 0.3f;
+        renderer().set_transforms({{1, scene.objects[1].world_from_object}});
+        expect_fresh("transform");
+        scene.materials[1].ior = 1.9f;
+        scene.materials[1].attenuation_color = {0.2f, 0.9f, 0.4f};
+        scene.materials[1].attenuation_distance = 0.4f;
+        renderer().set_material(1, scene.materials[1]);
+        expect_fresh("medium");
+        scene.materials[2].base_color = {0.1f, 0.2f, 0.9f, 1.0f};
+        renderer().set_material(2, scene.materials[2]);
+        expect_fresh("colour");
+        std::swap(scene.materials[1].thickness, scene.materials[1].transmission);
+        scene.materials[1].transmission = scene.materials[1].thickness > 0.0f ? 0.0f : 1.0f;
+        renderer().set_material(1, scene.materials[1]);
+        expect_fresh("another kind of material");
+        scene.materials[1] = load_scene("shape:sphere").materials.front();
+        renderer().set_material(1, scene.materials[1]);
+        expect_fresh("glass again");
+        scene.lights[0].position.x -= 1.0f;
+        renderer().set_light(0, scene.lights[0]);
+        expect_fresh("light");
+        environment.rotation += 1.0f;
+        environment.intensity = 0.7f;
+        renderer().turn_environment(environment.rotation, environment.intensity);
+        expect_fresh("environment");
+        for (glm::vec3& p : scene.meshes[0].positions) p *= 0.9f;
+        renderer().set_positions({{0, scene.meshes[0].positions, scene.meshes[0].normals}});
+        expect_fresh("vertices");
+    }
+}
+
+TEST_F(FramesTest, WhatHasNoRoomIsSaid) {
+    renderer().set_scene(load_scene("shape:infinity-ring"));
+    const Screen shown = screen(vk::Format::eR8G8B8A8Unorm);
+    const RenderSettings settings = settings_of("visibility-layers");
+    Frames frames(renderer());
+    const FrameReport first = record(frames, settings, shown);
+    EXPECT_FALSE(first.overflows.empty());
+    EXPECT_EQ(first.samples, 0u);
+    const FrameReport last = finish(settings, [&] { return record(frames, settings, shown); });
+    EXPECT_TRUE(last.overflows.empty());
+}
+
+TEST_F(FramesTest, WhatCannotBeIsRefused) {
+    renderer().set_scene(load_scene("shape:sphere"));
+    const Screen shown = screen(vk::Format::eR8G8B8A8Unorm);
+    const vk::raii::CommandBuffer own = commands();
+    own.begin({});
+    Frames frames(renderer());
+    const auto record = [&](const RenderSettings& settings, const Target& target) {
+        return [&, settings, target] { frames.record(*own, settings, target); };
+    };
+    EXPECT_THAT(record(settings_of("reference"), shown.target()),
+                ThrowsMessage<Error>(HasSubstr("reference has parts")));
+    RenderSettings aov = settings_of("one-interface");
+    aov.aovs = {"depth"};
+    EXPECT_THAT(record(aov, shown.target()), ThrowsMessage<Error>(HasSubstr("AOVs")));
+    Target target = shown.target();
+    target.format = VK_FORMAT_R16_UNORM;
+    EXPECT_THAT(record(settings_of("one-interface"), target), ThrowsMessage<Error>(HasSubstr("R16")));
+    target = shown.target();
+    target.layout_after = VK_IMAGE_LAYOUT_UNDEFINED;
+    EXPECT_THAT(record(settings_of("one-interface"), target), ThrowsMessage<Error>(HasSubstr("layout")));
+    EXPECT_THAT([&] { Frames(renderer(), 9); }, ThrowsMessage<Error>(HasSubstr("1 to 8")));
+    EXPECT_THAT([&] { frames.read(1); }, ThrowsMessage<Error>(HasSubstr("oldest")));
+    EXPECT_THAT(
+        [&] {
+            renderer().set_transforms({{7, glm::mat4(1.0f)}});
+        },
+        ThrowsMessage<Error>(HasSubstr("object 7")));
+    EXPECT_THAT(
+        [&] {
+            renderer().set_transforms({{0, glm::mat4(0.0f)}});
+        },
+        ThrowsMessage<Error>(HasSubstr("invertible")));
+    EXPECT_THAT([&] { renderer().set_material(3, {}); }, ThrowsMessage<Error>(HasSubstr("material 3")));
+    EXPECT_THAT([&] { renderer().set_light(0, {}); }, ThrowsMessage<Error>(HasSubstr("light 0")));
+    own.end();
+}
+
+}  // namespace
+}  // namespace pellucid::test
