@@ -29,7 +29,8 @@ protected:
         extent_ = extent;
         scene_.emplace(device(), scene);
         camera_ = camera;
-        gpu::FrameConstants values{};
+        view_ = {};
+        gpu::FrameConstants& values = view_;
         set_camera(values, camera_, extent.width, extent.height, {0.0f, 0.0f}, scene_->bounds,
                    scene_->refractive_corners);
         values.object_count = scene_->object_count;
@@ -84,7 +85,7 @@ protected:
 
     Frame frame() {
         const GpuImage& none = workspace().image("environment", vk::Format::eR32G32B32A32Sfloat, {1, 1});
-        return {workspace(), *scene_, *constants_, none, none, 0, extent_};
+        return {workspace(), *scene_, *constants_, view_, none, none, 0, extent_};
     }
     Opaque opaque_surfaces(float depth) {
         const GpuImage& image = workspace().image("opaque depth", vk::Format::eR32Sfloat, extent_);
@@ -109,6 +110,7 @@ protected:
 private:
     vk::Extent2D extent_;
     std::optional<Opaque> opaque_;
+    gpu::FrameConstants view_{};
     std::optional<GpuScene> scene_;
     std::optional<Buffer> constants_;
     Camera camera_;
