@@ -2,7 +2,7 @@
 
 // Pellucid on a Vulkan device of the caller's. The only public header with Vulkan's types.
 #include <pellucid/api.h>
-#include <pellucid/renderer.h>
+#include <pellucid/device.h>
 
 #include <vulkan/vulkan_core.h>
 
@@ -13,6 +13,12 @@
 #include <span>
 #include <string>
 #include <vector>
+
+namespace pellucid {
+class Renderer;
+struct RenderSettings;
+enum class LightTransport;
+}  // namespace pellucid
 
 namespace pellucid::vulkan {
 
@@ -82,8 +88,8 @@ struct FrameReport {
     std::uint32_t samples = 0;
     /// What had no room in this frame, which therefore shows less than there is: one line each. The next frame has room.
     std::vector<std::string> overflows;
-    std::vector<PassTime> passes;  ///< empty where the device has no timestamps
-    LightTransport light = LightTransport::kEnvironment;
+    std::vector<PassTime> passes;       ///< empty where the device has no timestamps
+    LightTransport light{};             ///< that the frame has followed
     std::vector<std::string> warnings;  ///< what of the scene is drawn otherwise than it is; one line each
 };
 
