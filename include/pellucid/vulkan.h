@@ -73,6 +73,21 @@ struct Target {
     VkImageLayout layout_after = VK_IMAGE_LAYOUT_GENERAL;
 };
 
+/// What the caller has drawn of the same view, which Pellucid's scene stands in: it hides what lies behind it, and is seen
+/// through glass and in it where the picture shows it (Wyman 2005). It throws no shadow on Pellucid's objects, and has none
+/// from them. Both images are of the frame's size and usage TRANSFER_SRC, and keep their layouts.
+struct Background {
+    /// RGB, scene-linear radiance, in a format that can be blitted; where nothing was drawn, the caller's sky.
+    VkImage color = VK_NULL_HANDLE;
+    VkImageLayout color_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    VkImage depth = VK_NULL_HANDLE;  ///< D32_SFLOAT
+    VkImageLayout depth_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    /// Rows z and w of the caller's projection, by z along the view's axis, m, negative ahead: clip z = zz z + zw,
+    /// clip w = wz z + ww. In a column-major matrix these are elements 10, 14, 11 and 15.
+    float zz = 0.0f, zw = 0.0f, wz = -1.0f, ww = 0.0f;
+    float far_depth = 1.0f;  ///< of texels where nothing was drawn: 1, or 0 where depth is reversed
+};
+
 /// A semaphore to wait for or to signal. `value`: of a timeline semaphore; binary ones have none.
 struct SemaphoreValue {
     VkSemaphore semaphore = VK_NULL_HANDLE;
@@ -123,14 +138,15 @@ public:
     /// Records a frame into `commands`, which are recording, outside of a render pass, for the renderer's queue family. Does
     /// not wait. The commands run once, in the order of the tickets; read() comes after they have, and lets go of what they
     /// use. Throws Error if the settings cannot be recorded, or if in_flight tickets are unread.
-    Ticket record(VkCommandBuffer commands, const RenderSettings& settings, const Target& target);
+    Ticket record(VkCommandBuffer commands, const RenderSettings& settings, const Target& target,
+                  const Background* background = nullptr);
 
     /// Draws a frame by submissions of its own, after `wait` and before `signal`. Takes every technique; does not wait: where
     /// the host has a part in the frame, a thread of the renderer's sees to it. Then binary semaphores are signalled by
     /// submissions that may come later; timeline semaphores may be waited for before. Throws Error for settings out of range,
     /// or if in_flight tickets are unread.
     Ticket submit(const RenderSettings& settings, const Target& target, std::span<const SemaphoreValue> wait = {},
-                  std::span<const SemaphoreValue> signal = {});
+                  std::span<const SemaphoreValue> signal = {}, const Background* background = nullptr);
 
     /// What became of a frame; nothing while it runs. Tickets are read in their order, each once. Throws DeviceError if
     /// the frame failed.

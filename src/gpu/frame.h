@@ -43,6 +43,8 @@ struct Frame {
     glm::uvec2 first{0};                   ///< its first pixel in the picture
     std::uint32_t samples = 1;             ///< of the picture that this frame is one of
     FrameLight light = {};
+    const GpuImage* background_radiance = nullptr;  ///< RGBA32F: what the caller has drawn; null: nothing
+    const GpuImage* background_depth = nullptr;     ///< R32F, m along the view's axis; PELLUCID_EMPTY_DEPTH: a sky
     std::optional<WantedSamples> wanted_samples = std::nullopt;
     std::uint32_t sample = 0;                       ///< of Frame::samples, which this frame is
     const std::vector<Binding>* photons = nullptr;  ///< for look-ups (light/photon_store.h); null: there are none
@@ -64,9 +66,16 @@ struct Frame {
                                   reads("Emitters", scene.emitters),
                                   reads("texture_pages", scene.texture_pages),
                                   reads_layer("environment_map", environment, 0),
-                                  reads_layer("filtered_environment", filtered_environment, 0)};
+                                  reads_layer("filtered_environment", filtered_environment, 0),
+                                  reads_layer("background_radiance", either(background_radiance), 0),
+                                  reads_layer("background_depth", either(background_depth), 0)};
     /// What any pass may look at, by the names that shaders have for it: the scene, its environment and the constants.
     Binding bindings() const { return all_of(group); }
+
+    /// Some pixel may show an opaque surface, of the scene or of the caller's.
+    bool has_opaque() const { return !scene.opaque.empty() || background_depth != nullptr; }
+    /// Something has to be bound.
+    const GpuImage& either(const GpuImage* image) const { return image != nullptr ? *image : environment; }
 };
 
 /// The scene of a frame as another view sees it, without light on surfaces. `constants`: a buffer that `view` has been, or will

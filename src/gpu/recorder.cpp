@@ -288,6 +288,26 @@ void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceS
     commands_.copyBuffer(source.handle(), destination.handle(), vk::BufferCopy{.size = bytes}, dispatch());
 }
 
+void Recorder::copy_from(vk::Image source, vk::ImageLayout layout, const GpuImage& destination) {
+    synchronise(use_of(destination, Stage::eAllTransfer, AccessBit::eTransferWrite, true));
+    const vk::ImageSubresourceLayers layer{.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};
+    const vk::Offset3D end{std::int32_t(destination.extent().width), std::int32_t(destination.extent().height), 1};
+    const std::array corners{vk::Offset3D{}, end};
+    const vk::ImageBlit region{
+        .srcSubresource = layer, .srcOffsets = corners, .dstSubresource = layer, .dstOffsets = corners};
+    commands_.blitImage(source, layout, destination.handle(), vk::ImageLayout::eGeneral, region, vk::Filter::eNearest,
+                        dispatch());
+}
+
+void Recorder::copy_depths_from(vk::Image source, vk::ImageLayout layout, vk::Extent2D extent,
+                                const Buffer& destination) {
+    synchronise(use_of(destination, Stage::eCopy, AccessBit::eTransferWrite, true));
+    const vk::BufferImageCopy region{
+        .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eDepth, .layerCount = 1},
+        .imageExtent = {extent.width, extent.height, 1}};
+    commands_.copyImageToBuffer(source, layout, destination.handle(), region, dispatch());
+}
+
 std::byte* Recorder::stage(vk::DeviceSize bytes, const Buffer*& buffer, vk::DeviceSize& offset) {
     while (staging_used_ == 0 || staging_end_ + bytes > staging_[staging_used_ - 1].size()) {
         if (staging_used_ == staging_.size()) {

@@ -127,6 +127,11 @@ public:
     void copy_to(const GpuImage& source, vk::Image target, vk::Offset2D at, vk::ImageLayout before,
                  vk::ImageLayout after);
 
+    /// Copies the caller's image, as large as `destination` and in layout `layout`, to it, texel by texel, in the format of that.
+    void copy_from(vk::Image source, vk::ImageLayout layout, const GpuImage& destination);
+    /// Copies depths of the caller's image, row by row.
+    void copy_depths_from(vk::Image source, vk::ImageLayout layout, vk::Extent2D extent, const Buffer& destination);
+
     /// Runs `step` on the host between what is recorded before, whose results it sees in mapped buffers, and what is
     /// recorded after, which sees what it wrote there. Where it returns false, what is recorded from here to end_of_steps()
     /// is left out. A recording with such steps cannot be part of another's commands.

@@ -33,7 +33,8 @@ const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::E
     const vk::ImageUsageFlags usage =
         format == vk::Format::eD32Sfloat
             ? vk::ImageUsageFlags(Usage::eDepthStencilAttachment)
-            : Usage::eStorage | Usage::eColorAttachment | Usage::eTransferSrc | Usage::eTransferDst;
+            : Usage::eStorage | Usage::eSampled | Usage::eColorAttachment | Usage::eTransferSrc |
+                  Usage::eTransferDst;
     return images_
         .emplace(std::string(name),
                  Entry<GpuImage>{GpuImage(device_, std::string(name), format, extent, layers, usage)})

@@ -104,7 +104,7 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
             *listed);
     }
     // The list of the last band is that of the picture only if there is one band and nothing opaque.
-    if (bands_ > 1 || (request.hidden_by_opaque && !frame.scene.opaque.empty())) {
+    if (bands_ > 1 || (request.hidden_by_opaque && frame.has_opaque())) {
         listed = &list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height,
                               frame.wanted_samples);
     }

@@ -56,6 +56,15 @@ Channels channels_of(VkFormat format) {
     }
 }
 
+void check_background(const Background* background, const RenderSettings& settings) {
+    if (background == nullptr) return;
+    if (background->color == VK_NULL_HANDLE || background->depth == VK_NULL_HANDLE)
+        throw Error("a frame's background needs two images, colour and depth");
+    if (background->zz == 0.0f && background->zw == 0.0f)
+        throw Error("a frame's background needs the projection of its depths");
+    if (settings.samples > 1) throw Error("frames before a background have one sample each");
+}
+
 void check_target(const Target& target) {
     channels_of(target.format);
     if (target.image == VK_NULL_HANDLE) throw Error("a frame's target has no image");
@@ -100,7 +109,9 @@ struct Frames::Impl {
     const GpuImage* shown = nullptr;  ///< radiance of the last frame: the sum of the samples
 
     Slot& free_slot();
-    void draw(Slot& slot, const RenderSettings& wanted, const Target& target, bool recorded);
+    void import(Slot& slot, const Background* background);
+    void draw(Slot& slot, const RenderSettings& wanted, const Target& target, const Background* background,
+              bool recorded);
     const GpuImage& draw_sample(Slot& slot, bool recorded);
     void forget(Slot& slot);
     Ticket begin(Slot& slot);
@@ -146,7 +157,26 @@ const GpuImage& Frames::Impl::draw_sample(Slot& slot, bool recorded) {
     return settings.samples > 1 ? accumulate(recorder, frame, images.radiance, drawn) : images.radiance;
 }
 
-void Frames::Impl::draw(Slot& slot, const RenderSettings& wanted, const Target& target, bool recorded) {
+/// Takes over what the caller has drawn.
+void Frames::Impl::import(Slot& slot, const Background* background) {
+    of.background_radiance = of.background_depth = nullptr;
+    if (background == nullptr) return;
+    Recorder& recorder = slot.recorder;
+    Frame frame = of.frame_of(recorder, settings);
+    Renderer::Impl::begin_frame(recorder, frame, of.constants_of(frame, settings, std::nullopt));
+    const GpuImage& radiance = of.workspace.image("background radiance", vk::Format::eR32G32B32A32Sfloat, frame.extent);
+    const std::uint64_t texels = std::uint64_t(frame.extent.width) * frame.extent.height;
+    const Buffer& depths = of.workspace.buffer("the caller's depths", texels * sizeof(float));
+    recorder.copy_from(background->color, vk::ImageLayout(background->color_layout), radiance);
+    recorder.copy_depths_from(background->depth, vk::ImageLayout(background->depth_layout), frame.extent, depths);
+    of.background_depth =
+        &import_depth(recorder, frame, depths,
+                      {{background->zz, background->zw, background->wz, background->ww}, background->far_depth});
+    of.background_radiance = &radiance;
+}
+
+void Frames::Impl::draw(Slot& slot, const RenderSettings& wanted, const Target& target, const Background* background,
+                        bool recorded) {
     if (changes != of.changes || !same_picture(wanted, settings) || wanted.samples == 1) {
         ++picture;
         drawn = 0;
@@ -164,7 +194,9 @@ void Frames::Impl::draw(Slot& slot, const RenderSettings& wanted, const Target& 
         prepared = of.changes;
     }
     if (slot.draws) {
+        import(slot, background);
         shown = &draw_sample(slot, recorded);
+        of.background_radiance = of.background_depth = nullptr;
         ++drawn;
     } else {
         slot.recorder.upload_pending();
@@ -186,6 +218,7 @@ void Frames::Impl::draw(Slot& slot, const RenderSettings& wanted, const Target& 
 void Frames::Impl::forget(Slot& slot) {
     slot.recorder.restart();
     slot.frame.reset();
+    of.background_radiance = of.background_depth = nullptr;
     shown = nullptr;
     drawn = 0;
     ++picture;
@@ -252,17 +285,19 @@ std::string Frames::unrecordable(const RenderSettings& settings) const {
     return {};
 }
 
-Ticket Frames::record(VkCommandBuffer commands, const RenderSettings& settings, const Target& target) {
+Ticket Frames::record(VkCommandBuffer commands, const RenderSettings& settings, const Target& target,
+                      const Background* background) {
     check_settings(settings, impl_->of.device);
     check_frame_settings(settings);
     check_target(target);
+    check_background(background, settings);
     if (const std::string why = unrecordable(settings); !why.empty()) throw Error("cannot be recorded: " + why);
     Impl::Slot& slot = impl_->free_slot();
     slot.submitted = false;
     slot.recorder.restart(commands);
     slot.done.reset();
     try {
-        impl_->draw(slot, settings, target, true);
+        impl_->draw(slot, settings, target, background, true);
     } catch (...) {
         impl_->forget(slot);
         throw;
@@ -272,15 +307,16 @@ Ticket Frames::record(VkCommandBuffer commands, const RenderSettings& settings, 
 }
 
 Ticket Frames::submit(const RenderSettings& settings, const Target& target, std::span<const SemaphoreValue> wait,
-                      std::span<const SemaphoreValue> signal) {
+                      std::span<const SemaphoreValue> signal, const Background* background) {
     check_settings(settings, impl_->of.device);
     check_frame_settings(settings);
     check_target(target);
+    check_background(background, settings);
     Impl::Slot& slot = impl_->free_slot();
     slot.submitted = true;
     slot.recorder.restart();
     try {
-        impl_->draw(slot, settings, target, false);
+        impl_->draw(slot, settings, target, background, false);
     } catch (...) {
         impl_->forget(slot);
         throw;

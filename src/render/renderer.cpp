@@ -184,7 +184,9 @@ Frame Renderer::Impl::frame_of(Recorder& of, const RenderSettings& settings) {
             {settings.width, settings.height},
             glm::uvec2(0),
             1,
-            frame_light(chosen_light(settings))};
+            frame_light(chosen_light(settings)),
+            background_radiance,
+            background_depth};
 }
 
 Frame Renderer::Impl::lit_frame(Recorder& of, const RenderSettings& settings) {

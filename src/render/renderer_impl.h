@@ -53,6 +53,8 @@ struct Renderer::Impl {
     std::optional<Camera> camera;        // set by the caller
     std::optional<Camera> scene_camera;  // the scene's first
     gpu::FrameConstants environment_constants{};
+    const GpuImage* background_radiance = nullptr;  // Frame::background_radiance of the frame to come
+    const GpuImage* background_depth = nullptr;
     std::uint64_t changes = 0;        ///< how often what was set has changed
     std::uint32_t unread_frames = 0;  ///< of vulkan::Frames
 

@@ -19,6 +19,7 @@ void main() {
     }
     vec3 seen = drawn(PELLUCID_EMITTED, radiance_from_afar(world_view_direction(at.xy)));
     float opaque = kOpaque ? imageLoad(opaque_depth, at).r : PELLUCID_EMPTY_DEPTH;
+    if (kBackground && stored_depth(at.xy) == PELLUCID_EMPTY_DEPTH) seen = background_at(at.xy);
     if (opaque < PELLUCID_EMPTY_DEPTH) seen = imageLoad(opaque_radiance, at).rgb;
     see_lamps(at.xy, opaque, seen);
     store_radiance(at.xy, seen);

@@ -20,6 +20,7 @@ layout(set = 0, binding = 18, r32f) readonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 8, r32ui) readonly uniform uimage2DArray layer_normal;
 layout(set = 0, binding = 9) uniform texture2DArray texture_pages;
 layout(set = 0, binding = 10, rgba32f) readonly uniform image2DArray exit_direction;
+layout(set = 0, binding = 19, rgba32f) readonly uniform image2DArray exit_position;
 layout(set = 0, binding = 11, rgba32f) readonly uniform image2DArray transmittance;
 layout(set = 0, binding = 12, r32ui) readonly uniform uimage2DArray path_events;
 layout(set = 0, binding = 13, rgba32f) readonly uniform image2DArray path_radiance;
@@ -36,7 +37,9 @@ layout(std430, set = 0, binding = 16) readonly buffer Textures { TextureRecord t
 #include "gpu/diffuse.glsl"
 #include "shade/analysis_color.glsl"
 
-vec3 light_from_afar(vec3 direction, bool with_suns) {
+vec3 light_from_afar(vec3 position, vec3 direction, bool with_suns) {
+    vec3 seen;
+    if (kBackground && background_ahead(position, direction, seen)) return seen;
     return with_suns ? radiance_from_afar(direction) : environment_radiance(direction);
 }
 
@@ -44,7 +47,7 @@ vec3 light_from_afar(vec3 direction, bool with_suns) {
 // light at both surfaces.
 vec3 transmitted_radiance(ivec3 at, bool rough) {
     vec4 passes = imageLoad(transmittance, at);
-    vec3 behind = passes.rgb * light_from_afar(imageLoad(exit_direction, at).xyz, !kHighlights || passes.a > 0.0);
+    vec3 behind = passes.rgb * light_from_afar(imageLoad(exit_position, at).xyz, imageLoad(exit_direction, at).xyz, !kHighlights || passes.a > 0.0);
     behind = drawn(rough ? PELLUCID_INDIRECT : PELLUCID_EMITTED, behind);
     if (!kPathRadiance) return behind;
     vec4 picked_up = imageLoad(path_radiance, at);
@@ -83,8 +86,9 @@ vec3 glass_radiance(ivec3 at, vec3 view_direction, vec3 normal, uint triangle) {
         return before + tint.rgb * transmitted;
     }
     float reflectance = fresnel_dielectric(-dot(view_direction, normal), 1.0 / material.ior);
+    vec3 position = (frame.world_from_view * vec4(view_position(vec2(at.xy) + 0.5, imageLoad(layer_depth, at).r), 1.0)).xyz;
     vec3 mirrored = drawn(rough ? PELLUCID_DIRECT : PELLUCID_EMITTED,
-                          reflectance * light_from_afar(reflect_direction(view_direction, normal), !(kHighlights && rough)));
+                          reflectance * light_from_afar(position, reflect_direction(view_direction, normal), !(kHighlights && rough)));
     vec3 reflected = kReflected ? imageLoad(reflected_radiance, at).rgb : mirrored;
     if (kHighlights) reflected += mirrored;
     vec3 scattered = drawn(PELLUCID_DIRECT, (1.0 - reflectance) * diffuse_radiance(tint.rgb, normal));

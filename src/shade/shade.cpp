@@ -17,7 +17,26 @@ Program::Graphics surface_program(ShaderCode fragment, std::vector<vk::Format> c
             .blend = blend};
 }
 
+void merge_background(Recorder& recorder, const Frame& frame, const Opaque& opaque) {
+    if (frame.background_depth == nullptr) return;
+    recorder.compute(
+        frame.workspace.compute(shaders::merge_background_comp, {{"kBackground", true}}),
+        {frame.bindings(), writes("opaque_radiance", opaque.radiance), updates("opaque_depth", opaque.depth),
+         writes("opaque_object", opaque.object), writes("opaque_triangle", opaque.triangle)},
+        frame.extent);
+}
+
 }  // namespace
+
+const GpuImage& import_depth(Recorder& recorder, const Frame& frame, const Buffer& stored,
+                             const CallersDepths& meaning) {
+    const GpuImage& depth = frame.workspace.image("background depth", vk::Format::eR32Sfloat, frame.extent);
+    const Recorder::Scope scope(recorder, "background");
+    recorder.compute(frame.workspace.compute(shaders::import_background_comp),
+                     {frame.bindings(), reads("CallersDepth", stored), writes("background_depth", depth)}, meaning,
+                     frame.extent);
+    return depth;
+}
 
 Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     Workspace& workspace = frame.workspace;
@@ -31,9 +50,13 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     const GpuImage& nearest = workspace.image("opaque depth test", vk::Format::eD32Sfloat, frame.extent);
 
     const Recorder::Scope scope(recorder, "opaque");
+    const Opaque opaque{radiance, depth, object, triangle};
     if (frame.scene.opaque.empty()) {
         recorder.clear(depth, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
-        return {radiance, depth, object, triangle};
+        if (frame.background_depth != nullptr)
+            recorder.clear(triangle, vk::ClearColorValue(std::array<std::uint32_t, 4>{PELLUCID_NO_TRIANGLE, 0, 0, 0}));
+        merge_background(recorder, frame, opaque);
+        return opaque;
     }
     const RenderTarget target{.extent = frame.extent,
                               .colors = {{&radiance, 0, clear_to(0.0f)},
@@ -42,7 +65,8 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
                                          {&triangle, 0, clear_to({PELLUCID_NO_TRIANGLE, 0u, 0u, 0u})}},
                               .depth = RenderTarget::Attachment{&nearest, 0, clear_to_farthest()}};
     recorder.draw(program, {frame.bindings()}, target, frame.scene.opaque);
-    return {radiance, depth, object, triangle};
+    merge_background(recorder, frame, opaque);
+    return opaque;
 }
 
 ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers) {
@@ -79,7 +103,8 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
     const std::array constants = {Constant{"kEnvironmentKind", frame.environment_kind},
                                   Constant{"kAnalysis", view == View::kAnalysis},
                                   Constant{"kThinWalls", !frame.scene.thin_walled.empty()},
-                                  Constant{"kOpaque", !frame.scene.opaque.empty()},
+                                  Constant{"kOpaque", frame.has_opaque()},
+                                  Constant{"kBackground", frame.background_depth != nullptr},
                                   Constant{"kTextured", frame.scene.textured_glass},
                                   Constant{"kPathRadiance", refraction.radiance != nullptr},
                                   Constant{"kReflected", refraction.reflected != nullptr},

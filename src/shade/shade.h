@@ -11,6 +11,16 @@ namespace pellucid {
 /// point of a surface saw all of it: no shadows, no light from other surfaces. Unlit materials as they are, emission added.
 Opaque draw_opaque(Recorder& recorder, const Frame& frame);
 
+/// What the depths of the caller's depth image mean.
+struct CallersDepths {
+    glm::vec4 z_and_w;  ///< of the projection: clip z is x z + y, clip w is z z + w, by z along the view's axis, m
+    float far_depth;    ///< of texels where nothing was drawn
+};
+/// Distances along the view's axis, m (R32F), of depths that lie row by row in `stored`; PELLUCID_EMPTY_DEPTH where nothing was
+/// drawn.
+const GpuImage& import_depth(Recorder& recorder, const Frame& frame, const Buffer& stored,
+                             const CallersDepths& meaning);
+
 /// What thin walls in front do to light on its way.
 struct ThinWalls {
     const GpuImage& thin_tint;        ///< RGBA16F: transmittance of all of them

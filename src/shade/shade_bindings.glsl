@@ -17,6 +17,7 @@ layout(set = 0, binding = 3, rgba16f) readonly uniform image2DArray thin_reflect
 layout(set = 0, binding = 4, rgba32f) writeonly uniform image2DArray radiance;
 
 #include "gpu/environment_lookup.glsl"
+#include "gpu/background.glsl"
 #include "gpu/light_parts.glsl"
 #include "gpu/punctual_light.glsl"
 layout(constant_id = 6) const uint kVisibleLights = 0u;
@@ -27,7 +28,7 @@ vec3 world_view_direction(ivec2 texel) {
     return mat3(frame.world_from_view) * camera_ray(vec2(texel) + 0.5).direction;
 }
 
-// Of the environment and of suns.
+// Of the environment and of suns, in a direction.
 vec3 radiance_from_afar(vec3 direction) { return environment_radiance(direction) + suns_ahead(direction); }
 
 // A lamp of some size takes the place of what is seen behind it, at a depth along the view's axis, m.

@@ -10,6 +10,7 @@
 
 layout(set = 0, binding = 9, r32ui) readonly uniform uimage2DArray layer_triangle;
 layout(set = 0, binding = 5, r32f) readonly uniform image2DArray opaque_depth;
+layout(set = 0, binding = 63, r32ui) readonly uniform uimage2DArray opaque_triangle;
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray path_radiance;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray reflected_radiance;
 layout(std430, set = 0, binding = 30) readonly buffer Volumes { VolumeRecord volumes[]; };
@@ -41,7 +42,7 @@ void main() {
     if (first != PELLUCID_NO_TRIANGLE)
         begins = begins || !kVolumes || proxy == kSharpInterfaces || (traits[object_of(triangle_index(first))] & kReplaced) == 0u;
     // What is opaque has been drawn without lights so far.
-    if (kLightsSurfaces && whole_picture != 0u) begins = begins || imageLoad(opaque_depth, at).r < PELLUCID_EMPTY_DEPTH;
+    if (kLightsSurfaces && whole_picture != 0u) begins = begins || imageLoad(opaque_triangle, at).r != PELLUCID_NO_TRIANGLE;
     if (kVolumes) {
         float straight, opaque = imageLoad(opaque_depth, at).r;
         begins = begins || (light_count > 0u && opaque < PELLUCID_EMPTY_DEPTH);  // drawn without lights so far

@@ -110,12 +110,15 @@ vec3 light_of(PathState state, OpaquePoint point) {
 #include "techniques/visibility_layers/look_at_lights.glsl"
 #include "techniques/visibility_layers/bounces.glsl"
 
-// What the environment sends along a path.
+#include "gpu/background.glsl"
+
+// What the environment sends along a path, or what the caller has drawn before it.
 vec3 environment_light(PathState state) {
     // Glass that lets shadow rays pass bends none of this light.
     bool bent_elsewhere = kPhotonsOfEnvironment || (kEnvironmentRays && tinted_shadows != 0u);
     if ((bent_elsewhere && photons_have(state)) || shadow_rays_have(state)) return vec3(0.0);
-    vec3 direction = state.path.direction;
+    vec3 direction = state.path.direction, seen;
+    if (kBackground && background_ahead(state.path.position, direction, seen)) return state.path.transmittance * seen;
     // What glass and mirrors throw on a diffuse surface is sharp.
     if (has_mark(state, kBounced) && !has_mark(state, kUnbent)) return state.path.transmittance * environment_radiance(direction);
     float spread = kRough || has_mark(state, kBounced) ? spread_of(state.mark) : 0.0;

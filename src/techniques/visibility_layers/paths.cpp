@@ -128,6 +128,7 @@ private:
                 {"kRough", scene.rough_glass},
                 {"kEnvironmentKind", frame_.environment_kind},
                 {"kOpaqueObjects", !scene.opaque.empty()},
+                {"kBackground", frame_.background_depth != nullptr},
                 {"kMapPerMesh", map_.objects != nullptr},
                 {"kFinished", lost_ == Lost::kSetAside},
                 {"kTouching", !topology_.all_alone},

@@ -68,7 +68,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const gpu::FrameConstants& view = frame.view;
     const GpuScene& scene = frame.scene;
     // Layers of all solids are those of the only one, unless something opaque hides a part of them.
-    const bool alone = scene.refractive.size() == 1 && scene.opaque.empty();
+    const bool alone = scene.refractive.size() == 1 && !frame.has_opaque();
     for (const SortedSolid& solid : sort_solids(scene, view)) {
         const DrawCall& call = scene.refractive[solid.number];
         // Seen through glass, a surface may lie where something opaque hides it from the eye.

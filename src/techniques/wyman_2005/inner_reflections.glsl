@@ -1,7 +1,7 @@
 // Total internal reflection by bouncing between the picture of the first surfaces and that of the back faces (3.3). What
 // lies between the two counts as glass; its walls are found in linear, then in binary steps.
 // Included by wyman_2005.comp alone.
-#include "techniques/wyman_2005/stretch.glsl"
+#include "gpu/stretch.glsl"
 
 // Which wall of the glass a point of a ray lies behind.
 const int kInGlass = 0, kBehindBack = 1, kBeforeFront = 2, kBesideGlass = 3;

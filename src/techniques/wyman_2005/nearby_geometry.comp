@@ -29,42 +29,9 @@ layout(push_constant) uniform Push {
 };
 
 #include "layers/objects.glsl"
-#include "techniques/wyman_2005/stretch.glsl"
 
 float stored_depth(ivec2 texel) { return imageLoad(opaque_depth, ivec3(texel, 0)).r; }
-bool is_behind(Stretch s, float share) { return depth_at(s, share) > stored_depth(texel_at(s, share)); }
-
-// Whether the depths on two sides of a change are of one surface: their difference is no more than that to the next
-// texel beyond. Otherwise the ray passes behind the edge of something.
-bool one_surface(ivec2 front, ivec2 behind) {
-    if (front == behind) return true;
-    float at_behind = stored_depth(behind);
-    ivec2 beyond = clamp(2 * behind - front, ivec2(0), ivec2(frame.width, frame.height) - 1);
-    float slope = abs(stored_depth(beyond) - at_behind);
-    return abs(stored_depth(front) - at_behind) <= 2.0 * slope + 1e-4 * at_behind;
-}
-
-// Share of the stretch at which it meets an opaque surface from in front; negative: nowhere. `behind` is kept from
-// stretch to stretch.
-float search(Stretch s, inout bool behind) {
-    float end = share_within_picture(s), before = 0.0;
-    if (end < 0.0) return -1.0;
-    for (uint i = 1u; i <= linear_steps; ++i) {
-        float after = end * float(i) / float(linear_steps);
-        if (is_behind(s, after) != behind) {
-            float low = before, high = after;
-            for (uint k = 0u; k < binary_steps; ++k) {
-                float middle = 0.5 * (low + high);
-                if (is_behind(s, middle) == behind) low = middle;
-                else high = middle;
-            }
-            if (!behind && one_surface(texel_at(s, low), texel_at(s, high))) return high;
-            behind = !behind;
-        }
-        before = after;
-    }
-    return -1.0;
-}
+#include "gpu/depth_search.glsl"
 
 // Where a ray from `from` ends at the latest: the depth range of the scene.
 vec3 ray_end(vec3 from, vec3 direction) {
@@ -109,7 +76,7 @@ void main() {
     bool straight = (events & 0xfffu) > 1u && (events >> 12 & 0xfffu) == 0u;
     bool goes_inside = straight && distance(entry, exit) > 1e-6 * -entry.z;
     Stretch inside = stretch_of(entry, exit);
-    float share = goes_inside ? search(inside, behind) : -1.0;
+    float share = goes_inside ? search(inside, linear_steps, binary_steps, behind) : -1.0;
     if (share >= 0.0) {
         vec3 position = position_at(inside, share);
         end_inside(at, texel_at(inside, share), position, entry, normalize(exit - entry));
@@ -117,7 +84,7 @@ void main() {
     }
     vec3 direction = mat3(frame.view_from_world) * imageLoad(exit_direction, at).xyz;
     Stretch outside = stretch_of(exit, ray_end(exit, direction));
-    share = search(outside, behind);
+    share = search(outside, linear_steps, binary_steps, behind);
     if (share < 0.0) return;
     store_hit(at, texel_at(outside, share), position_at(outside, share), imageLoad(transmittance, at).rgb);
 }

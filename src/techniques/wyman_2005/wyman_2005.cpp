@@ -59,7 +59,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const wyman_2005::BakedDistances baked = baked_for(frame, distances, push[0]);
 
     const Recorder::Scope scope(recorder, "trace");
-    const bool nearby = !frame.scene.opaque.empty();
+    const bool nearby = frame.has_opaque();
     const Refraction refraction = clear_refraction(recorder, frame, nearby);
     recorder.compute_indirect(
         frame.workspace.compute(shaders::wyman_2005_comp,

@@ -1,5 +1,5 @@
-#ifndef PELLUCID_TECHNIQUES_WYMAN_2005_STRETCH_GLSL
-#define PELLUCID_TECHNIQUES_WYMAN_2005_STRETCH_GLSL
+#ifndef PELLUCID_GPU_STRETCH_GLSL
+#define PELLUCID_GPU_STRETCH_GLSL
 
 // Part of a ray as the picture shows it, for searches against stored depths. Needs: gpu/frame.glsl.
 
