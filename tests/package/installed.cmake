@@ -24,9 +24,12 @@ if(NOT said STREQUAL VERSION)
     message(FATAL_ERROR "pellucid --version says '${said}', not ${VERSION}")
 endif()
 
-run(${folder} ${CMAKE_COMMAND} -S ${SOURCE} -B ${folder}/build -G ${GENERATOR} -D CMAKE_BUILD_TYPE=${CONFIG}
-    -D CMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" -D CMAKE_PREFIX_PATH=${folder}/prefix
-    -D CMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON)
-run(${folder} ${CMAKE_COMMAND} --build ${folder}/build --config "${CONFIG}")
-expect_same_picture(${folder}/build/minimal ${pellucid} ${folder})
+foreach(example minimal engine)
+    run(${folder} ${CMAKE_COMMAND} -S ${EXAMPLES}/${example} -B ${folder}/${example} -G ${GENERATOR}
+        -D CMAKE_BUILD_TYPE=${CONFIG} -D CMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}"
+        -D CMAKE_PREFIX_PATH=${folder}/prefix -D CMAKE_FIND_PACKAGE_NO_PACKAGE_REGISTRY=ON)
+    run(${folder} ${CMAKE_COMMAND} --build ${folder}/${example} --config "${CONFIG}")
+endforeach()
+expect_same_picture(${folder}/minimal/minimal ${pellucid} ${folder})
+expect_engine_draws(${folder}/engine/engine ${folder})
 message(STATUS "an installed, moved copy is found, built against, and renders the same picture")

@@ -19,3 +19,16 @@ function(expect_same_picture minimal pellucid folder)
         message(FATAL_ERROR "${folder}/goblet.png and command-line.png differ")
     endif()
 endfunction()
+
+# The engine draws frames, of which the first may lack room and the last does not.
+function(expect_engine_draws engine folder)
+    file(REMOVE ${folder}/engine.ppm)
+    run(${folder} ${engine} 4 engine.ppm)
+    if(NOT said MATCHES "4 frames of 640x360")
+        message(FATAL_ERROR "${engine} said:\n${said}")
+    endif()
+    file(SIZE ${folder}/engine.ppm size)
+    if(NOT size EQUAL 691215)  # 640 x 360 x 3 and a header
+        message(FATAL_ERROR "${folder}/engine.ppm has ${size} bytes")
+    endif()
+endfunction()
