@@ -20,7 +20,7 @@ layout(set = 0, binding = 18, r32f) readonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 8, r32ui) readonly uniform uimage2DArray layer_normal;
 layout(set = 0, binding = 9) uniform texture2DArray texture_pages;
 layout(set = 0, binding = 10, rgba32f) readonly uniform image2DArray exit_direction;
-layout(set = 0, binding = 19, rgba32f) readonly uniform image2DArray exit_position;
+layout(set = 0, binding = 22, rgba32f) readonly uniform image2DArray exit_position;
 layout(set = 0, binding = 11, rgba32f) readonly uniform image2DArray transmittance;
 layout(set = 0, binding = 12, r32ui) readonly uniform uimage2DArray path_events;
 layout(set = 0, binding = 13, rgba32f) readonly uniform image2DArray path_radiance;

@@ -15,6 +15,15 @@ using vulkan::Frames;
 using vulkan::Target;
 using vulkan::Ticket;
 
+vk::raii::DeviceMemory allocate(const vk::raii::Device& device, const vk::raii::PhysicalDevice& physical,
+                                const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags wanted) {
+    const auto types = physical.getMemoryProperties();
+    std::uint32_t type = 0;
+    while ((needs.memoryTypeBits >> type & 1) == 0 || (types.memoryTypes[type].propertyFlags & wanted) != wanted)
+        ++type;
+    return {device, vk::MemoryAllocateInfo{.allocationSize = needs.size, .memoryTypeIndex = type}};
+}
+
 /// An image of the program's, and the host's copy of it.
 class Screen {
 public:
@@ -30,18 +39,10 @@ public:
                                                       vk::ImageUsageFlagBits::eTransferSrc}),
           buffer_(device, vk::BufferCreateInfo{.size = extent.width * extent.height * texel_,
                                                .usage = vk::BufferUsageFlagBits::eTransferDst}) {
-        const auto allocate = [&](const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags wanted) {
-            const auto types = physical.getMemoryProperties();
-            for (std::uint32_t i = 0; i < types.memoryTypeCount; ++i) {
-                if ((needs.memoryTypeBits >> i & 1) != 0 && (types.memoryTypes[i].propertyFlags & wanted) == wanted)
-                    return vk::raii::DeviceMemory(
-                        device, vk::MemoryAllocateInfo{.allocationSize = needs.size, .memoryTypeIndex = i});
-            }
-            throw std::runtime_error("no memory of that kind");
-        };
         using Property = vk::MemoryPropertyFlagBits;
-        image_memory_ = allocate(image_.getMemoryRequirements(), {});
-        buffer_memory_ = allocate(buffer_.getMemoryRequirements(), Property::eHostVisible | Property::eHostCoherent);
+        image_memory_ = allocate(device, physical, image_.getMemoryRequirements(), {});
+        buffer_memory_ = allocate(device, physical, buffer_.getMemoryRequirements(),
+                                  Property::eHostVisible | Property::eHostCoherent);
         image_.bindMemory(*image_memory_, 0);
         buffer_.bindMemory(*buffer_memory_, 0);
         mapped_ = buffer_memory_.mapMemory(0, VK_WHOLE_SIZE);
@@ -241,6 +242,139 @@ TEST_F(FramesTest, SamplesAddUpToAStill) {
         EXPECT_EQ(again.samples, 8u);
         EXPECT_LE(again.passes.size(), 1u);
         EXPECT_EQ(shown.radiance(), picture.radiance.pixels);
+    }
+}
+
+/// Of the caller's, filled by the host: what the program has drawn.
+struct DepthImage {
+    DepthImage(const vk::raii::Device& device, const vk::raii::PhysicalDevice& physical,
+               const vk::raii::CommandBuffer& commands, const std::vector<float>& depths, std::uint32_t side)
+        : image(device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
+                                            .format = vk::Format::eD32Sfloat,
+                                            .extent = {side, side, 1},
+                                            .mipLevels = 1,
+                                            .arrayLayers = 1,
+                                            .usage = vk::ImageUsageFlagBits::eTransferDst |
+                                                     vk::ImageUsageFlagBits::eTransferSrc}),
+          buffer(device, vk::BufferCreateInfo{.size = depths.size() * sizeof(float),
+                                              .usage = vk::BufferUsageFlagBits::eTransferSrc}) {
+        using Property = vk::MemoryPropertyFlagBits;
+        image_memory = allocate(device, physical, image.getMemoryRequirements(), {});
+        buffer_memory = allocate(device, physical, buffer.getMemoryRequirements(),
+                                 Property::eHostVisible | Property::eHostCoherent);
+        image.bindMemory(*image_memory, 0);
+        buffer.bindMemory(*buffer_memory, 0);
+        std::memcpy(buffer_memory.mapMemory(0, VK_WHOLE_SIZE), depths.data(), depths.size() * sizeof(float));
+        change(commands, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
+        commands.copyBufferToImage(
+            *buffer, *image, vk::ImageLayout::eTransferDstOptimal,
+            vk::BufferImageCopy{.imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eDepth, .layerCount = 1},
+                                .imageExtent = {side, side, 1}});
+        change(commands, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eTransferSrcOptimal);
+    }
+    void change(const vk::raii::CommandBuffer& commands, vk::ImageLayout from, vk::ImageLayout to) const {
+        const vk::ImageMemoryBarrier2 barrier{
+            .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+            .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+            .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+            .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+            .oldLayout = from,
+            .newLayout = to,
+            .image = *image,
+            .subresourceRange = {.aspectMask = vk::ImageAspectFlagBits::eDepth, .levelCount = 1, .layerCount = 1}};
+        commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+    }
+    vk::raii::DeviceMemory image_memory = nullptr, buffer_memory = nullptr;
+    vk::raii::Image image;
+    vk::raii::Buffer buffer;
+};
+
+// A floor and a pillar that a program draws, against the same as objects of the scene.
+TEST_F(FramesTest, WhatTheCallerHasDrawnIsSeenThroughGlass) {
+    Scene whole = table_scene();
+    whole.lights.clear();
+    whole.objects.erase(whole.objects.begin() + 1);  // the ball
+    whole.materials[2].unlit = true;                 // the floor; the caller lights as it likes
+    Object pillar = whole.objects.back();
+    pillar.world_from_object = glm::mat4(0.15f);
+    pillar.world_from_object[1][1] = 0.5f;
+    pillar.world_from_object[3] = glm::vec4(0.6f, -0.7f, 1.2f, 1.0f);  // before the glass
+    whole.objects.push_back(pillar);
+    Scene glass = whole, drawn = whole;
+    glass.objects.resize(1);
+    drawn.objects.erase(drawn.objects.begin());
+    const std::uint32_t side = 96;
+    Camera camera = orbit_camera(scene_bounds(glass), 10.0f, 20.0f, 4.5f, 0.6f);
+    camera.near_plane = 0.5f;
+    camera.far_plane = 40.0f;
+    renderer().set_camera(camera);
+    RenderSettings settings = settings_of("one-interface", side);
+    settings.light.transport = LightTransport::kEnvironment;
+
+    // The caller's colour and depth. As if it were of glass, what is opaque has a depth AOV.
+    const Screen color = screen(vk::Format::eR32G32B32A32Sfloat, side);
+    renderer().set_scene(drawn);
+    {
+        Frames frames(renderer());
+        finish(settings, [&] { return record(frames, settings, color); });
+    }
+    Scene of_glass = drawn;
+    of_glass.materials[2] = whole.materials[0];
+    renderer().set_scene(of_glass);
+    RenderSettings with_depth = settings;
+    with_depth.aovs = {"depth"};
+    const Image depth = renderer().render(with_depth).aovs.at("depth");
+    const float n = camera.near_plane, f = camera.far_plane;
+    std::vector<float> depths;
+    for (const float z : depth.pixels) depths.push_back(z > 0.0f ? f / (f - n) * (1.0f - n / z) : 1.0f);
+    const vk::raii::CommandBuffer upload = commands();
+    upload.begin({});
+    const DepthImage depth_image(device_, physical_, upload, depths, side);
+    upload.end();
+    run(upload);
+    const vulkan::Background background{
+        .color = color.target().image, .depth = *depth_image.image, .zz = f / (n - f), .zw = f * n / (n - f)};
+
+    const Screen shown = screen(vk::Format::eR32G32B32A32Sfloat, side);
+    for (const char* technique : {"visibility-layers", "visibility-cube"}) {
+        SCOPED_TRACE(technique);
+        settings.technique = technique;
+        renderer().set_scene(whole);
+        RenderSettings of_truth = settings;
+        of_truth.aovs = {"depth"};
+        const RenderResult truth = renderer().render(of_truth);
+        renderer().set_scene(glass);
+        const RenderResult alone = renderer().render(settings);
+        Frames frames(renderer());
+        finish(settings, [&] {
+            const vk::raii::CommandBuffer own = commands();
+            own.begin({});
+            const Ticket ticket = frames.record(*own, settings, shown.target(), &background);
+            shown.copy(own);
+            own.end();
+            run(own);
+            return frames.read(ticket).value();
+        });
+        const std::vector<float> seen = shown.radiance();
+        std::size_t close = 0, close_alone = 0, changed = 0;
+        for (std::size_t i = 0; i < seen.size(); i += 3) {
+            const glm::vec3 here(seen[i], seen[i + 1], seen[i + 2]);
+            const auto of = [&](const RenderResult& result) {
+                return glm::vec3(result.radiance.pixels[i], result.radiance.pixels[i + 1],
+                                 result.radiance.pixels[i + 2]);
+            };
+            // Where there is no glass, everything is as the caller has drawn it.
+            if (truth.aovs.at("depth").pixels[i / 3] == 0.0f) {
+                EXPECT_LT(glm::distance(here, of(truth)), 1e-5f);
+                continue;
+            }
+            ++changed;
+            close += glm::distance(here, of(truth)) < 0.05f ? 1 : 0;
+            close_alone += glm::distance(of(alone), of(truth)) < 0.05f ? 1 : 0;
+        }
+        // Glass also shows what the picture does not: undersides and what lies beside it.
+        EXPECT_GT(double(close), 0.85 * double(changed)) << close << " of " << changed;
+        EXPECT_LT(double(changed - close), 0.35 * double(changed - close_alone)) << close_alone << " without";
     }
 }
 
