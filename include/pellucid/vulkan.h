@@ -115,7 +115,7 @@ struct Made {
     std::uint64_t pools = 0;  ///< of commands, descriptors and queries
 };
 
-/// Frames of a Renderer that run while the caller goes on. Not thread safe; used by the thread that uses the renderer, which
+/// Frames of a Renderer, which has one such object at a time, that run while the caller goes on. Not thread safe; used by the thread that uses the renderer, which
 /// outlives it. While a ticket has not been read, Renderer::render() and set_scene() throw Error; the other setters do not
 /// wait, and hold for the frames after them.
 ///
@@ -125,7 +125,7 @@ struct Made {
 /// stills: frames refuse them.
 class PELLUCID_API Frames {
 public:
-    /// `in_flight`: tickets that may be unread at a time, 1 to 8.
+    /// `in_flight`: tickets that may be unread at a time, 1 to 8. Throws Error if the renderer has Frames already.
     explicit Frames(Renderer& renderer, std::uint32_t in_flight = 2);
     /// Waits for frames that were submitted. Commands that were recorded must have run, or never will.
     ~Frames();

@@ -268,7 +268,9 @@ FrameReport Frames::Impl::finish(Slot& slot) {
 Frames::Frames(Renderer& renderer, std::uint32_t in_flight) {
     if (in_flight == 0 || in_flight > kMostInFlight)
         throw Error(fmt::format("{} frames in flight; there may be 1 to {}", in_flight, kMostInFlight));
+    if (renderer.impl_->has_frames) throw Error("the renderer has frames already (vulkan::Frames)");
     impl_ = std::make_unique<Impl>(renderer, in_flight);
+    renderer.impl_->has_frames = true;
 }
 
 Frames::~Frames() {
@@ -277,6 +279,7 @@ Frames::~Frames() {
         slot->recorder.restart();
         --impl_->of.unread_frames;
     }
+    impl_->of.has_frames = false;
 }
 
 std::string Frames::unrecordable(const RenderSettings& settings) const {
