@@ -15,7 +15,11 @@ install(FILES ${PROJECT_BINARY_DIR}/pellucid-config.cmake ${PROJECT_BINARY_DIR}/
 
 # Programs find the library relative to themselves, wherever both are moved.
 file(RELATIVE_PATH lib_from_bin /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_LIBDIR})
-set_target_properties(pellucid_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
-install(TARGETS pellucid_cli)
+set(programs pellucid_cli)
+if(TARGET pellucid_viewer)
+    list(APPEND programs pellucid_viewer)
+endif()
+set_target_properties(${programs} PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
+install(TARGETS ${programs})
 
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

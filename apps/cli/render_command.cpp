@@ -276,10 +276,12 @@ void add_render_command(CLI::App& app) {
     command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
     add_environment_options(*command, a.environment);
     command
-        ->add_option("--camera", a.camera,
-                     "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
-                     "default: the file's first camera, or one that frames the scene")
-        ->type_name("NAME|orbit:AZ,EL,DIST");
+        ->add_option(
+            "--camera", a.camera,
+            "A camera of the file, or azimuth and elevation in degrees and distance in radii, from the scene's centre "
+            "or the point X,Y,Z; "
+            "default: the file's first camera, or one that frames the scene")
+        ->type_name("NAME|orbit:AZ,EL,DIST[,X,Y,Z]");
     add_number(*command, "--fov", a.fov_deg,
                "Vertical field of view, degrees, of an orbit camera or of the one that frames the scene (default 30)")
         ->check(CLI::Range(1.0, 170.0));

@@ -157,7 +157,7 @@ void add_thickness_command(CLI::App& app) {
         ->add_option("--camera", a.camera,
                      "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
                      "default: the file's first camera, or one that frames the scene")
-        ->type_name("NAME|orbit:AZ,EL,DIST");
+        ->type_name("NAME|orbit:AZ,EL,DIST[,X,Y,Z]");
     add_number(*command, "--light", a.light, "Which light: the file's are numbered from 0, then those of --add-light")
         ->capture_default_str();
     command->add_option("--picture", a.picture, "Also a .png: thin is dark blue, thick is pale yellow")

@@ -1,5 +1,7 @@
 #include "options/arguments.h"
 
+#include "options/orbit_about.h"
+
 #include <pellucid/file.h>
 
 #include <fmt/format.h>
@@ -65,18 +67,27 @@ std::pair<std::string, std::string> parse_aov(const std::string& text) {
 
 Camera parse_camera(const std::string& text, const Scene& scene, float vertical_fov) {
     if (text.starts_with(kOrbit)) {
-        const std::vector<double> orbit = parse_numbers("--camera", text.substr(kOrbit.size()), 3);
+        const std::string numbers = text.substr(kOrbit.size());
+        const bool about_centre = std::count(numbers.begin(), numbers.end(), ',') < 3;
+        const std::vector<double> orbit = parse_numbers("--camera", numbers, about_centre ? 3 : 6);
         if (!(std::abs(orbit[1]) <= 90.0))
             throw Error(fmt::format("--camera: elevation {} is not -90 to 90 degrees", orbit[1]));
-        if (!(orbit[2] > 1.0)) throw Error(fmt::format("--camera: distance {} is not above 1 radius", orbit[2]));
-        return orbit_camera(scene_bounds(scene), float(orbit[0]), float(orbit[1]), float(orbit[2]), vertical_fov);
+        const Bounds bounds = scene_bounds(scene);
+        if (about_centre) {
+            if (!(orbit[2] > 1.0)) throw Error(fmt::format("--camera: distance {} is not above 1 radius", orbit[2]));
+            return orbit_camera(bounds, float(orbit[0]), float(orbit[1]), float(orbit[2]), vertical_fov);
+        }
+        if (!(orbit[2] >= double(kLeastDistance)))
+            throw Error(fmt::format("--camera: distance {} is below {} radii", orbit[2], kLeastDistance));
+        const glm::vec3 target = glm::dvec3(orbit[3], orbit[4], orbit[5]) - scene.origin;
+        return orbit_about(bounds, target, float(orbit[0]), float(orbit[1]), float(orbit[2]), vertical_fov);
     }
     std::vector<std::string> known;
     for (const Camera& camera : scene.cameras) {
         if (camera.name == text) return camera;
         known.push_back(camera.name);
     }
-    known.push_back("orbit:AZ,EL,DIST");
+    known.push_back("orbit:AZ,EL,DIST[,X,Y,Z]");
     throw Error(fmt::format("unknown camera '{}'; known: {}", text, fmt::join(known, ", ")));
 }
 

@@ -21,7 +21,8 @@ std::pair<std::uint32_t, std::uint32_t> parse_size(const std::string& text);
 /// "NAME=FILE" of --aov; the file must end in .exr.
 std::pair<std::string, std::string> parse_aov(const std::string& text);
 
-/// "NAME", a camera of the scene, or "orbit:AZ,EL,DIST" in degrees and bounding-sphere radii.
+/// "NAME", a camera of the scene, or "orbit:AZ,EL,DIST[,X,Y,Z]" in degrees and bounding-sphere radii, about the centre of
+/// the scene or a point of the file's world.
 Camera parse_camera(const std::string& text, const Scene& scene, float vertical_fov);
 
 }  // namespace pellucid::cli

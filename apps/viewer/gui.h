@@ -1,0 +1,25 @@
+#pragma once
+
+#include "viewer/window.h"
+
+namespace pellucid::viewer {
+
+/// Dear ImGui in a window, from first to last use. Its own files are not written.
+class Gui {
+public:
+    Gui(Gpu& gpu, Window& window);
+    ~Gui();
+    Gui(const Gui&) = delete;
+    Gui& operator=(const Gui&) = delete;
+
+    void begin_frame();
+    /// Ends the frame; nothing is drawn before record().
+    void end_frame();
+    void record(vk::CommandBuffer commands);
+
+private:
+    Gpu& gpu_;
+    vk::raii::DescriptorPool pool_ = nullptr;
+};
+
+}  // namespace pellucid::viewer

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "viewer/panels.h"
+
+namespace pellucid::viewer {
+
+/// What mouse and keys do to the image under the panels, from one frame to the next.
+class Input {
+public:
+    /// To be called between Gui::begin_frame() and Gui::end_frame(), after the panels. `inspect` gets a pixel of the window
+    /// whose ray is wanted, or a negative one where none is wanted any more.
+    void handle(Document& document, Panels& panels, Wishes& wishes, std::optional<glm::ivec2>& inspect);
+    /// A button is held that changes the look: no step of the history yet.
+    bool dragging() const { return dragging_; }
+
+private:
+    void handle_mouse(Document& document, std::optional<glm::ivec2>& inspect);
+    void handle_keys(Document& document, Panels& panels, Wishes& wishes, std::optional<glm::ivec2>& inspect);
+
+    bool dragging_ = false;
+    bool divider_held_ = false;
+    std::string last_other_ = "exact";
+};
+
+}  // namespace pellucid::viewer

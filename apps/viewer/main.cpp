@@ -1,0 +1,163 @@
+#include "viewer/options.h"
+#include "viewer/saved_state.h"
+#include "viewer/script_runner.h"
+
+#include <pellucid/file.h>
+#include <pellucid/pellucid.h>
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+
+namespace pellucid::viewer {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kBug = 1;
+constexpr int kBadInput = 2;
+constexpr int kNoDevice = 3;
+
+int complain(const std::string& message, int exit_code) {
+    std::fputs(fmt::format("pellucid-view: {}\n", one_line(message)).c_str(), stderr);
+    return exit_code;
+}
+
+volatile std::sig_atomic_t asked_to_end = 0;
+void end_soon(int) { asked_to_end = 1; }
+
+std::optional<std::string> read_text(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+std::optional<ScriptRunner> script_of(const Options& options) {
+    if (options.script.empty()) return std::nullopt;
+    const std::optional<std::string> text = read_text(options.script);
+    if (!text) throw Error(fmt::format("{}: cannot be read", options.script));
+    try {
+        return ScriptRunner(parse_script(*text), options.script);
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", options.script, error.what()));
+    }
+}
+
+/// What the start before has left; nothing where it is not wanted or cannot be read.
+std::optional<SavedState> saved_state(const Options& options) {
+    if (!options.keeps_state() || state_file().empty()) return std::nullopt;
+    const std::optional<std::string> text = read_text(state_file());
+    if (!text) return std::nullopt;
+    try {
+        return from_json(*text);
+    } catch (const Error& error) {
+        complain(fmt::format("warning: {}: {}", state_file().string(), error.what()), 0);
+        return std::nullopt;
+    }
+}
+
+void save_state(const Options& options, Viewer& viewer) {
+    const std::filesystem::path file = state_file();
+    const vk::Extent2D extent = viewer.window().extent();
+    if (!options.keeps_state() || file.empty() || extent.width == 0) return;
+    const Scene& scene = viewer.document().scene();
+    const bool is_file = scene.source.find(':') == std::string::npos;
+    try {
+        std::filesystem::create_directories(file.parent_path());
+        write_text_file(file,
+                        to_json({.scene = is_file ? std::filesystem::absolute(scene.source).string() : scene.source,
+                                 .width = extent.width,
+                                 .height = extent.height,
+                                 .panels = viewer.panels().visible,
+                                 .look = viewer.document().look}));
+    } catch (const std::exception& error) {
+        complain(fmt::format("warning: the state was not kept: {}", error.what()), 0);
+    }
+}
+
+/// Opens what the command line names, or else what was open last.
+void open_first(const Options& options, const std::optional<SavedState>& state, Viewer& viewer) {
+    Document& document = viewer.document();
+    const auto [width, height] = cli::parse_size(options.size.value_or("960x540"));
+    if (state) {
+        viewer.panels().visible = state->panels;
+        document.look = state->look;
+        if (!viewer.open_environment(state->look.environment)) document.open_environment("studio");
+    }
+    if (!options.scene.empty()) {
+        document.open(options.scene, options.how, width, height);
+    } else if (!state || !viewer.open(state->scene)) {
+        document.open("shape:goblet", {}, width, height);
+    } else if (document.fits(state->look)) {
+        const std::string environment = document.look.environment;
+        document.look = state->look;
+        document.look.environment = environment;
+    }
+    options.apply(document);
+    document.commit();
+}
+
+int run(const Options& options) {
+    std::optional<ScriptRunner> script = script_of(options);
+    const std::optional<SavedState> state = saved_state(options);
+    auto [width, height] = cli::parse_size(options.size.value_or("960x540"));
+    if (state && !options.size) width = state->width, height = state->height;
+    if (!options.screenshot.empty()) check_writable(options.screenshot);
+    Viewer viewer(options.device, width, height);
+    open_first(options, state, viewer);
+    if (options.no_panels) viewer.panels().visible = false;
+
+    // A viewer that is ended keeps its state as one that is closed.
+    std::signal(SIGTERM, &end_soon);
+    std::signal(SIGINT, &end_soon);
+    int turns = 0;
+    while (!viewer.window().should_close() && !asked_to_end) {
+        viewer.turn(!script && options.screenshot.empty());
+        if (script) {
+            script->step(viewer);
+            if (script->done()) break;
+        } else if (!options.screenshot.empty() && ++turns > 3 && viewer.still()) {
+            write_image(options.screenshot, viewer.screenshot());
+            break;
+        }
+    }
+    save_state(options, viewer);
+    if (const auto messages = viewer.gpu().validation_messages(); !messages.empty())
+        throw std::runtime_error(
+            fmt::format("{} validation messages, the first: {}", messages.size(), messages.front()));
+    return kDone;
+}
+
+}  // namespace
+}  // namespace pellucid::viewer
+
+int main(int argc, char** argv) {
+    using namespace pellucid;
+    using namespace pellucid::viewer;
+    CLI::App app{"Shows transparent objects and lets one look around.", "pellucid-view"};
+    Options options;
+    add_options(app, options);
+    try {
+        app.parse(argc, argv);
+        return run(options);
+    } catch (const CLI::Success& help) {
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        return complain(fmt::format("{} (see 'pellucid-view --help')", error.what()), kBadInput);
+    } catch (const Error& error) {
+        return complain(error.what(), kBadInput);
+    } catch (const DeviceError& error) {
+        return complain(error.what(), kNoDevice);
+    } catch (const vk::SystemError& error) {
+        return complain(fmt::format("Vulkan: {}", error.what()), kNoDevice);
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory", kBadInput);
+    } catch (const std::exception& error) {
+        return complain(fmt::format("internal error: {}", error.what()), kBug);
+    }
+}

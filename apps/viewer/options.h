@@ -1,0 +1,40 @@
+#pragma once
+
+#include "options/options.h"
+#include "viewer/document.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace pellucid::viewer {
+
+/// The command line as given; strings are parsed when the program runs, so that errors are ours.
+struct Options {
+    std::string scene;  ///< empty: what was open last
+    std::optional<std::string> size;
+    std::string technique = RenderSettings{}.technique;
+    cli::ParameterArguments parameters;
+    cli::EnvironmentArguments environment;
+    std::optional<std::string> camera;
+    std::optional<double> fov_deg;
+    std::uint32_t samples = Look{}.samples;
+    std::string tonemap = "neutral";
+    double exposure_ev = 0.0;
+    cli::SceneArguments how;
+    cli::DeviceArguments device;
+    std::string screenshot, script;
+    bool no_panels = false;
+    bool fresh = false;
+
+    /// State is read and written: neither --fresh nor a script nor a screenshot.
+    bool keeps_state() const { return !fresh && script.empty() && screenshot.empty(); }
+    /// Puts what was given into the look of the document.
+    void apply(Document& document) const;
+
+    const CLI::App* app = nullptr;  ///< tells what was given
+};
+void add_options(CLI::App& app, Options& options);
+
+}  // namespace pellucid::viewer

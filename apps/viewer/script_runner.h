@@ -1,0 +1,32 @@
+#pragma once
+
+#include "viewer/script.h"
+#include "viewer/viewer.h"
+
+#include <string>
+#include <vector>
+
+namespace pellucid::viewer {
+
+/// Runs a script in a viewer, between the turns of its loop.
+class ScriptRunner {
+public:
+    /// `name`: of the file, for messages.
+    ScriptRunner(std::vector<ScriptLine> lines, std::string name) : lines_(std::move(lines)), name_(std::move(name)) {}
+
+    /// Runs lines up to one that waits. Throws Error naming the line for what cannot be done.
+    void step(Viewer& viewer);
+    bool done() const { return next_ == lines_.size(); }
+
+private:
+    bool run(const ScriptLine& line, Viewer& viewer);
+    bool waited(const ScriptLine& line, Viewer& viewer);
+
+    std::vector<ScriptLine> lines_;
+    std::string name_;
+    std::size_t next_ = 0;
+    std::optional<std::uint64_t> waits_for_frame_;
+    int turns_ = 0;  ///< that the line has waited for
+};
+
+}  // namespace pellucid::viewer

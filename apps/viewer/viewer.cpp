@@ -1,0 +1,344 @@
+#include "viewer/viewer.h"
+
+#include "viewer/equal_command.h"
+
+#include <pellucid/file.h>
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace pellucid::viewer {
+namespace {
+
+/// After the last change the image is still taken to move for so long.
+constexpr std::chrono::milliseconds kSettle{200};
+constexpr double kPollSeconds = 0.002;  ///< while there is something to do
+constexpr double kMinimizedSeconds = 0.02;
+constexpr double kIdleSeconds = 0.5;
+constexpr std::size_t kFrameTimes = 120;
+constexpr int kLateTurns = 3;
+
+bool is_environment(const std::string& file) {
+    const std::string extension = lower_extension(file);
+    return extension == ".hdr" || extension == ".exr";
+}
+
+/// The parameters that the technique has; others belong to the other side of the divider.
+ParameterMap own_parameters(const ParameterMap& given, const TechniqueInfo& technique) {
+    ParameterMap own;
+    for (const ParameterInfo& info : technique.parameters) {
+        if (const auto found = given.find(info.name); found != given.end()) own.insert(*found);
+    }
+    return own;
+}
+
+}  // namespace
+
+Viewer::Viewer(const cli::DeviceArguments& device, std::uint32_t width, std::uint32_t height)
+    : gpu_(device.device, device.validate), window_(gpu_, "Pellucid", width, height), gui_(gpu_, window_),
+      renderer_(gpu_.lent(), device.threads), frames_of_renderer_(renderer_), stage_(renderer_),
+      left_(gpu_, frames_of_renderer_), right_(gpu_, frames_of_renderer_) {}
+
+void Viewer::try_to(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        panels_.say(error.what(), true);
+    } catch (const DeviceError& error) {
+        panels_.say(error.what(), true);
+    }
+    turns_to_draw_ = kLateTurns;
+}
+
+bool Viewer::open(const std::string& source, const cli::SceneArguments& how) {
+    if (is_environment(source)) return open_environment(source);
+    bool opened = false;
+    try_to([&] {
+        const vk::Extent2D extent = window_.extent();
+        document_.open(source, how, std::max(1u, extent.width), std::max(1u, extent.height));
+        opened = true;
+        ray_.reset();
+        window_.set_title(fmt::format("{} - Pellucid", std::filesystem::path(source).filename().string()));
+        const std::vector<std::string>& warnings = document_.scene().warnings;
+        if (warnings.empty())
+            panels_.clear_message();
+        else
+            panels_.say(warnings.size() == 1
+                            ? warnings.front()
+                            : fmt::format("{} (and {} more warnings)", warnings.front(), warnings.size() - 1),
+                        false);
+    });
+    return opened;
+}
+
+bool Viewer::open_environment(const std::string& name_or_file) {
+    bool opened = false;
+    try_to([&] {
+        document_.open_environment(name_or_file);
+        opened = true;
+    });
+    return opened;
+}
+
+void Viewer::undo() {
+    try_to([&] {
+        if (!document_.undo()) panels_.say("nothing to undo", false);
+    });
+}
+
+void Viewer::redo() {
+    try_to([&] {
+        if (!document_.redo()) panels_.say("nothing to redo", false);
+    });
+}
+
+void Viewer::frame() {
+    const vk::Extent2D extent = window_.extent();
+    if (extent.width == 0 || extent.height == 0) return;
+    const OrbitCamera old = document_.look.camera;
+    document_.look.file_camera.clear();
+    document_.look.camera = framing_orbit(document_.bounds(), extent.width, extent.height, old.fov_deg);
+    document_.look.camera.azimuth_deg = old.azimuth_deg;
+    document_.look.camera.elevation_deg = old.elevation_deg;
+}
+
+void Viewer::inspect(glm::ivec2 pixel) {
+    ray_.reset();
+    const vk::Extent2D extent = window_.extent();
+    if (pixel.x < 0 || pixel.y < 0 || pixel.x >= int(extent.width) || pixel.y >= int(extent.height)) return;
+    finish_pictures();  // the tracer is the renderer's
+    ray_ = viewer::inspect(renderer_.tracer(), stage_.scene(), stage_.camera(), glm::uvec2(pixel), extent.width,
+                           extent.height);
+    turns_to_draw_ = kLateTurns;
+}
+
+bool Viewer::moving() const { return panels_.playing || input_.dragging() || Clock::now() - moved_at_ < kSettle; }
+
+bool Viewer::still() const {
+    const bool minimized = window_.extent().width == 0;
+    return minimized ||
+           (!moving() && seen_ == document_.look && left_.still() && (document_.look.other.empty() || right_.still()));
+}
+
+void Viewer::advance_animation() {
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - std::exchange(turned_at_, now)).count();
+    Look& look = document_.look;
+    if (!panels_.playing || !look.animation) return;
+    const double duration = document_.animations()[*look.animation].duration_s;
+    look.time_s = duration > 0.0 ? std::fmod(look.time_s + seconds * double(panels_.speed), duration) : 0.0;
+}
+
+void Viewer::finish_pictures() {
+    left_.finish();
+    right_.finish();
+}
+
+/// Tells the renderer and the pictures what has changed.
+void Viewer::update_pictures() {
+    const vk::Extent2D extent = window_.extent();
+    if (extent.width == 0 || extent.height == 0 || document_.scene_number() == 0) return;
+    const Look& look = document_.look;
+    if (stage_.apply(document_, [&] { finish_pictures(); })) {
+        ++revision_;
+        ray_.reset();
+    }
+    Look seen = look;
+    seen.divider = seen_.divider;  // moves over images that stay
+    if (!(seen == seen_) || extent != seen_extent_) moved_at_ = Clock::now();
+    seen_ = look;
+    seen_extent_ = extent;
+    const auto want = [&](Picture& picture, const std::string& technique) {
+        RenderSettings settings = settings_of(look, technique, extent.width, extent.height);
+        settings.parameters = own_parameters(look.parameters, *renderer_.choose(technique).technique);
+        picture.want(settings, moving(), revision_);
+    };
+    want(left_, look.technique);
+    if (!look.other.empty()) want(right_, look.other);
+}
+
+/// True: there is another image to show.
+bool Viewer::take_pictures() {
+    bool another = false;
+    for (Picture* picture : {&left_, &right_}) {
+        if (!picture->take()) continue;
+        ++frames_;
+        if (picture == &left_) {
+            frame_times_ms_.push_back(float(picture->info().frame_ms));
+            if (frame_times_ms_.size() > kFrameTimes) frame_times_ms_.pop_front();
+        }
+        // Showing a sample costs as much as drawing one does on small devices: show those that change much.
+        const PictureInfo& info = picture->info();
+        another |= info.samples_wanted == 1 || std::has_single_bit(info.samples) || info.samples == info.samples_wanted;
+    }
+    return another;
+}
+
+void Viewer::submit_pictures() {
+    if (left_.in_flight() || right_.in_flight()) return;
+    const auto wait_for_reads = [&] { window_.wait_for_reads(); };
+    if (document_.look.other.empty()) {
+        left_.submit(wait_for_reads);
+        return;
+    }
+    // Frames add samples to one picture at a time. While something moves, each picture is of one sample.
+    if (moving())
+        left_turn_ = !left_turn_;
+    else
+        left_turn_ = !left_.still();
+    (left_turn_ ? left_ : right_).submit(wait_for_reads);
+}
+
+std::vector<ShownImage> Viewer::shown_images() const {
+    const vk::Extent2D window = window_.extent();
+    const Look& look = document_.look;
+    std::vector<ShownImage> images;
+    if (!left_.has_image()) return images;
+    const auto whole = [&](const Picture& picture) {
+        return ShownImage{picture.image(), {{0, 0}, picture.extent()}, {{0, 0}, window}};
+    };
+    if (look.other.empty() || !right_.has_image()) return {whole(left_)};
+    ShownImage left = whole(left_), right = whole(right_);
+    const auto part = [&](std::uint32_t width) {
+        return std::min(width, std::uint32_t(std::lround(double(look.divider) * width)));
+    };
+    left.where.extent.width = part(window.width);
+    left.from.extent.width = part(left.from.extent.width);
+    const std::uint32_t from = part(right.from.extent.width), at = part(window.width);
+    right.from = {{std::int32_t(from), 0}, {right.from.extent.width - from, right.from.extent.height}};
+    right.where = {{std::int32_t(at), 0}, {window.width - at, window.height}};
+    return {left, right};
+}
+
+void Viewer::draw_ray() {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    if (!document_.look.other.empty()) {
+        const float x = document_.look.divider * size.x;
+        list.AddLine({x, 0.0f}, {x, size.y}, IM_COL32(255, 255, 255, 200), 2.0f);
+        list.AddText({x + 6.0f, 6.0f}, IM_COL32(255, 255, 255, 220), document_.look.other.c_str());
+    }
+    if (!ray_) return;
+    const glm::vec2 start(float(ray_->pixel.x) + 0.5f, float(ray_->pixel.y) + 0.5f);
+    list.AddCircle({start.x, start.y}, 5.0f, IM_COL32(255, 255, 0, 255));
+    std::vector<glm::vec3> points;
+    for (const InspectedEvent& event : ray_->events) points.push_back(event.position);
+    const RefractedPath& path = ray_->path;
+    points.push_back(path.object >= 0 || points.empty() ? path.position
+                                                        : points.back() + document_.bounds().radius * path.direction);
+    glm::vec3 from(start, 1.0f);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::vec3 to = project(points[i], stage_.camera(), size.x, size.y);
+        if (to.z <= 0.0f || from.z <= 0.0f) break;
+        const bool after_reflection = i > 0 && ray_->events[i - 1].reflected;
+        const ImU32 color = i == 0                   ? IM_COL32(255, 255, 0, 255)
+                            : i + 1 == points.size() ? IM_COL32(90, 220, 255, 255)
+                            : after_reflection       ? IM_COL32(120, 255, 120, 255)
+                                                     : IM_COL32(255, 140, 60, 255);
+        list.AddLine({from.x, from.y}, {to.x, to.y}, color, 2.0f);
+        if (i < ray_->events.size()) list.AddCircleFilled({to.x, to.y}, 3.5f, color);
+        from = to;
+    }
+}
+
+void Viewer::draw_window(Image* capture) {
+    window_.draw(
+        shown_images(), [&](vk::CommandBuffer commands) { gui_.record(commands); }, capture);
+}
+
+std::string Viewer::command_line() {
+    const vk::Extent2D extent = window_.extent();
+    const EqualCommand command =
+        equal_command(document_.look, document_.scene(), document_.how(), extent.width, extent.height);
+    std::string text = command.line + "\n";
+    for (const std::string& line : command.lacking) text += fmt::format("# lacks {}\n", line);
+    return text;
+}
+
+void Viewer::save(const Image& image, const char* stem) {
+    if (image.pixels.empty()) return;
+    std::string file;
+    for (int number = 1; file.empty() || std::filesystem::exists(file); ++number)
+        file = fmt::format("{}-{}.png", stem, number);
+    write_image(file, image);
+    panels_.say(fmt::format("saved {}", file), false);
+}
+
+void Viewer::grant(const Wishes& wishes) {
+    if (!wishes.open.empty()) open(wishes.open);
+    if (!wishes.environment.empty()) open_environment(wishes.environment);
+    if (wishes.undo) undo();
+    if (wishes.redo) redo();
+    if (wishes.frame) frame();
+    if (wishes.save) try_to([&] { save(image(), "pellucid"); });
+    if (wishes.screenshot) try_to([&] { save(screenshot(), "pellucid-window"); });
+    if (wishes.copy_command) {
+        glfwSetClipboardString(window_.handle(), command_line().c_str());
+        panels_.say("copied: " + command_line(), false);
+    }
+    if (wishes.close) window_.close();
+}
+
+void Viewer::turn(bool wait) {
+    double seconds = kPollSeconds;
+    if (wait && still() && turns_to_draw_ == 0) {
+        const double change = panels_.seconds_to_change();
+        seconds = change >= 0.0 ? std::min(kIdleSeconds, change + 0.01) : kIdleSeconds;
+    } else if (window_.extent().width == 0) {
+        seconds = kMinimizedSeconds;
+    }
+    if (window_.handle_events(seconds)) turns_to_draw_ = kLateTurns;
+    for (const std::filesystem::path& file : window_.take_dropped()) open(file.string());
+    advance_animation();
+
+    bool another = false;
+    try {
+        another = take_pictures();
+        update_pictures();
+        submit_pictures();
+    } catch (const Error& error) {
+        panels_.say(error.what(), true);
+        another = true;
+    } catch (const DeviceError& error) {
+        panels_.say(error.what(), true);
+        another = true;
+    }
+    if (panels_.seconds_to_change() == 0.0) another = true;
+    if (!another && turns_to_draw_ == 0) return;
+    turns_to_draw_ = another ? std::max(1, turns_to_draw_) : turns_to_draw_;
+    --turns_to_draw_;
+    if (window_.extent().width == 0) return;
+
+    Wishes wishes;
+    std::optional<glm::ivec2> pixel;
+    gui_.begin_frame();
+    panels_.draw(document_,
+                 {&renderer_, &left_.info(), document_.look.other.empty() ? nullptr : &right_.info(), &frame_times_ms_,
+                  ray_ ? &*ray_ : nullptr},
+                 wishes);
+    input_.handle(document_, panels_, wishes, pixel);
+    draw_ray();
+    gui_.end_frame();
+    draw_window(nullptr);
+    if (!input_.dragging() && !panels_.playing) document_.commit();
+    grant(wishes);
+    if (pixel) try_to([&] { inspect(*pixel); });
+}
+
+Image Viewer::screenshot() {
+    turns_to_draw_ = kLateTurns;
+    while (turns_to_draw_ > 0) turn(false);
+    Image image;
+    if (window_.extent().width != 0) draw_window(&image);
+    return image;
+}
+
+Image Viewer::image() { return left_.has_image() ? left_.read(gpu_) : Image(); }
+
+}  // namespace pellucid::viewer

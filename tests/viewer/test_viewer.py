@@ -1,0 +1,232 @@
+"""The viewer in a window of an X server, as its users meet it. Skipped where there is no Xvfb.
+
+The script of a test and the test wait for each other by files: `wait file NAME` and `mark NAME`.
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+VIEWER = os.environ.get("PELLUCID_VIEWER", "pellucid-view")
+RENDER = os.environ.get("PELLUCID_BINARY", "pellucid")
+X_CLIENT = os.environ.get("PELLUCID_X_CLIENT", "x_client")
+SKIPPED = 77  # exit code for "nothing could be tested", as viewer.cmake tells ctest
+PATIENCE_S = 120
+
+# Of the keyboard of Xvfb (evdev)
+KEY_TAB, KEY_F1, KEY_CTRL, KEY_Z = 23, 67, 37, 52
+
+
+def start_server():
+    """Xvfb on a display of its own choice: the process and the display."""
+    read, write = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp"],
+                              pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(write)
+    with os.fdopen(read) as file:
+        number = file.readline().strip()
+    if not number:
+        server.wait()
+        raise unittest.SkipTest("Xvfb did not start")
+    return server, f":{number}"
+
+
+class ViewerTest(unittest.TestCase):
+    """Each test has a folder and an X server of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="pellucid-view-")
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        server, display = start_server()
+        self.addCleanup(server.wait)
+        self.addCleanup(server.terminate)
+        self.environment = dict(os.environ, DISPLAY=display, XDG_STATE_HOME=self.path("state"))
+        self.environment.pop("WAYLAND_DISPLAY", None)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def start(self, *arguments, script=None):
+        if script is not None:
+            with open(self.path("script"), "w", encoding="utf-8") as file:
+                file.write("\n".join(script) + "\n")
+            arguments = [*arguments, "--script", "script"]
+        viewer = subprocess.Popen([VIEWER, *arguments], cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(viewer.communicate)
+        self.addCleanup(viewer.kill)
+        return viewer
+
+    def run_viewer(self, *arguments, script=None, code=0):
+        viewer = self.start(*arguments, script=script)
+        out, err = viewer.communicate(timeout=5 * PATIENCE_S)
+        self.assertEqual(viewer.returncode, code, err)
+        return out + err
+
+    def run_script(self, *script, scene="shape:goblet", size="320x200"):
+        return self.run_viewer(scene, "--size", size, "--validate", "--technique", "fast", "--samples", "2", script=script)
+
+    def wait_for(self, viewer, name):
+        end = time.monotonic() + PATIENCE_S
+        while not os.path.exists(self.path(name)):
+            self.assertIsNone(viewer.poll(), "the viewer has ended")
+            self.assertLess(time.monotonic(), end, f"no {name}")
+            time.sleep(0.02)
+
+    def x_client(self, *arguments):
+        subprocess.run([X_CLIENT, *arguments], cwd=self.folder, env=self.environment, check=True)
+
+    def mark(self, name):
+        with open(self.path(name), "w", encoding="utf-8"):
+            pass
+
+    def report(self, name):
+        return json.loads(self.read(name))
+
+
+class TestWindow(ViewerTest):
+    def test_the_window_shows_what_the_screenshot_has(self):
+        viewer = self.start("shape:goblet", "--size", "400x240", "--technique", "fast", "--samples", "2",
+                            script=["wait still", "screenshot shot.png", "mark ready", "wait file seen"])
+        self.wait_for(viewer, "ready")
+        self.x_client("capture", "Pellucid", "window.png")
+        self.mark("seen")
+        viewer.communicate(timeout=PATIENCE_S)
+        self.assertEqual(viewer.returncode, 0)
+        self.assertEqual(self.read("window.png"), self.read("shot.png"))
+
+    def test_a_drag_turns_the_camera_and_keys_undo_it(self):
+        script = ["wait still", "save before.png", "command before", "mark ready",
+                  "wait file dragged", "wait still", "save turned.png", "command turned", "mark next",
+                  "wait file undone", "wait still", "save after.png", "command after"]
+        viewer = self.start("shape:goblet", "--size", "400x240", "--technique", "fast", "--samples", "2", "--no-panels",
+                            script=script)
+        self.wait_for(viewer, "ready")
+        self.x_client("drag", "Pellucid", "300", "120", "200", "90")
+        self.mark("dragged")
+        self.wait_for(viewer, "next")
+        # Z while Ctrl is held would need a key that stays down: F1 and Tab are single keys.
+        self.x_client("key", "Pellucid", str(KEY_TAB))
+        self.mark("undone")
+        _, err = viewer.communicate(timeout=PATIENCE_S)
+        self.assertEqual(viewer.returncode, 0, err)
+        self.assertNotEqual(self.read("before.png"), self.read("turned.png"))
+        self.assertNotEqual(self.read("before"), self.read("turned"))
+        self.assertEqual(self.read("turned"), self.read("after"))
+
+    def test_a_key_shows_the_help(self):
+        script = ["wait still", "screenshot before.png", "mark ready", "wait file pressed", "screenshot after.png"]
+        viewer = self.start("shape:goblet", "--size", "400x240", "--technique", "fast", "--samples", "1", script=script)
+        self.wait_for(viewer, "ready")
+        self.x_client("drag", "Pellucid", "390", "230", "391", "230")  # the pointer is in the window
+        self.x_client("key", "Pellucid", str(KEY_F1))
+        self.mark("pressed")
+        viewer.communicate(timeout=PATIENCE_S)
+        self.assertEqual(viewer.returncode, 0)
+        self.assertNotEqual(self.read("before.png"), self.read("after.png"))
+
+
+class TestScripts(ViewerTest):
+    def test_a_broken_file_leaves_the_old_scene(self):
+        with open(self.path("broken.obj"), "w", encoding="utf-8") as file:
+            file.write("v 1 2\nf 1 2 3\n")
+        self.run_script("wait still", "save before.png", "drop broken.obj", "expect-message broken.obj", "wait still",
+                        "save after.png", "report report.json")
+        self.assertEqual(self.read("before.png"), self.read("after.png"))
+        self.assertEqual(self.report("report.json")["scene"], "shape:goblet")
+
+    def test_files_that_are_dropped_together(self):
+        self.run_script("drop shape:gem shape:torus", "expect-no-message", "wait still", "report report.json")
+        self.assertEqual(self.report("report.json")["scene"], "shape:torus")
+
+    def test_the_smallest_window_and_back(self):
+        self.run_script("wait still", "save before.png", "size 1x1", "wait still", "size 320x200", "wait still",
+                        "save after.png")
+        self.assertEqual(self.read("before.png"), self.read("after.png"))
+
+    def test_minimise_and_restore(self):
+        self.run_script("wait still", "minimize", "wait still", "restore", "wait still", "screenshot after.png")
+
+    def test_it_closes_while_it_refines(self):
+        self.run_script("samples 64", "wait frames 3", "close")
+
+    def test_undo_and_redo(self):
+        self.run_script("wait still", "command first", "technique exact", "wait still", "exposure 1", "wait still", "undo",
+                        "undo", "command second", "redo", "redo", "command third")
+        self.assertEqual(self.read("first"), self.read("second"))
+        self.assertIn(b"--technique exact", self.read("third"))
+        self.assertIn(b"--exposure 1", self.read("third"))
+
+    def test_a_ray_and_a_divider(self):
+        self.run_script("wait still", "screenshot before.png", "split exact 0.5", "wait still", "inspect 160 90",
+                        "screenshot after.png")
+        self.assertNotEqual(self.read("before.png"), self.read("after.png"))
+
+    def test_materials_change_the_image(self):
+        self.run_script("wait still", "save a.png", "material 0 ior 1.2", "wait still", "save b.png",
+                        "material 0 attenuation-color 0.2 0.9 0.3", "material 0 attenuation-distance 0.1", "wait still",
+                        "save c.png")
+        self.assertNotEqual(self.read("a.png"), self.read("b.png"))
+        self.assertNotEqual(self.read("b.png"), self.read("c.png"))
+
+    def test_the_command_draws_the_image(self):
+        self.run_viewer("shape:goblet", "--size", "200x120", "--technique", "fast", "--samples", "4", script=[
+            "orbit 30 10", "pan 0.1 0.05", "zoom 1.3", "wait still", "save image-view.png", "command command"])
+        words = self.read("command").decode().splitlines()[0].split()[1:]
+        subprocess.run([RENDER, *words], cwd=self.folder, check=True, capture_output=True)
+        self.assertEqual(self.read("image-view.png"), self.read("image.png"))
+
+
+class TestUsage(ViewerTest):
+    def test_bad_input_is_one_line(self):
+        for arguments, words in ((["missing.obj"], "missing.obj"), (["shape:nothing"], "nothing"),
+                                 (["--technique", "magic", "--fresh", "shape:gem"], "magic"),
+                                 (["--size", "0x3"], "--size"), (["--script", "missing"], "missing"),
+                                 (["--no-such"], "--no-such")):
+            with self.subTest(arguments=arguments):
+                err = self.run_viewer(*arguments, code=2)
+                self.assertRegex(err, r"\Apellucid-view: [^\n]+\n\Z")
+                self.assertIn(words, err)
+
+    def test_no_display_is_one_line(self):
+        del self.environment["DISPLAY"]
+        err = self.run_viewer("shape:gem", code=2)
+        self.assertRegex(err, r"\Apellucid-view: [^\n]*display[^\n]*\n\Z")
+
+    def test_what_was_open_last_comes_back(self):
+        viewer = self.start("shape:gem", "--size", "300x200", "--technique", "fast", "--samples", "1")
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            found = subprocess.run([X_CLIENT, "key", "gem", str(KEY_TAB)], env=self.environment, capture_output=True)
+            if found.returncode == 0:
+                break
+            time.sleep(0.1)
+        viewer.terminate()
+        viewer.communicate(timeout=PATIENCE_S)
+        self.assertTrue(os.path.isfile(self.path("state/pellucid/viewer.json")))
+        state = json.loads(self.read("state/pellucid/viewer.json"))
+        self.assertEqual(state["scene"], "shape:gem")
+
+
+def main():
+    if shutil.which("Xvfb") is None:
+        print("skipped: Xvfb is not installed")
+        sys.exit(SKIPPED)
+    program = unittest.main(module="__main__", exit=False, verbosity=2)
+    if not program.result.wasSuccessful():
+        sys.exit(1)
+    if program.result.testsRun == len(program.result.skipped):
+        sys.exit(SKIPPED)
+
+
+if __name__ == "__main__":
+    main()
