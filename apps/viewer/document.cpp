@@ -14,6 +14,7 @@ void keep(Look& look, const Look& old) {
     look.divider = old.divider;
     look.parameters = old.parameters;
     look.view = old.view;
+    look.overlay = old.overlay;
     look.samples = old.samples;
     look.tonemap = old.tonemap;
     look.exposure_ev = old.exposure_ev;

@@ -167,6 +167,7 @@ EqualCommand equal_command(const Look& look, const Scene& scene, const cli::Scen
             command.lacking.push_back(fmt::format("changes of light {} '{}'", i, one_line(scene.lights[i].name)));
     }
     if (!look.other.empty()) command.lacking.push_back(fmt::format("technique {} right of the divider", look.other));
+    if (!look.overlay.empty()) command.lacking.push_back(fmt::format("overlay {}", look.overlay));
     command.line = line.take();
     return command;
 }

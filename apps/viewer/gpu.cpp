@@ -214,6 +214,29 @@ void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, vk:
     commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 
+DeviceImage upload(Gpu& gpu, const Image& from) {
+    const vk::Extent2D extent{std::uint32_t(from.width), std::uint32_t(from.height)};
+    using Layout = vk::ImageLayout;
+    DeviceImage to(gpu, extent, vk::Format::eR8G8B8A8Unorm,
+                   vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc);
+    const HostBuffer buffer(gpu, vk::DeviceSize(extent.width) * extent.height * 4,
+                            vk::BufferUsageFlagBits::eTransferSrc);
+    auto* bytes = static_cast<std::uint8_t*>(buffer.mapped);
+    for (std::size_t i = 0; i < from.pixels.size() / 3; ++i) {
+        for (std::size_t c = 0; c < 3; ++c)
+            bytes[4 * i + c] = std::uint8_t(std::clamp(from.pixels[3 * i + c], 0.0f, 1.0f) * 255.0f + 0.5f);
+        bytes[4 * i + 3] = 255;
+    }
+    gpu.run([&](const vk::raii::CommandBuffer& commands) {
+        const vk::BufferImageCopy copy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                                       .imageExtent = {extent.width, extent.height, 1}};
+        change_layout(commands, *to.image, Layout::eUndefined, Layout::eTransferDstOptimal);
+        commands.copyBufferToImage(*buffer.buffer, *to.image, Layout::eTransferDstOptimal, copy);
+        change_layout(commands, *to.image, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal);
+    });
+    return to;
+}
+
 Image image_of(const void* texels, vk::Format format, vk::Extent2D extent) {
     Image image(int(extent.width), int(extent.height), 3);
     const auto* bytes = static_cast<const std::uint8_t*>(texels);

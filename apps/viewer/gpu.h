@@ -84,6 +84,9 @@ struct HostBuffer {
     void* mapped = nullptr;
 };
 
+/// An image of format R8G8B8A8_UNORM in TRANSFER_SRC_OPTIMAL that holds `image`: RGB, 0..1.
+DeviceImage upload(Gpu& gpu, const Image& image);
+
 /// The whole image changes its layout, after everything before and before everything after.
 void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to);
 

@@ -44,6 +44,7 @@ struct Look {
     float divider = 0.5f;                                ///< share of the width, 0 to 1
     ParameterMap parameters;
     View view = View::kRadiance;
+    std::string overlay;         ///< of overlay_infos(), left of the divider; empty: none
     std::uint32_t samples = 16;  ///< of the finished image
 
     ToneMap tonemap = ToneMap::kNeutral;

@@ -1,5 +1,7 @@
 #include "viewer/look_sections.h"
 
+#include "viewer/overlay.h"
+
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -223,6 +225,12 @@ void display_section(Look& look) {
     named_choice<ToneMap>("tone map", look.tonemap, kTonemaps, &tonemap_name);
     constexpr std::array kViews{View::kRadiance, View::kAnalysis};
     named_choice<View>("view", look.view, kViews, &view_name);
+    if (ImGui::BeginCombo("overlay", look.overlay.empty() ? "none" : look.overlay.c_str())) {
+        if (ImGui::Selectable("none", look.overlay.empty())) look.overlay.clear();
+        for (const OverlayInfo& info : overlay_infos()) choice(look.overlay, info.name, info.legend);
+        ImGui::EndCombo();
+    }
+    if (!look.overlay.empty()) ImGui::TextWrapped("%s", std::string(find_overlay(look.overlay).legend).c_str());
 }
 
 }  // namespace pellucid::viewer

@@ -78,6 +78,7 @@ Json look_json(const Look& look) {
               {"divider", look.divider},
               {"parameters", look.parameters},
               {"view", view_name(look.view)},
+              {"overlay", look.overlay},
               {"samples", look.samples},
               {"tonemap", tonemap_name(look.tonemap)},
               {"exposure_ev", look.exposure_ev},
@@ -111,6 +112,7 @@ Look look_of(const Json& json) {
     read("divider", look.divider);
     read("parameters", look.parameters);
     look.view = parse_view(name("view", "radiance"));
+    read("overlay", look.overlay);
     read("samples", look.samples);
     look.tonemap = parse_tonemap(name("tonemap", "neutral"));
     read("exposure_ev", look.exposure_ev);

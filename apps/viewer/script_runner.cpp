@@ -1,6 +1,7 @@
 #include "viewer/script_runner.h"
 
 #include "options/arguments.h"
+#include "viewer/overlay.h"
 
 #include <pellucid/file.h>
 
@@ -122,6 +123,8 @@ bool change_look(const ScriptLine& line, Viewer& viewer) {
         look.samples = std::uint32_t(std::clamp(number_at(line, 0), 1.0, 65536.0));
     else if (command == "view")
         look.view = parse_view(words[0]);
+    else if (command == "overlay")
+        look.overlay = words[0] == "off" ? "" : find_overlay(words[0]).name;
     else if (command == "exposure")
         look.exposure_ev = number(0);
     else if (command == "tonemap")

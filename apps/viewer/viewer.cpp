@@ -1,6 +1,7 @@
 #include "viewer/viewer.h"
 
 #include "viewer/equal_command.h"
+#include "viewer/overlay.h"
 
 #include <pellucid/file.h>
 
@@ -195,12 +196,33 @@ void Viewer::submit_pictures() {
     (left_turn_ ? left_ : right_).submit(wait_for_reads);
 }
 
+/// Draws the overlay anew where the image under it has changed, once that is finished. True: there is another one to show.
+bool Viewer::update_overlay() {
+    const Look& look = document_.look;
+    const bool wanted = !look.overlay.empty() && !moving() && left_.still() && left_.has_image();
+    if (!wanted) return std::exchange(overlay_look_, std::nullopt).has_value();
+    if (overlay_look_ == look && overlay_revision_ == revision_) return false;
+    overlay_look_ = look;
+    overlay_revision_ = revision_;
+    finish_pictures();
+    const vk::Extent2D extent = window_.extent();
+    RenderSettings settings = settings_of(look, look.technique, extent.width, extent.height);
+    settings.parameters = own_parameters(look.parameters, *renderer_.choose(look.technique).technique);
+    window_.wait_for_reads();
+    overlay_ = {};
+    frames_of_renderer_.restart();  // Renderer::render() uses what the samples so far are kept in
+    overlay_ = upload(gpu_, draw_overlay(look.overlay, renderer_, stage_.camera(), document_.bounds(), settings));
+    return true;
+}
+
 std::vector<ShownImage> Viewer::shown_images() const {
     const vk::Extent2D window = window_.extent();
     const Look& look = document_.look;
     std::vector<ShownImage> images;
     if (!left_.has_image()) return images;
     const auto whole = [&](const Picture& picture) {
+        if (overlay_look_ && *overlay_.image && &picture == &left_)
+            return ShownImage{*overlay_.image, {{0, 0}, overlay_.extent}, {{0, 0}, window}};
         return ShownImage{picture.image(), {{0, 0}, picture.extent()}, {{0, 0}, window}};
     };
     if (look.other.empty() || !right_.has_image()) return {whole(left_)};
@@ -211,8 +233,8 @@ std::vector<ShownImage> Viewer::shown_images() const {
     left.where.extent.width = part(window.width);
     left.from.extent.width = part(left.from.extent.width);
     const std::uint32_t from = part(right.from.extent.width), at = part(window.width);
-    right.from = {{std::int32_t(from), 0}, {right.from.extent.width - from, right.from.extent.height}};
-    right.where = {{std::int32_t(at), 0}, {window.width - at, window.height}};
+    right.from = vk::Rect2D{{std::int32_t(from), 0}, {right.from.extent.width - from, right.from.extent.height}};
+    right.where = vk::Rect2D{{std::int32_t(at), 0}, {window.width - at, window.height}};
     return {left, right};
 }
 
@@ -301,6 +323,7 @@ void Viewer::turn(bool wait) {
     try {
         another = take_pictures();
         update_pictures();
+        another |= update_overlay();
         submit_pictures();
     } catch (const Error& error) {
         panels_.say(error.what(), true);

@@ -57,6 +57,7 @@ private:
     void submit_pictures();
     void finish_pictures();
     void draw_window(Image* capture);
+    bool update_overlay();
     void draw_ray();
     void grant(const Wishes& wishes);
     void save(const Image& image, const char* stem);
@@ -76,6 +77,10 @@ private:
     Input input_;
     Picture left_, right_;
     bool left_turn_ = true;  ///< whose frame comes next where there is a divider
+
+    DeviceImage overlay_;
+    std::optional<Look> overlay_look_;  ///< that the overlay is of; none: there is none
+    std::uint64_t overlay_revision_ = 0;
 
     Look seen_;  ///< of the last turn
     vk::Extent2D seen_extent_;
