@@ -83,16 +83,15 @@ void save_state(const Options& options, Viewer& viewer) {
 /// Opens what the command line names, or else what was open last.
 void open_first(const Options& options, const std::optional<SavedState>& state, Viewer& viewer) {
     Document& document = viewer.document();
-    const auto [width, height] = cli::parse_size(options.size.value_or("960x540"));
     if (state) {
         viewer.panels().visible = state->panels;
         document.look = state->look;
         if (!viewer.open_environment(state->look.environment)) document.open_environment("studio");
     }
     if (!options.scene.empty()) {
-        document.open(options.scene, options.how, width, height);
+        viewer.load(options.scene, options.how);
     } else if (!state || !viewer.open(state->scene)) {
-        document.open("shape:goblet", {}, width, height);
+        viewer.load("shape:goblet");
     } else if (document.fits(state->look)) {
         const std::string environment = document.look.environment;
         document.look = state->look;
@@ -108,13 +107,13 @@ int run(const Options& options) {
     auto [width, height] = cli::parse_size(options.size.value_or("960x540"));
     if (state && !options.size) width = state->width, height = state->height;
     if (!options.screenshot.empty()) check_writable(options.screenshot);
+    // A viewer that is ended keeps its state as one that is closed.
+    std::signal(SIGTERM, &end_soon);
+    std::signal(SIGINT, &end_soon);
     Viewer viewer(options.device, width, height);
     open_first(options, state, viewer);
     if (options.no_panels) viewer.panels().visible = false;
 
-    // A viewer that is ended keeps its state as one that is closed.
-    std::signal(SIGTERM, &end_soon);
-    std::signal(SIGINT, &end_soon);
     int turns = 0;
     while (!viewer.window().should_close() && !asked_to_end) {
         viewer.turn(!script && options.screenshot.empty());

@@ -12,6 +12,7 @@ namespace pellucid::viewer {
 namespace {
 
 constexpr float kWidth = 310.0f;
+constexpr float kLeastScreen = 100.0f;  ///< pixels; smaller windows show no panels
 constexpr double kMessageSeconds = 6.0;
 
 void show_progress(const char* label, const PictureInfo& info) {
@@ -105,11 +106,11 @@ double Panels::seconds_to_change() const {
 
 void Panels::draw(Document& document, const Facts& facts, Wishes& wishes) {
     if (!message_is_error_ && ImGui::GetTime() >= message_until_s_) message_.clear();
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    if (screen.x < kLeastScreen || screen.y < kLeastScreen) return;  // windows would shrink with it, and stay so
     if (visible) {
-        const ImVec2 screen = ImGui::GetIO().DisplaySize;
         ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowSize(ImVec2(kWidth, std::max(100.0f, screen.y - 16.0f)), ImGuiCond_FirstUseEver);
-        ImGui::SetNextWindowSizeConstraints(ImVec2(200, 60), ImVec2(screen.x, std::max(60.0f, screen.y)));
         ImGui::SetNextWindowBgAlpha(0.85f);
         if (ImGui::Begin("Pellucid")) {
             ImGui::PushItemWidth(-110.0f);

@@ -57,23 +57,24 @@ void Viewer::try_to(const std::function<void()>& action) {
     turns_to_draw_ = kLateTurns;
 }
 
-bool Viewer::open(const std::string& source, const cli::SceneArguments& how) {
+void Viewer::load(const std::string& source, const cli::SceneArguments& how) {
+    const vk::Extent2D extent = window_.extent();
+    document_.open(source, how, std::max(1u, extent.width), std::max(1u, extent.height));
+    ray_.reset();
+    window_.set_title(fmt::format("{} - Pellucid", std::filesystem::path(source).filename().string()));
+    panels_.clear_message();
+    const std::vector<std::string>& warnings = document_.scene().warnings;
+    if (warnings.size() == 1) panels_.say(warnings.front(), false);
+    if (warnings.size() > 1)
+        panels_.say(fmt::format("{} (and {} more warnings)", warnings.front(), warnings.size() - 1), false);
+}
+
+bool Viewer::open(const std::string& source) {
     if (is_environment(source)) return open_environment(source);
     bool opened = false;
     try_to([&] {
-        const vk::Extent2D extent = window_.extent();
-        document_.open(source, how, std::max(1u, extent.width), std::max(1u, extent.height));
+        load(source);
         opened = true;
-        ray_.reset();
-        window_.set_title(fmt::format("{} - Pellucid", std::filesystem::path(source).filename().string()));
-        const std::vector<std::string>& warnings = document_.scene().warnings;
-        if (warnings.empty())
-            panels_.clear_message();
-        else
-            panels_.say(warnings.size() == 1
-                            ? warnings.front()
-                            : fmt::format("{} (and {} more warnings)", warnings.front(), warnings.size() - 1),
-                        false);
     });
     return opened;
 }
@@ -252,8 +253,10 @@ void Viewer::draw_ray() {
     std::vector<glm::vec3> points;
     for (const InspectedEvent& event : ray_->events) points.push_back(event.position);
     const RefractedPath& path = ray_->path;
-    points.push_back(path.object >= 0 || points.empty() ? path.position
-                                                        : points.back() + document_.bounds().radius * path.direction);
+    if (path.object >= 0)
+        points.push_back(path.position);
+    else if (!points.empty())
+        points.push_back(points.back() + document_.bounds().radius * path.direction);
     glm::vec3 from(start, 1.0f);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::vec3 to = project(points[i], stage_.camera(), size.x, size.y);

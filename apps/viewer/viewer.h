@@ -27,9 +27,11 @@ public:
     Gpu& gpu() { return gpu_; }
     const PictureInfo& info() const { return left_.info(); }
 
+    /// Replaces the scene. Throws Error, and changes nothing, if it cannot be loaded.
+    void load(const std::string& source, const cli::SceneArguments& how = {});
     /// Opens a scene (model, shape, volume) or an environment. What fails is shown as a message; the old scene stays. True: it
     /// was opened.
-    bool open(const std::string& source, const cli::SceneArguments& how = {});
+    bool open(const std::string& source);
     bool open_environment(const std::string& name_or_file);
     void undo();
     void redo();

@@ -44,7 +44,8 @@ TEST_F(EqualCommandTest, LeavesOutDefaults) {
 
 TEST_F(EqualCommandTest, NamesTheTargetWhereItIsNotTheCentre) {
     look.camera.target += glm::vec3(0.5f, 0.0f, 0.0f);
-    EXPECT_EQ(std::count(command().line.begin(), command().line.end(), ','), 5);
+    const std::string line = command().line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 5) << line;
 }
 
 TEST_F(EqualCommandTest, SaysWhatAllGlassHasInCommon) {

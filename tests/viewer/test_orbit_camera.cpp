@@ -17,7 +17,7 @@ glm::vec3 eye(const OrbitCamera& orbit) { return camera_of(orbit, kBounds).world
 glm::vec3 forward(const OrbitCamera& orbit) { return -glm::vec3(camera_of(orbit, kBounds).world_from_view[2]); }
 
 TEST(OrbitCamera, FramesAsRenderDoes) {
-    for (const auto [width, height] : {std::pair{640u, 360u}, std::pair{360u, 640u}}) {
+    for (const auto& [width, height] : {std::pair{640u, 360u}, std::pair{360u, 640u}}) {
         const Camera ours = camera_of(framing_orbit(kBounds, width, height), kBounds);
         const Camera theirs = framing_camera(kBounds, width, height, glm::radians(30.0f));
         for (int column = 0; column < 4; ++column)

@@ -11,7 +11,11 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 TEST(SavedState, ComesBackAsItWas) {
-    SavedState state{.scene = "shape:gem", .width = 800, .height = 450, .panels = false};
+    SavedState state;
+    state.scene = "shape:gem";
+    state.width = 800;
+    state.height = 450;
+    state.panels = false;
     Look& look = state.look;
     look.technique = "wang-2014";
     look.other = "exact";
