@@ -43,6 +43,7 @@ void write_report(const std::string& file, Viewer& viewer) {
                                 {"scale", info.pace.scale},
                                 {"coarse", info.pace.coarse},
                                 {"frame_times_ms", viewer.frame_times_ms()},
+                                {"response_times_ms", viewer.response_times_ms()},
                                 {"resident_bytes", resident_bytes()},
                                 {"message", viewer.panels().message()},
                                 {"warnings", info.warnings}};

@@ -153,7 +153,10 @@ void Viewer::update_pictures() {
     }
     Look seen = look;
     seen.divider = seen_.divider;  // moves over images that stay
-    if (!(seen == seen_) || extent != seen_extent_) moved_at_ = Clock::now();
+    if (!(seen == seen_) || extent != seen_extent_) {
+        moved_at_ = Clock::now();
+        if (!changed_at_) changed_at_ = moved_at_;
+    }
     seen_ = look;
     seen_extent_ = extent;
     const auto want = [&](Picture& picture, const std::string& technique) {
@@ -328,6 +331,7 @@ void Viewer::turn(bool wait) {
         update_pictures();
         another |= update_overlay();
         submit_pictures();
+        if (changed_at_ && left_.in_flight()) shows_change_of_ = std::exchange(changed_at_, std::nullopt);
     } catch (const Error& error) {
         panels_.say(error.what(), true);
         another = true;
@@ -352,9 +356,16 @@ void Viewer::turn(bool wait) {
     draw_ray();
     gui_.end_frame();
     draw_window(nullptr);
+    if (shows_change_of_ && !left_.in_flight()) note_response();
     if (!input_.dragging() && !panels_.playing) document_.commit();
     grant(wishes);
     if (pixel) try_to([&] { inspect(*pixel); });
+}
+
+void Viewer::note_response() {
+    const auto start = *std::exchange(shows_change_of_, std::nullopt);
+    response_times_ms_.push_back(std::chrono::duration<float, std::milli>(Clock::now() - start).count());
+    if (response_times_ms_.size() > kFrameTimes) response_times_ms_.pop_front();
 }
 
 Image Viewer::screenshot() {

@@ -50,6 +50,8 @@ public:
 
     std::uint64_t frames() const { return frames_; }  ///< images drawn so far
     const std::deque<float>& frame_times_ms() const { return frame_times_ms_; }
+    /// From a change of the look until the window has an image of it, of the last changes.
+    const std::deque<float>& response_times_ms() const { return response_times_ms_; }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -60,6 +62,7 @@ private:
     void finish_pictures();
     void draw_window(Image* capture);
     bool update_overlay();
+    void note_response();
     void draw_ray();
     void grant(const Wishes& wishes);
     void save(const Image& image, const char* stem);
@@ -90,6 +93,9 @@ private:
     std::uint64_t revision_ = 0;
     std::uint64_t frames_ = 0;
     std::deque<float> frame_times_ms_;
+    /// When the look changed of which no frame is in flight yet, and of the frame in flight or to be shown.
+    std::optional<Clock::time_point> changed_at_, shows_change_of_;
+    std::deque<float> response_times_ms_;
     std::optional<InspectedRay> ray_;
     int turns_to_draw_ = 3;  ///< Dear ImGui shows some things a frame late
 };

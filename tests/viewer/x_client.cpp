@@ -1,7 +1,7 @@
 // Uses the window of the viewer as a user's X server does: looks at its pixels, presses keys, moves the pointer.
 //
 //   x_client capture TITLE FILE.png     what the window shows
-//   x_client key TITLE KEYCODE...       presses and releases each key
+//   x_client keys TITLE KEYCODE...      presses all of the keys together
 //   x_client drag TITLE X0 Y0 X1 Y1     with the left button
 //   x_client size TITLE W H             resizes the window
 #include <pellucid/image.h>
@@ -67,12 +67,17 @@ public:
         sync();
     }
     void button(bool down) const { fake(down ? XCB_BUTTON_PRESS : XCB_BUTTON_RELEASE, 1); }
-    void key(xcb_window_t window, int code) const {
+    /// Presses the keys one after the other and releases them in the other order.
+    void keys(xcb_window_t window, const std::vector<int>& codes) const {
         xcb_set_input_focus(connection_, XCB_INPUT_FOCUS_POINTER_ROOT, window, XCB_CURRENT_TIME);
-        fake(XCB_KEY_PRESS, std::uint8_t(code));
-        pause();
-        fake(XCB_KEY_RELEASE, std::uint8_t(code));
-        pause();
+        for (auto code = codes.begin(); code != codes.end(); ++code) {
+            fake(XCB_KEY_PRESS, std::uint8_t(*code));
+            pause();
+        }
+        for (auto code = codes.rbegin(); code != codes.rend(); ++code) {
+            fake(XCB_KEY_RELEASE, std::uint8_t(*code));
+            pause();
+        }
     }
     void resize(xcb_window_t window, std::uint32_t width, std::uint32_t height) const {
         const std::uint32_t size[] = {width, height};
@@ -133,8 +138,8 @@ void run(const std::vector<std::string>& words) {
     }
     std::vector<int> numbers;
     for (std::size_t i = 2; i < words.size(); ++i) numbers.push_back(std::stoi(words[i]));
-    if (command == "key")
-        for (const int code : numbers) display.key(window, code);
+    if (command == "keys")
+        display.keys(window, numbers);
     else if (command == "drag")
         drag(display, window, numbers);
     else if (command == "size")
