@@ -175,6 +175,7 @@ bool Viewer::take_pictures() {
         if (!picture->take()) continue;
         ++frames_;
         if (picture == &left_) {
+            response_is_there_ = shows_change_of_.has_value();
             frame_times_ms_.push_back(float(picture->info().frame_ms));
             if (frame_times_ms_.size() > kFrameTimes) frame_times_ms_.pop_front();
         }
@@ -356,7 +357,7 @@ void Viewer::turn(bool wait) {
     draw_ray();
     gui_.end_frame();
     draw_window(nullptr);
-    if (shows_change_of_ && !left_.in_flight()) note_response();
+    if (std::exchange(response_is_there_, false)) note_response();
     if (!input_.dragging() && !panels_.playing) document_.commit();
     grant(wishes);
     if (pixel) try_to([&] { inspect(*pixel); });

@@ -95,6 +95,7 @@ private:
     std::deque<float> frame_times_ms_;
     /// When the look changed of which no frame is in flight yet, and of the frame in flight or to be shown.
     std::optional<Clock::time_point> changed_at_, shows_change_of_;
+    bool response_is_there_ = false;
     std::deque<float> response_times_ms_;
     std::optional<InspectedRay> ray_;
     int turns_to_draw_ = 3;  ///< Dear ImGui shows some things a frame late
