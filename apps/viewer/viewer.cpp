@@ -175,7 +175,7 @@ bool Viewer::take_pictures() {
         if (!picture->take()) continue;
         ++frames_;
         if (picture == &left_) {
-            response_is_there_ = shows_change_of_.has_value();
+            response_to_ = std::exchange(shows_change_of_, std::nullopt);
             frame_times_ms_.push_back(float(picture->info().frame_ms));
             if (frame_times_ms_.size() > kFrameTimes) frame_times_ms_.pop_front();
         }
@@ -357,14 +357,13 @@ void Viewer::turn(bool wait) {
     draw_ray();
     gui_.end_frame();
     draw_window(nullptr);
-    if (std::exchange(response_is_there_, false)) note_response();
+    if (const auto changed = std::exchange(response_to_, std::nullopt)) note_response(*changed);
     if (!input_.dragging() && !panels_.playing) document_.commit();
     grant(wishes);
     if (pixel) try_to([&] { inspect(*pixel); });
 }
 
-void Viewer::note_response() {
-    const auto start = *std::exchange(shows_change_of_, std::nullopt);
+void Viewer::note_response(Clock::time_point start) {
     response_times_ms_.push_back(std::chrono::duration<float, std::milli>(Clock::now() - start).count());
     if (response_times_ms_.size() > kFrameTimes) response_times_ms_.pop_front();
 }

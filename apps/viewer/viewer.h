@@ -62,7 +62,7 @@ private:
     void finish_pictures();
     void draw_window(Image* capture);
     bool update_overlay();
-    void note_response();
+    void note_response(Clock::time_point start);
     void draw_ray();
     void grant(const Wishes& wishes);
     void save(const Image& image, const char* stem);
@@ -93,9 +93,8 @@ private:
     std::uint64_t revision_ = 0;
     std::uint64_t frames_ = 0;
     std::deque<float> frame_times_ms_;
-    /// When the look changed of which no frame is in flight yet, and of the frame in flight or to be shown.
-    std::optional<Clock::time_point> changed_at_, shows_change_of_;
-    bool response_is_there_ = false;
+    /// When the look changed: of what no frame is in flight yet, of the frame in flight, and of the frame to be shown.
+    std::optional<Clock::time_point> changed_at_, shows_change_of_, response_to_;
     std::deque<float> response_times_ms_;
     std::optional<InspectedRay> ray_;
     int turns_to_draw_ = 3;  ///< Dear ImGui shows some things a frame late
