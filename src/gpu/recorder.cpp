@@ -127,8 +127,7 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
     }
 }
 
-void Recorder::bind(const Program& program, Bindings bindings, std::span<const std::byte> push,
-                    std::vector<Use>& uses) {
+void Recorder::bind(const Program& program, Bindings bindings, std::span<const std::byte> push) {
     const bool graphics = program.bind_point() == vk::PipelineBindPoint::eGraphics;
     const std::size_t push_offset = graphics ? sizeof(DrawCall::object) : 0;  // which each draw sets by itself
     if (push_offset + push.size() != program.push_size()) {
@@ -136,12 +135,14 @@ void Recorder::bind(const Program& program, Bindings bindings, std::span<const s
                                            program.push_size(), push_offset + push.size()));
     }
     const std::size_t count = program.slots().size();
-    std::vector<vk::WriteDescriptorSet> set_writes;
-    std::vector<vk::DescriptorBufferInfo> buffers(count);
-    std::vector<vk::DescriptorImageInfo> images(count);
-    std::vector<vk::BufferView> texels(count);
-    std::vector<vk::AccelerationStructureKHR> structures(count);
-    std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structure_writes(count);
+    auto& [set_writes, buffers, images, texels, structures, structure_writes] = descriptors_;
+    set_writes.clear();
+    buffers.resize(count);
+    images.resize(count);
+    texels.resize(count);
+    structures.resize(count);
+    structure_writes.resize(count);
+    uses_.clear();
     const vk::DescriptorSet set = allocate_set(program);
     for (const BindingSlot& slot : program.slots()) {
         const Binding& binding = binding_of(program, slot, bindings);
@@ -149,7 +150,7 @@ void Recorder::bind(const Program& program, Bindings bindings, std::span<const s
         vk::WriteDescriptorSet& write = set_writes.emplace_back(vk::WriteDescriptorSet{
             .dstSet = set, .dstBinding = slot.binding, .descriptorCount = 1, .descriptorType = slot.type});
         const auto add_use = [&](const auto& resource) {
-            uses.push_back(use_of(resource, stages_of(slot), access_of(slot), slot.writable));
+            uses_.push_back(use_of(resource, stages_of(slot), access_of(slot), slot.writable));
         };
         if (slot.type == vk::DescriptorType::eUniformTexelBuffer) {
             texels[i] = binding.buffer->texel_view();
@@ -185,9 +186,8 @@ void Recorder::bind(const Program& program, Bindings bindings, std::span<const s
 
 void Recorder::compute_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                              vk::Extent2D threads) {
-    std::vector<Use> uses;
-    bind(program, bindings, push, uses);
-    synchronise(uses);
+    bind(program, bindings, push);
+    synchronise(uses_);
     const vk::Extent2D group = program.workgroup();
     commands_.dispatch((threads.width + group.width - 1) / group.width,
                        (threads.height + group.height - 1) / group.height, 1, dispatch());
@@ -195,17 +195,15 @@ void Recorder::compute_bytes(const Program& program, Bindings bindings, std::spa
 
 void Recorder::compute_indirect_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                                       const Buffer& arguments) {
-    std::vector<Use> uses;
-    bind(program, bindings, push, uses);
-    uses.push_back(use_of(arguments, Stage::eDrawIndirect, AccessBit::eIndirectCommandRead, false));
-    synchronise(uses);
+    bind(program, bindings, push);
+    uses_.push_back(use_of(arguments, Stage::eDrawIndirect, AccessBit::eIndirectCommandRead, false));
+    synchronise(uses_);
     commands_.dispatchIndirect(arguments.handle(), 0, dispatch());
 }
 
 void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<const std::byte> push,
                           const RenderTarget& target, std::span<const DrawCall> calls) {
-    std::vector<Use> uses;
-    bind(program, bindings, push, uses);
+    bind(program, bindings, push);
     const auto attachment = [](const RenderTarget::Attachment& a) {
         return vk::RenderingAttachmentInfo{
             .imageView = a.image->layer_view(a.layer),
@@ -217,16 +215,16 @@ void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<c
     std::vector<vk::RenderingAttachmentInfo> colors;
     for (const auto& a : target.colors) {
         colors.push_back(attachment(a));
-        uses.push_back(use_of(*a.image, Stage::eColorAttachmentOutput,
-                              AccessBit::eColorAttachmentRead | AccessBit::eColorAttachmentWrite, true));
+        uses_.push_back(use_of(*a.image, Stage::eColorAttachmentOutput,
+                               AccessBit::eColorAttachmentRead | AccessBit::eColorAttachmentWrite, true));
     }
     vk::RenderingAttachmentInfo depth;
     if (target.depth) {
         depth = attachment(*target.depth);
-        uses.push_back(use_of(*target.depth->image, Stage::eEarlyFragmentTests | Stage::eLateFragmentTests,
-                              AccessBit::eDepthStencilAttachmentRead | AccessBit::eDepthStencilAttachmentWrite, true));
+        uses_.push_back(use_of(*target.depth->image, Stage::eEarlyFragmentTests | Stage::eLateFragmentTests,
+                               AccessBit::eDepthStencilAttachmentRead | AccessBit::eDepthStencilAttachmentWrite, true));
     }
-    synchronise(uses);
+    synchronise(uses_);
 
     const vk::Rect2D everything{{0, 0}, target.extent};
     commands_.beginRendering({.renderArea = everything,

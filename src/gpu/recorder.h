@@ -205,7 +205,8 @@ private:
     void synchronise(Use use) { synchronise(std::span(&use, 1)); }
     void write_bytes(const PendingUpload& to, std::span<const std::byte> data);
     std::byte* stage(vk::DeviceSize bytes, const Buffer*& buffer, vk::DeviceSize& offset);
-    void bind(const Program& program, Bindings bindings, std::span<const std::byte> push, std::vector<Use>& uses);
+    /// `uses_` are then those of the bindings.
+    void bind(const Program& program, Bindings bindings, std::span<const std::byte> push);
     vk::DescriptorSet allocate_set(const Program& program);
     void write_timestamp(vk::PipelineStageFlagBits2 stage);
     std::vector<PassTime> read_times() const;
@@ -227,6 +228,16 @@ private:
     bool in_scope_ = false;
     std::uint32_t timestamps_ = 0;
     std::map<ResourceId, State> states_;
+    // Of the pass that is being recorded; kept for their memory.
+    std::vector<Use> uses_;
+    struct Descriptors {
+        std::vector<vk::WriteDescriptorSet> writes;
+        std::vector<vk::DescriptorBufferInfo> buffers;
+        std::vector<vk::DescriptorImageInfo> images;
+        std::vector<vk::BufferView> texels;
+        std::vector<vk::AccelerationStructureKHR> structures;
+        std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structure_writes;
+    } descriptors_;
     std::vector<std::function<void()>> when_done_;
     std::vector<Buffer> read_buffers_;  // of kReadBufferSize, on the host
     vk::DeviceSize read_end_ = 0;       // in all of them

@@ -1,22 +1,27 @@
 #include "gpu/workspace.h"
 
-#include <fmt/format.h>
-
 #include <span>
 #include <utility>
 
 namespace pellucid {
 
 const Program& Workspace::compute(ShaderCode shader, std::span<const Constant> constants) {
-    std::string key(shader.name);
-    for (const auto& [name, value] : constants) key += fmt::format(" {} {}", name, value);
-    return program(std::move(key), [&] { return Program::compute(device_, shader, constants); });
+    key_ = shader.name;
+    for (const auto& [name, value] : constants) {
+        key_ += name;
+        key_.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    }
+    return program([&] { return Program::compute(device_, shader, constants); });
 }
 
 const Program& Workspace::graphics(const Program::Graphics& state) {
-    std::string key = fmt::format("{} {} {} {}", state.vertex.name, state.fragment.name, state.depth, int(state.blend));
-    for (const vk::Format format : state.colors) key += ' ' + vk::to_string(format);
-    return program(std::move(key), [&] { return Program::graphics(device_, state); });
+    key_ = state.vertex.name;
+    key_ += state.fragment.name;
+    const auto append = [&](std::uint32_t word) { key_.append(reinterpret_cast<const char*>(&word), sizeof(word)); };
+    append(state.depth ? 1 : 0);
+    append(std::uint32_t(state.blend));
+    for (const vk::Format format : state.colors) append(std::uint32_t(format));
+    return program([&] { return Program::graphics(device_, state); });
 }
 
 const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::Extent2D extent, std::uint32_t layers) {
@@ -33,8 +38,7 @@ const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::E
     const vk::ImageUsageFlags usage =
         format == vk::Format::eD32Sfloat
             ? vk::ImageUsageFlags(Usage::eDepthStencilAttachment)
-            : Usage::eStorage | Usage::eSampled | Usage::eColorAttachment | Usage::eTransferSrc |
-                  Usage::eTransferDst;
+            : Usage::eStorage | Usage::eSampled | Usage::eColorAttachment | Usage::eTransferSrc | Usage::eTransferDst;
     return images_
         .emplace(std::string(name),
                  Entry<GpuImage>{GpuImage(device_, std::string(name), format, extent, layers, usage)})

@@ -51,15 +51,16 @@ private:
         bool used = true;
     };
 
-    /// The program of a key that says all that it depends on.
+    /// The program of key_.
     template <class Make>
-    const Program& program(std::string key, const Make& make) {
-        const auto found = programs_.find(key);
-        return found != programs_.end() ? found->second : programs_.emplace(std::move(key), make()).first->second;
+    const Program& program(const Make& make) {
+        const auto found = programs_.find(key_);
+        return found != programs_.end() ? found->second : programs_.emplace(key_, make()).first->second;
     }
 
     const Device& device_;
     std::map<std::string, Program, std::less<>> programs_;
+    std::string key_;  ///< of a program: all that it depends on
     std::map<std::string, Entry<GpuImage>, std::less<>> images_;
     std::map<std::string, Entry<Buffer>, std::less<>> buffers_;
     std::optional<HierarchyEntry> hierarchy_;

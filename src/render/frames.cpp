@@ -102,16 +102,27 @@ struct Frames::Impl {
     Ticket last = 0;
     // The picture that is being drawn.
     RenderSettings settings;
-    std::uint64_t changes = 0;        ///< Renderer::Impl::changes that it is of
-    std::uint64_t prepared = 0;       ///< likewise, of the last frame
-    std::uint64_t picture = 0;        ///< its number
-    std::uint32_t drawn = 0;          ///< its samples so far
+    std::uint64_t changes = 0;  ///< Renderer::Impl::changes that it is of
+    std::uint64_t seen = 0;     ///< likewise, of the last frame
+    std::uint64_t picture = 0;  ///< its number
+    std::uint32_t drawn = 0;    ///< its samples so far
+    /// What the frames of some settings need, and what was found when it was prepared.
+    struct Prepared {
+        RenderSettings settings;
+        std::uint64_t changes;  ///< of all but the camera
+        bool recorded;
+        FrameSettings chosen;
+        LightTransport light;
+        std::vector<std::string> warnings;
+    };
+    std::optional<Prepared> prepared;
     const GpuImage* shown = nullptr;  ///< radiance of the last frame: the sum of the samples
 
     Slot& free_slot();
     void import(Slot& slot, const Background* background);
     void draw(Slot& slot, const RenderSettings& wanted, const Target& target, const Background* background,
               bool recorded);
+    void prepare(bool recorded);
     const GpuImage& draw_sample(Slot& slot, bool recorded);
     void forget(Slot& slot);
     Ticket begin(Slot& slot);
@@ -124,15 +135,33 @@ Frames::Impl::Slot& Frames::Impl::free_slot() {
     return **free;
 }
 
+/// Lets the technique compute what it wants of the scene. Where nothing but the camera has changed since the last frame, that
+/// is hardly anything.
+void Frames::Impl::prepare(bool recorded) {
+    const Camera camera = of.camera_for(settings);
+    const std::uint64_t scene_changes = of.changes - of.camera_changes;
+    const bool same = prepared && scene_changes == prepared->changes && recorded == prepared->recorded &&
+                      same_picture(settings, prepared->settings);
+    if (same) {
+        if (of.scene->topology) of.scene->topology->look_from(of.device, of.cpu.scene(), camera);
+        return;
+    }
+    prepared.reset();
+    std::vector<std::string> warnings;
+    const FrameSettings chosen = of.frame_settings(settings, warnings, recorded);
+    const LightOptions light = of.chosen_light(settings);
+    of.prepare(chosen, of.frame_light(light), camera, {}, warnings, recorded);
+    of.light_solids(settings.thickness, of.all_lights(), {}, warnings);
+    prepared.emplace(Prepared{settings, scene_changes, recorded, chosen, light.transport, std::move(warnings)});
+}
+
 /// Draws the next sample of the picture. Returns the radiance of all so far, a sum.
 const GpuImage& Frames::Impl::draw_sample(Slot& slot, bool recorded) {
     Recorder& recorder = slot.recorder;
-    std::vector<std::string>& warnings = slot.warnings;
-    FrameSettings chosen = of.frame_settings(settings, warnings, recorded);
-    const LightOptions light = of.chosen_light(settings);
-    slot.light = light.transport;
-    of.prepare(chosen, of.frame_light(light), of.camera_for(settings), {}, warnings, recorded);
-    of.light_solids(settings.thickness, of.all_lights(), {}, warnings);
+    prepare(recorded);
+    const FrameSettings& chosen = prepared->chosen;
+    slot.light = prepared->light;
+    slot.warnings = prepared->warnings;
     Frame& frame = slot.frame.emplace(of.lit_frame(recorder, settings));
     frame.recorded = recorded;
     of.workspace.trim();
@@ -153,7 +182,7 @@ const GpuImage& Frames::Impl::draw_sample(Slot& slot, bool recorded) {
     if (chosen.truth) traced.emplace(of.traced_view(settings, sample, {}));
     const FrameImages images = record_frame(recorder, frame, chosen, of.layer_source, of.solid_lighting.transmitted(),
                                             traced ? &*traced : nullptr);
-    if (chosen.technique && chosen.technique->report) chosen.technique->report(*of.scene, warnings);
+    if (chosen.technique && chosen.technique->report) chosen.technique->report(*of.scene, slot.warnings);
     return settings.samples > 1 ? accumulate(recorder, frame, images.radiance, drawn) : images.radiance;
 }
 
@@ -187,11 +216,11 @@ void Frames::Impl::draw(Slot& slot, const RenderSettings& wanted, const Target& 
     slot.picture = picture;
     slot.warnings.clear();
     slot.draws = shown == nullptr || drawn < settings.samples;
-    if (prepared != of.changes) {
+    if (seen != of.changes) {
         // What the host looks at, and the device reads from the host, is about to change.
         for (Slot* running : unread)
             if (running->submitted && running->run.parts.size() > 1) queue.wait(running->run);
-        prepared = of.changes;
+        seen = of.changes;
     }
     if (slot.draws) {
         import(slot, background);
@@ -219,6 +248,7 @@ void Frames::Impl::forget(Slot& slot) {
     slot.recorder.restart();
     slot.frame.reset();
     of.background_radiance = of.background_depth = nullptr;
+    prepared.reset();
     shown = nullptr;
     drawn = 0;
     ++picture;

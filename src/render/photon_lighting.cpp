@@ -111,8 +111,9 @@ float scene_brightness(const Scene& scene, const Bounds& bounds, const gpu::Fram
 
 PhotonSetup photon_setup(const Scene& scene, const Bounds& bounds, const PhotonSources& sources, std::uint32_t count) {
     PhotonSetup setup;
+    if (count == 0 || !(sources.lights || sources.emitters || sources.environment != nullptr)) return setup;
     const std::vector<glm::vec3> targets = corners_of(scene, bends_light);
-    if (count == 0 || targets.empty()) return setup;
+    if (targets.empty()) return setup;
     if (sources.lights) setup.lights = scene.lights;
     setup.emitters = sources.emitters;
     setup.emitters_in_solids = sources.emitters && emits_in_solids(scene);

@@ -323,6 +323,7 @@ void Renderer::set_camera(const Camera& camera) {
     check_camera(camera);
     impl_->camera = camera;
     ++impl_->changes;
+    ++impl_->camera_changes;
 }
 
 RenderResult Renderer::render(const RenderSettings& settings) {
