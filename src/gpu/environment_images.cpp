@@ -47,13 +47,12 @@ GpuImage upload_environment(const Device& device, const Environment& environment
     return result;
 }
 
-GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Environment& environment,
-                            const GpuImage& map) {
-    const Device& device = workspace.device();
-    const GpuImage pyramid =
-        sampled_image(device, "the environment's pyramid", {kPyramidSize + kPyramidSize / 2, kPyramidSize});
-    GpuImage filtered = sampled_image(device, "the filtered environment", {PELLUCID_FILTER_WIDTH, kFilterSize});
+FilteredEnvironment::FilteredEnvironment(const Device& device)
+    : pyramid(sampled_image(device, "the environment's pyramid", {kPyramidSize + kPyramidSize / 2, kPyramidSize})),
+      filtered(sampled_image(device, "the filtered environment", {PELLUCID_FILTER_WIDTH, kFilterSize})) {}
 
+void FilteredEnvironment::filter(Workspace& workspace, Recorder& recorder, const Environment& environment,
+                                 const GpuImage& map) const {
     struct Push {
         glm::vec4 uniform_radiance;
         float cosine, sine, intensity;
@@ -75,7 +74,6 @@ GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Envi
     recorder.compute(workspace.compute(shaders::tabulate_irradiance_comp),
                      {reads_layer("pyramid", pyramid, 0), writes("filtered_environment", filtered)},
                      {PELLUCID_FACET_TABLE_SIZE, PELLUCID_FACET_TABLE_SIZE});
-    return filtered;
 }
 
 GpuImage no_filtered_environment(const Device& device) {

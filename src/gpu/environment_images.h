@@ -14,10 +14,14 @@ void set_environment(gpu::FrameConstants& constants, const Environment& environm
 /// The environment's map, or one black texel if it is a formula; bound as "environment_map".
 GpuImage upload_environment(const Device& device, const Environment& environment);
 
-/// The environment as rough surfaces reflect it, for gpu/filtered_environment.glsl. `map` is what
-/// upload_environment() made of it. Records; what it returns holds that once the recording has run.
-GpuImage filter_environment(Workspace& workspace, Recorder& recorder, const Environment& environment,
-                            const GpuImage& map);
+/// The environment as rough surfaces reflect it, for gpu/filtered_environment.glsl.
+struct FilteredEnvironment {
+    explicit FilteredEnvironment(const Device& device);
+    /// Records; the images hold it once the recording has run. `map` is what upload_environment() made of it.
+    void filter(Workspace& workspace, Recorder& recorder, const Environment& environment, const GpuImage& map) const;
+
+    GpuImage pyramid, filtered;
+};
 
 /// What stands in for it where nothing is rough; undefined.
 GpuImage no_filtered_environment(const Device& device);

@@ -252,7 +252,7 @@ void Frames::Impl::forget(Slot& slot) {
     shown = nullptr;
     drawn = 0;
     ++picture;
-    of.filtered_environment.reset();
+    of.filtered_is_current = false;
     of.irradiance.forget();
 }
 

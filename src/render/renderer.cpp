@@ -46,9 +46,12 @@ std::uint32_t photons_of(const FrameSettings& chosen, LightTransport transport) 
 }  // namespace
 
 const GpuImage& Renderer::Impl::filtered_environment_for_scene(Recorder& of) {
-    if (filtered_environment) return *filtered_environment;
-    if (scene->rough)
-        return filtered_environment.emplace(filter_environment(workspace, of, environment, *environment_map));
+    if (scene->rough) {
+        if (!filtered_environment) filtered_environment.emplace(device);
+        if (!std::exchange(filtered_is_current, true))
+            filtered_environment->filter(workspace, of, environment, *environment_map);
+        return filtered_environment->filtered;
+    }
     if (!no_filtered_environment) no_filtered_environment.emplace(pellucid::no_filtered_environment(device));
     return *no_filtered_environment;
 }
@@ -296,7 +299,7 @@ void Renderer::set_lights(const std::vector<Light>& lights) {
 
 void Renderer::set_environment(const Environment& environment) {
     check_environment(environment);
-    impl_->filtered_environment.reset();
+    impl_->filtered_is_current = false;
     impl_->photons.begin({});
     impl_->environment_shares.reset();
     impl_->environment_map = upload_environment(impl_->device, environment);
@@ -310,7 +313,7 @@ void Renderer::turn_environment(float rotation, float intensity) {
     turned.rotation = rotation;
     turned.intensity = intensity;
     check_environment(turned);
-    impl_->filtered_environment.reset();
+    impl_->filtered_is_current = false;
     impl_->photons.begin({});
     impl_->environment_shares.reset();
     impl_->environment.rotation = rotation;
@@ -336,9 +339,10 @@ RenderResult Renderer::render(const RenderSettings& settings) {
                  result.warnings);
     result.light = impl.chosen_light(settings).transport;
     impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
-    const bool filtered = impl.filtered_environment.has_value();
+    const bool filtered = impl.filtered_is_current;
     Frame frame = impl.lit_frame(impl.recorder, settings);
-    if (!filtered) impl.recorder.submit_and_wait();  // apart from frames, which may be forgotten
+    if (filtered != impl.filtered_is_current)
+        impl.recorder.submit_and_wait();  // apart from frames, which may be forgotten
     impl.workspace.trim();
     if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {
@@ -361,7 +365,7 @@ RenderResult Renderer::render(const RenderSettings& settings) {
         }
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
-        impl.filtered_environment.reset();
+        impl.filtered_is_current = false;
         impl.layer_source = LayerSource();
         impl.solid_lighting.forget();
         impl.photons.forget();
@@ -386,9 +390,9 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
     }
     ThicknessResult result;
     impl.light_solids(request.settings, {request.light}, request.progress, result.warnings);
-    const bool filtered = impl.filtered_environment.has_value();
+    const bool filtered = impl.filtered_is_current;
     Frame frame = impl.frame_of(impl.recorder, settings);
-    if (!filtered) impl.recorder.submit_and_wait();
+    if (filtered != impl.filtered_is_current) impl.recorder.submit_and_wait();
     Impl::begin_frame(impl.recorder, frame, impl.constants_of(frame, settings, std::nullopt));
     TransmittedLight& transmitted = impl.solid_lighting.transmitted();
     try {
@@ -414,7 +418,7 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
         std::memcpy(result.thickness.pixels.data(), texels.data(), texels.size());
     } catch (...) {
         impl.recorder.restart();  // what was recorded may name resources that are gone
-        impl.filtered_environment.reset();
+        impl.filtered_is_current = false;
         impl.solid_lighting.forget();
         impl.photons.forget();
         impl.irradiance.forget();

@@ -46,7 +46,8 @@ struct Renderer::Impl {
     std::optional<GpuScene> scene;
     Environment environment;
     std::optional<GpuImage> environment_map;
-    std::optional<GpuImage> filtered_environment;                        // of `environment`; made once a scene needs it
+    std::optional<FilteredEnvironment> filtered_environment;             // made once a scene needs it
+    bool filtered_is_current = false;                                    // it is of `environment`
     std::optional<GpuImage> no_filtered_environment;                     // for scenes that do not
     std::optional<std::optional<EnvironmentShares>> environment_shares;  // once photons need them; none: it is black
     std::optional<Buffer> constants;

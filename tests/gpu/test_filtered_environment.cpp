@@ -50,7 +50,8 @@ class FilteredEnvironment : public DeviceTest {
 protected:
     void set(const Environment& environment) {
         map_ = upload_environment(device(), environment);
-        filtered_ = filter_environment(workspace(), recorder(), environment, map_);
+        filtered_.emplace(device());
+        filtered_->filter(workspace(), recorder(), environment, map_);
         recorder().submit_and_wait();
         constants_ = {};
         set_environment(constants_, environment);
@@ -65,7 +66,7 @@ protected:
         std::memcpy(lookups.mapped(), data.data(), lookups.size());
         recorder().compute(workspace().compute(shaders::filtered_radiance_comp),
                            {reads("Frame", frame), reads("Lookups", lookups), writes("Answers", answers),
-                            reads_layer("environment_map", map_, 0), reads_layer("filtered_environment", filtered_, 0)},
+                            reads_layer("environment_map", map_, 0), reads_layer("filtered_environment", filtered_->filtered, 0)},
                            {std::uint32_t(directions.size()), 1});
         recorder().submit_and_wait();
         std::vector<glm::vec3> seen;
@@ -74,7 +75,8 @@ protected:
     }
 
 private:
-    GpuImage map_, filtered_;
+    GpuImage map_;
+    std::optional<pellucid::FilteredEnvironment> filtered_;
     gpu::FrameConstants constants_{};
 };
 
