@@ -3,9 +3,11 @@
 // Pellucid on a Vulkan device of the caller's. The only public header with Vulkan's types.
 #include <pellucid/api.h>
 #include <pellucid/device.h>
+#include <pellucid/refracted_path.h>
 
 #include <vulkan/vulkan_core.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -99,12 +101,16 @@ using Ticket = std::uint64_t;
 
 /// What is known of a frame once it has run.
 struct FrameReport {
-    /// Of the picture, with this frame's. RenderSettings::samples: the picture is finished. 0: something overflowed.
+    /// Of the picture, with this frame's. RenderSettings::samples: the picture is finished. 0: something overflowed, or what a
+    /// truth was tracing has changed meanwhile.
     std::uint32_t samples = 0;
     /// What had no room in this frame, which therefore shows less than there is: one line each. The next frame has room.
     std::vector<std::string> overflows;
-    std::vector<PassTime> passes;       ///< empty where the device has no timestamps
-    LightTransport light{};             ///< that the frame has followed
+    std::vector<PassTime> passes;  ///< empty where the device has no timestamps
+    LightTransport light{};        ///< that the frame has followed
+    std::uint64_t covered = 0;     ///< pixels whose first surface is refracting glass; 0 where a truth traces the image
+    std::array<std::uint64_t, kStatusCount> status{};  ///< covered pixels by Status
+    std::uint64_t side_conflicts = 0;                  ///< as RenderResult::side_conflicts
     std::vector<std::string> warnings;  ///< what of the scene is drawn otherwise than it is; one line each
 };
 
@@ -120,7 +126,8 @@ struct Made {
 /// wait, and hold for the frames after them.
 ///
 /// RenderSettings::samples frames of equal settings, of a scene that does not change, make a picture together: each adds a
-/// sample, and what its target gets is their mean, in the end that of Renderer::render(), bit for bit. Frames after that
+/// sample, and what its target gets is their mean, in the end that of Renderer::render(), bit for bit (of technique `path`: to
+/// rounding). Frames after that
 /// show it again. With `samples` 1 every frame is a picture. AOVs, `error`, `paths` and the tone map kKrawczyk are of
 /// stills: frames refuse them.
 class PELLUCID_API Frames {

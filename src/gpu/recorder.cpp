@@ -286,6 +286,17 @@ void Recorder::copy(const Buffer& source, const Buffer& destination, vk::DeviceS
     commands_.copyBuffer(source.handle(), destination.handle(), vk::BufferCopy{.size = bytes}, dispatch());
 }
 
+void Recorder::copy(const Buffer& source, vk::DeviceSize offset, const GpuImage& destination) {
+    std::array uses{use_of(source, Stage::eCopy, AccessBit::eTransferRead, false),
+                    use_of(destination, Stage::eCopy, AccessBit::eTransferWrite, true)};
+    synchronise(uses);
+    const vk::BufferImageCopy region{
+        .bufferOffset = offset,
+        .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1},
+        .imageExtent = {destination.extent().width, destination.extent().height, 1}};
+    commands_.copyBufferToImage(source.handle(), destination.handle(), vk::ImageLayout::eGeneral, region, dispatch());
+}
+
 void Recorder::copy_from(vk::Image source, vk::ImageLayout layout, const GpuImage& destination) {
     synchronise(use_of(destination, Stage::eAllTransfer, AccessBit::eTransferWrite, true));
     const vk::ImageSubresourceLayers layer{.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};

@@ -103,6 +103,8 @@ public:
     void fill(const Buffer& buffer, std::uint32_t word) { fill(buffer, 0, VK_WHOLE_SIZE, word); }
     void fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize bytes, std::uint32_t word);
     void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes);
+    /// From byte `offset` of `source` on, row by row, without gaps.
+    void copy(const Buffer& source, vk::DeviceSize offset, const GpuImage& destination);
     /// Calls `then` with the T at byte `offset` of `source`, once what is being recorded has run.
     template <class T, class Then>
     void read(const Buffer& source, vk::DeviceSize offset, Then then) {

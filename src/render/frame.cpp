@@ -13,7 +13,7 @@ FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSett
     if (settings.technique && !settings.technique->info.whole_scene && frame.light.any() && !frame.scene.opaque.empty())
         light_surfaces(recorder, frame, layers);
     const Refraction refraction = settings.truth
-                                      ? upload_exact_paths(frame, *traced, settings.parameters)
+                                      ? trace_exact_paths(recorder, frame, *traced, settings.parameters)
                                       : settings.technique->record(recorder, frame, layers, settings.parameters);
     const ThinWalls walls = draw_thin_walls(recorder, frame, opaque, layers);
     const GpuImage& radiance = shade(recorder, frame, opaque, layers, walls, refraction, settings.view);

@@ -10,12 +10,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <deque>
 
 namespace pellucid::vulkan {
 namespace {
 
 constexpr std::uint32_t kMostInFlight = 8;
+
+/// Thrown in what the host traces for a frame that nobody wants any more.
+struct TracingStopped {};
 
 /// Whether frames of `a` and `b` are samples of one picture.
 bool same_picture(const RenderSettings& a, const RenderSettings& b) {
@@ -91,8 +95,11 @@ struct Frames::Impl {
         std::uint64_t picture = 0;
         std::uint32_t samples = 0;
         bool draws = false;
+        bool traces = false;               ///< the host traces a truth in it
+        std::atomic<bool> stopped{false};  ///< before it had
         LightTransport light = LightTransport::kEnvironment;
         std::vector<std::string> warnings;
+        EventCounts counts{};
     };
 
     Renderer::Impl& of;
@@ -124,6 +131,8 @@ struct Frames::Impl {
               bool recorded);
     void prepare(bool recorded);
     const GpuImage& draw_sample(Slot& slot, bool recorded);
+    TracedView traced_view(Slot& slot, std::optional<std::uint32_t> sample);
+    void stop_tracing();
     void forget(Slot& slot);
     Ticket begin(Slot& slot);
     FrameReport finish(Slot& slot);
@@ -178,12 +187,39 @@ const GpuImage& Frames::Impl::draw_sample(Slot& slot, bool recorded) {
         of.irradiance.gather(recorder, frame, drawn == 0);
         of.irradiance.store(recorder);
     }
+    slot.traces = chosen.truth != nullptr;
     std::optional<TracedView> traced;
-    if (chosen.truth) traced.emplace(of.traced_view(settings, sample, {}));
-    const FrameImages images = record_frame(recorder, frame, chosen, of.layer_source, of.solid_lighting.transmitted(),
-                                            traced ? &*traced : nullptr);
+    if (slot.traces) traced.emplace(traced_view(slot, sample));
+    slot.counts = {};
+    const GpuImage* radiance = nullptr;
+    if (draws_picture(chosen)) {
+        const FrameImages images = record_frame(recorder, frame, chosen, of.layer_source,
+                                                of.solid_lighting.transmitted(), traced ? &*traced : nullptr);
+        count_events(recorder, frame, images.refraction, [&slot](const EventCounts& counts) { slot.counts = counts; });
+        radiance = &images.radiance;
+    } else {
+        radiance = &trace_sample(recorder, frame, *chosen.truth, *traced, of.environment,
+                                 settings.first_sample + sample.value_or(0), chosen.parameters);
+    }
     if (chosen.technique && chosen.technique->report) chosen.technique->report(*of.scene, slot.warnings);
-    return settings.samples > 1 ? accumulate(recorder, frame, images.radiance, drawn) : images.radiance;
+    return settings.samples > 1 ? accumulate(recorder, frame, *radiance, drawn) : *radiance;
+}
+
+TracedView Frames::Impl::traced_view(Slot& slot, std::optional<std::uint32_t> sample) {
+    slot.stopped = false;
+    const Progress progress = [&slot](double) {
+        if (slot.stopped) throw TracingStopped();
+    };
+    return of.traced_view(settings, sample, progress);
+}
+
+/// What the host is tracing is about to change.
+void Frames::Impl::stop_tracing() {
+    for (Slot* slot : unread) {
+        if (!slot->submitted || !slot->traces) continue;
+        slot->stopped = true;
+        queue.wait(slot->run);
+    }
 }
 
 /// Takes over what the caller has drawn.
@@ -269,12 +305,19 @@ FrameReport Frames::Impl::finish(Slot& slot) {
     slot.ticket = 0;
     if (slot.submitted && slot.run.failure) {
         forget(slot);
-        std::rethrow_exception(slot.run.failure);
+        try {
+            std::rethrow_exception(slot.run.failure);
+        } catch (const TracingStopped&) {
+            return {.light = slot.light};
+        }
     }
     FrameReport report;
     report.passes = slot.recorder.finish();
     report.light = slot.light;
     report.warnings = std::move(slot.warnings);
+    for (std::size_t i = 0; slot.draws && i < report.status.size(); ++i)
+        report.covered += report.status[i] = slot.counts.statuses[i];
+    report.side_conflicts = slot.draws ? slot.counts.side_conflicts : 0;
     if (slot.draws) {
         const Frame& frame = *slot.frame;
         const auto note = [&](bool outgrown, const std::vector<std::string>& what) {
@@ -301,15 +344,18 @@ Frames::Frames(Renderer& renderer, std::uint32_t in_flight) {
     if (renderer.impl_->has_frames) throw Error("the renderer has frames already (vulkan::Frames)");
     impl_ = std::make_unique<Impl>(renderer, in_flight);
     renderer.impl_->has_frames = true;
+    renderer.impl_->before_change = [impl = impl_.get()] { impl->stop_tracing(); };
 }
 
 Frames::~Frames() {
+    impl_->stop_tracing();
     for (Impl::Slot* slot : impl_->unread) {
         if (slot->submitted) impl_->queue.wait(slot->run);
         slot->recorder.restart();
         --impl_->of.unread_frames;
     }
     impl_->of.has_frames = false;
+    impl_->of.before_change = nullptr;
 }
 
 std::string Frames::unrecordable(const RenderSettings& settings) const {

@@ -258,28 +258,28 @@ void Renderer::set_scene(const Scene& scene) {
 }
 
 void Renderer::set_positions(const std::vector<MovedMesh>& moved) {
+    impl_->begin_change();
     impl_->cpu.set_positions(moved);  // checks them, and changes nothing if they are wrong
     std::vector<int> meshes;
     for (const MovedMesh& each : moved) meshes.push_back(each.mesh);
     impl_->scene->move_vertices(impl_->device, impl_->cpu.scene(), meshes);
-    ++impl_->changes;
 }
 
 void Renderer::set_transforms(const std::vector<PosedObject>& moved) {
+    impl_->begin_change();
     impl_->cpu.set_transforms(moved);
     std::vector<int> objects;
     for (const PosedObject& each : moved) objects.push_back(each.object);
     impl_->scene->move_objects(impl_->device, impl_->cpu.scene(), objects);
-    ++impl_->changes;
 }
 
 void Renderer::set_material(int index, const Material& material) {
+    impl_->begin_change();
     const auto number = std::size_t(index);
     const auto& materials = impl_->cpu.scene().materials;
     const bool was_refractive = number < materials.size() && materials[number].refractive();
     impl_->cpu.set_material(index, material);
     impl_->scene->set_material(impl_->device, impl_->cpu.scene(), number, was_refractive);
-    ++impl_->changes;
 }
 
 void Renderer::set_light(int index, const Light& light) {
@@ -291,13 +291,14 @@ void Renderer::set_light(int index, const Light& light) {
 }
 
 void Renderer::set_lights(const std::vector<Light>& lights) {
+    impl_->begin_change();
     check_lights(lights);
     impl_->cpu.set_lights(lights);
     impl_->scene->set_lights(impl_->device, lights);
-    ++impl_->changes;
 }
 
 void Renderer::set_environment(const Environment& environment) {
+    impl_->begin_change();
     check_environment(environment);
     impl_->filtered_is_current = false;
     impl_->photons.begin({});
@@ -305,10 +306,10 @@ void Renderer::set_environment(const Environment& environment) {
     impl_->environment_map = upload_environment(impl_->device, environment);
     impl_->environment = environment;
     pellucid::set_environment(impl_->environment_constants, environment);
-    ++impl_->changes;
 }
 
 void Renderer::turn_environment(float rotation, float intensity) {
+    impl_->begin_change();
     Environment turned;
     turned.rotation = rotation;
     turned.intensity = intensity;
@@ -319,13 +320,12 @@ void Renderer::turn_environment(float rotation, float intensity) {
     impl_->environment.rotation = rotation;
     impl_->environment.intensity = intensity;
     pellucid::set_environment(impl_->environment_constants, impl_->environment);
-    ++impl_->changes;
 }
 
 void Renderer::set_camera(const Camera& camera) {
+    impl_->begin_change();
     check_camera(camera);
     impl_->camera = camera;
-    ++impl_->changes;
     ++impl_->camera_changes;
 }
 

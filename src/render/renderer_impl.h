@@ -56,10 +56,16 @@ struct Renderer::Impl {
     gpu::FrameConstants environment_constants{};
     const GpuImage* background_radiance = nullptr;  // Frame::background_radiance of the frame to come
     const GpuImage* background_depth = nullptr;
-    std::uint64_t camera_changes = 0;  ///< how many of `changes` are the camera's
-    std::uint64_t changes = 0;         ///< how often what was set has changed
-    bool has_frames = false;           ///< a vulkan::Frames exists
-    std::uint32_t unread_frames = 0;   ///< of vulkan::Frames
+    std::uint64_t camera_changes = 0;     ///< how many of `changes` are the camera's
+    std::uint64_t changes = 0;            ///< how often what was set has changed
+    std::function<void()> before_change;  ///< of what the host may be tracing; of vulkan::Frames
+    /// Before a function of the caller's changes what frames look at.
+    void begin_change() {
+        if (before_change) before_change();
+        ++changes;
+    }
+    bool has_frames = false;          ///< a vulkan::Frames exists
+    std::uint32_t unread_frames = 0;  ///< of vulkan::Frames
 
     struct Drawn {
         std::vector<Tile> tiles;

@@ -2,6 +2,7 @@
 #include "shade/shaders.h"
 
 #include <array>
+#include <utility>
 
 namespace pellucid {
 namespace {
@@ -135,6 +136,15 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
                          frame.extent);
     }
     return radiance;
+}
+
+void count_events(Recorder& recorder, const Frame& frame, const Refraction& refraction,
+                  std::function<void(const EventCounts&)> then) {
+    const Buffer& counts = frame.workspace.buffer("counts of events", sizeof(EventCounts));
+    recorder.fill(counts, 0);
+    recorder.compute(frame.workspace.compute(shaders::count_events_comp),
+                     {reads("path_events", refraction.events), updates("EventCounts", counts)}, frame.extent);
+    recorder.read<EventCounts>(counts, 0, std::move(then));
 }
 
 const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample,

@@ -5,6 +5,8 @@
 
 #include <pellucid/display.h>
 
+#include <functional>
+
 namespace pellucid {
 
 /// Draws opaque objects as glTF's metallic-roughness materials under the environment (gpu/opaque_surface.glsl), as if each
@@ -35,6 +37,15 @@ ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& 
 /// reflection of the environment; opaque surfaces; the environment behind.
 const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers,
                       const ThinWalls& walls, const Refraction& refraction, View view);
+
+/// Pixels with glass, by Status, and those where shading and geometric normal disagreed about the side.
+struct EventCounts {
+    std::uint32_t side_conflicts;
+    std::uint32_t statuses[7];
+};
+/// Counts those of a frame; `then` gets them once it has run.
+void count_events(Recorder& recorder, const Frame& frame, const Refraction& refraction,
+                  std::function<void(const EventCounts&)> then);
 
 /// Adds `radiance` to the sum of the samples before it; `sample` 0 starts a new sum. Where pixels want different numbers
 /// of samples (`wanted`), to the mean of each. Sums of different names are apart.

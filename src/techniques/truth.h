@@ -24,7 +24,7 @@ struct PictureSamples {
 };
 
 /// A row of the registry for what techniques are measured against. It has no passes: the CPU traces its exact paths
-/// (upload_exact_paths()), and frames shade them.
+/// (trace_exact_paths()), and frames shade them.
 struct Truth {
     TechniqueInfo info;
     /// The image that it traces itself, of all light. Null: its image is the frames'.
@@ -43,7 +43,14 @@ inline constexpr ParameterInfo kMaxEvents{.name = "events",
                                           .whole = true,
                                           .doc = "interface events that exact paths may have"};
 
-/// Traces one exact path per pixel of the frame on the CPU, up to kMaxEvents events, and uploads them.
-Refraction upload_exact_paths(const Frame& frame, const TracedView& view, const ParameterValues& parameters);
+/// Has the host trace one exact path per pixel of the frame, up to kMaxEvents events, when the frame gets there. The tracer
+/// lives until then.
+Refraction trace_exact_paths(Recorder& recorder, const Frame& frame, const TracedView& view,
+                             const ParameterValues& parameters);
+
+/// Likewise one sample of the image that `truth` traces itself, of the whole picture. RGBA32F. `environment` lives until
+/// then, too.
+const GpuImage& trace_sample(Recorder& recorder, const Frame& frame, const Truth& truth, const TracedView& view,
+                             const Environment& environment, std::uint32_t sample, const ParameterValues& parameters);
 
 }  // namespace pellucid

@@ -205,8 +205,13 @@ TEST_F(FramesTest, RecordedFramesAreThePicturesOfRender) {
         settings.light.transport = LightTransport::kEnvironment;
         const RenderResult picture = renderer().render(settings);
         Frames frames(renderer());
-        finish(settings, [&] { return record(frames, settings, shown); });
+        const FrameReport report = finish(settings, [&] { return record(frames, settings, shown); });
         EXPECT_EQ(shown.bytes(), bytes_of(picture.display));
+        EXPECT_EQ(report.covered, picture.covered);
+        EXPECT_EQ(report.status, picture.status);
+        EXPECT_EQ(report.side_conflicts, picture.side_conflicts);
+        EXPECT_EQ(report.warnings, picture.warnings);
+        EXPECT_FALSE(report.passes.empty());
     }
 }
 
@@ -224,6 +229,37 @@ TEST_F(FramesTest, SubmittedFramesAreThePicturesOfRender) {
             EXPECT_EQ(shown.bytes(), bytes_of(picture.display));
         }
     }
+}
+
+TEST_F(FramesTest, TruthsAreTracedWhileTheCallerGoesOn) {
+    renderer().set_scene(table_scene());
+    const Screen shown = screen(vk::Format::eR32G32B32A32Sfloat);
+    for (const char* technique : {"reference", "path"}) {
+        SCOPED_TRACE(technique);
+        const RenderSettings settings = settings_of(technique, 64, 4);
+        const RenderResult picture = renderer().render(settings);
+        Frames frames(renderer());
+        finish(settings, [&] { return submit(frames, settings, shown); });
+        const std::vector<float> seen = shown.radiance();
+        ASSERT_EQ(seen.size(), picture.radiance.pixels.size());
+        // The path tracer adds its samples up in double precision.
+        for (std::size_t i = 0; i < seen.size(); ++i)
+            ASSERT_NEAR(seen[i], picture.radiance.pixels[i], 1e-5f * (1.0f + picture.radiance.pixels[i]));
+    }
+    // What changes meanwhile ends the tracing of what was.
+    RenderSettings large = settings_of("path", 512);
+    large.parameters["photons"] = 1e6;
+    const Screen screen_of_large = screen(vk::Format::eR8G8B8A8Unorm, 512);
+    Frames frames(renderer());
+    const Ticket ticket = frames.submit(large, screen_of_large.target());
+    Light lamp = table_scene().lights.front();
+    lamp.intensity *= 2.0f;
+    renderer().set_light(0, lamp);
+    EXPECT_EQ(frames.wait(ticket).samples, 0u);
+    // And the next frames have what is now.
+    const RenderSettings settings = settings_of("reference", 64);
+    const Screen small = screen(vk::Format::eR8G8B8A8Unorm);
+    finish(settings, [&] { return submit(frames, settings, small); });
 }
 
 TEST_F(FramesTest, SamplesAddUpToAStill) {
