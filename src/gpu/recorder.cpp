@@ -294,7 +294,10 @@ void Recorder::copy(const Buffer& source, vk::DeviceSize offset, const GpuImage&
         .bufferOffset = offset,
         .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1},
         .imageExtent = {destination.extent().width, destination.extent().height, 1}};
-    commands_.copyBufferToImage(source.handle(), destination.handle(), vk::ImageLayout::eGeneral, region, dispatch());
+    change_layout(destination.handle(), vk::ImageLayout::eGeneral, vk::ImageLayout::eTransferDstOptimal);
+    commands_.copyBufferToImage(source.handle(), destination.handle(), vk::ImageLayout::eTransferDstOptimal, region,
+                                dispatch());
+    change_layout(destination.handle(), vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eGeneral);
 }
 
 void Recorder::copy_from(vk::Image source, vk::ImageLayout layout, const GpuImage& destination) {
@@ -304,8 +307,10 @@ void Recorder::copy_from(vk::Image source, vk::ImageLayout layout, const GpuImag
     const std::array corners{vk::Offset3D{}, end};
     const vk::ImageBlit region{
         .srcSubresource = layer, .srcOffsets = corners, .dstSubresource = layer, .dstOffsets = corners};
-    commands_.blitImage(source, layout, destination.handle(), vk::ImageLayout::eGeneral, region, vk::Filter::eNearest,
-                        dispatch());
+    change_layout(destination.handle(), vk::ImageLayout::eGeneral, vk::ImageLayout::eTransferDstOptimal);
+    commands_.blitImage(source, layout, destination.handle(), vk::ImageLayout::eTransferDstOptimal, region,
+                        vk::Filter::eNearest, dispatch());
+    change_layout(destination.handle(), vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eGeneral);
 }
 
 void Recorder::copy_depths_from(vk::Image source, vk::ImageLayout layout, vk::Extent2D extent,
@@ -351,31 +356,33 @@ void Recorder::upload_pending() {
     }
 }
 
+/// Of a colour image; what comes before it is done, and what comes after it waits.
+void Recorder::change_layout(vk::Image image, vk::ImageLayout from, vk::ImageLayout to) {
+    const auto everything = AccessBit::eMemoryRead | AccessBit::eMemoryWrite;
+    const vk::ImageMemoryBarrier2 barrier{
+        .srcStageMask = Stage::eAllCommands,
+        .srcAccessMask = everything,
+        .dstStageMask = Stage::eAllCommands,
+        .dstAccessMask = everything,
+        .oldLayout = from,
+        .newLayout = to,
+        .image = image,
+        .subresourceRange = {.aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1}};
+    commands_.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier}, dispatch());
+}
+
 void Recorder::copy_to(const GpuImage& source, vk::Image target, vk::Offset2D at, vk::ImageLayout before,
                        vk::ImageLayout after) {
     synchronise(use_of(source, Stage::eCopy, AccessBit::eTransferRead, false));
     const vk::ImageSubresourceLayers layer{.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};
-    const auto change = [&](vk::ImageLayout from, vk::ImageLayout to) {
-        const auto everything = AccessBit::eMemoryRead | AccessBit::eMemoryWrite;
-        const vk::ImageMemoryBarrier2 barrier{
-            .srcStageMask = Stage::eAllCommands,
-            .srcAccessMask = everything,
-            .dstStageMask = Stage::eAllCommands,
-            .dstAccessMask = everything,
-            .oldLayout = from,
-            .newLayout = to,
-            .image = target,
-            .subresourceRange = {.aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1}};
-        commands_.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier}, dispatch());
-    };
-    change(before, vk::ImageLayout::eTransferDstOptimal);
+    change_layout(target, before, vk::ImageLayout::eTransferDstOptimal);
     const vk::ImageCopy region{.srcSubresource = layer,
                                .dstSubresource = layer,
                                .dstOffset = {at.x, at.y, 0},
                                .extent = {source.extent().width, source.extent().height, 1}};
     commands_.copyImage(source.handle(), vk::ImageLayout::eGeneral, target, vk::ImageLayout::eTransferDstOptimal,
                         region, dispatch());
-    change(vk::ImageLayout::eTransferDstOptimal, after);
+    change_layout(target, vk::ImageLayout::eTransferDstOptimal, after);
 }
 
 // Values lie side by side in buffers on the host, so no copy waits for another.

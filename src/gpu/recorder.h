@@ -203,6 +203,7 @@ private:
     void add_step(std::function<bool()> step);
     void end_label();
     void make_visible_to_host();
+    void change_layout(vk::Image image, vk::ImageLayout from, vk::ImageLayout to);
     void synchronise(std::span<Use> uses);
     void synchronise(Use use) { synchronise(std::span(&use, 1)); }
     void write_bytes(const PendingUpload& to, std::span<const std::byte> data);
