@@ -28,31 +28,29 @@ void keep(Look& look, const Look& old) {
 
 }  // namespace
 
-void Document::open(const std::string& source, const cli::SceneArguments& how, std::uint32_t width,
-                    std::uint32_t height) {
-    Scene scene = cli::load_given_scene(source, how);
-    Look next = look_of(scene);
+LoadedScene load_document_scene(const std::string& source, const cli::SceneArguments& how) {
+    LoadedScene loaded{.scene = cli::load_given_scene(source, how), .how = how};
+    loaded.bounds = scene_bounds(loaded.scene);
+    loaded.animations = pellucid::animations(loaded.scene);
+    return loaded;
+}
+
+void Document::show(LoadedScene loaded, std::uint32_t width, std::uint32_t height) {
+    loaded_ = std::move(loaded);
+    Look next = look_of(scene());
     keep(next, look);
-    const Bounds bounds = scene_bounds(scene);
-    next.camera =
-        scene.cameras.empty() ? framing_orbit(bounds, width, height) : orbit_from_camera(scene.cameras.front(), bounds);
-    animations_ = pellucid::animations(scene);
-    scene_ = std::move(scene);
-    bounds_ = bounds;
-    how_ = how;
+    next.camera = scene().cameras.empty() ? framing_orbit(bounds(), width, height)
+                                          : orbit_from_camera(scene().cameras.front(), bounds());
     look = std::move(next);
     ++scene_number_;
     history_ = {look};
     step_ = 0;
 }
 
-void Document::open_environment(const std::string& name_or_file) {
-    if (name_or_file != environment_name_) {
-        environment_ = load_environment(name_or_file);
-        environment_name_ = name_or_file;
-        ++environment_number_;
-    }
-    look.environment = name_or_file;
+void Document::show(std::string name, Environment environment) {
+    environment_ = std::move(environment);
+    environment_name_ = std::move(name);
+    ++environment_number_;
 }
 
 void Document::commit() {
@@ -63,24 +61,22 @@ void Document::commit() {
     step_ = history_.size() - 1;
 }
 
-bool Document::go(std::size_t step) {
-    Look next = history_[step];
-    open_environment(next.environment);
-    look = std::move(next);
-    step_ = step;
+bool Document::undo() {
+    commit();
+    if (step_ == 0) return false;
+    look = history_[--step_];
     return true;
 }
 
-bool Document::undo() {
-    commit();
-    return step_ > 0 && go(step_ - 1);
+bool Document::redo() {
+    if (step_ + 1 >= history_.size()) return false;
+    look = history_[++step_];
+    return true;
 }
 
-bool Document::redo() { return !history_.empty() && step_ + 1 < history_.size() && go(step_ + 1); }
-
 bool Document::fits(const Look& other) const {
-    return other.materials.size() == scene_.materials.size() && other.lights.size() == scene_.lights.size() &&
-           (!other.animation || *other.animation < animations_.size());
+    return other.materials.size() == scene().materials.size() && other.lights.size() == scene().lights.size() &&
+           (!other.animation || *other.animation < animations().size());
 }
 
 }  // namespace pellucid::viewer

@@ -13,6 +13,7 @@ constexpr float kDegreesAcross = 240.0f;  ///< that a drag over the window's hei
 constexpr float kLookAcross = 90.0f;      ///< likewise, where it stands
 constexpr float kZoomStep = 1.15f;        ///< of a step of the wheel
 constexpr float kRadiiPerSecond = 0.8f;   ///< of flying
+constexpr float kMostFlySeconds = 0.1f;   ///< of a frame: the first one follows a pause
 constexpr float kDividerPixels = 6.0f;    ///< where the divider can be taken
 
 /// A camera of the file becomes an orbit camera once it is moved.
@@ -31,8 +32,9 @@ bool pressed(int key, bool repeat = false) { return ImGui::IsKeyPressed(key, rep
 
 void Input::handle(Document& document, Panels& panels, Wishes& wishes, std::optional<glm::ivec2>& inspect) {
     handle_mouse(document, inspect);
+    flying_ = false;
     if (!ImGui::GetIO().WantTextInput) handle_keys(document, panels, wishes, inspect);
-    dragging_ = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive();
+    dragging_ = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || flying_;
 }
 
 void Input::handle_mouse(Document& document, std::optional<glm::ivec2>& inspect) {
@@ -71,6 +73,7 @@ void Input::handle_keys(Document& document, Panels& panels, Wishes& wishes, std:
     if (pressed(GLFW_KEY_F1)) panels.help = !panels.help;
     if (pressed(GLFW_KEY_TAB)) panels.visible = !panels.visible;
     if (pressed(GLFW_KEY_ESCAPE)) {
+        wishes.cancel = true;
         panels.help = false;
         panels.clear_message();
         inspect = {-1, -1};
@@ -99,13 +102,13 @@ void Input::handle_keys(Document& document, Panels& panels, Wishes& wishes, std:
         }
     }
     wishes.frame |= pressed(GLFW_KEY_F);
-    if (!ImGui::IsMouseDown(ImGuiMouseButton_Right)) return;
     const auto axis = [](int plus, int minus) {
         return float(ImGui::IsKeyDown(plus)) - float(ImGui::IsKeyDown(minus));
     };
     const glm::vec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S));
-    const float seconds = std::min(io.DeltaTime, 0.1f);
-    if (way != glm::vec3(0.0f)) fly(moved_camera(document), document.bounds(), kRadiiPerSecond * seconds * way);
+    flying_ = way != glm::vec3(0.0f);
+    const float seconds = std::min(io.DeltaTime, kMostFlySeconds);
+    if (flying_) fly(moved_camera(document), document.bounds(), kRadiiPerSecond * seconds * way);
 }
 
 }  // namespace pellucid::viewer

@@ -12,12 +12,14 @@ public:
     void handle(Document& document, Panels& panels, Wishes& wishes, std::optional<glm::ivec2>& inspect);
     /// A button is held that changes the look: no step of the history yet.
     bool dragging() const { return dragging_; }
+    /// A key is held that moves the camera on.
+    bool flying() const { return flying_; }
 
 private:
     void handle_mouse(Document& document, std::optional<glm::ivec2>& inspect);
     void handle_keys(Document& document, Panels& panels, Wishes& wishes, std::optional<glm::ivec2>& inspect);
 
-    bool dragging_ = false;
+    bool dragging_ = false, flying_ = false;
     bool divider_held_ = false;
     std::string last_other_ = "exact";
 };

@@ -1,5 +1,7 @@
 #include "viewer/inspector.h"
 
+#include <imgui.h>
+
 #include <cmath>
 
 namespace pellucid::viewer {
@@ -20,6 +22,15 @@ glm::vec3 meeting_point(const glm::vec3& a, const glm::vec3& along_a, const glm:
     if (sine_squared < 1e-12f) return b;
     const glm::vec3 between = b - a;
     return a + along_a * ((glm::dot(between, along_a) - cosine * glm::dot(between, along_b)) / sine_squared);
+}
+
+/// Position in an image of this size, pixels from the top left; z is above 0 in front of the camera.
+glm::vec3 project(const glm::vec3& world, const Camera& camera, float width, float height) {
+    const glm::vec3 view = glm::inverse(camera.world_from_view) * glm::vec4(world, 1.0f);
+    const float half = camera.orthographic ? 0.5f * camera.vertical_extent
+                                           : -view.z * std::tan(0.5f * camera.vertical_fov);  // height at that depth
+    const float scale = half != 0.0f ? 0.5f * height / half : 0.0f;
+    return {0.5f * width + view.x * scale, 0.5f * height - view.y * scale, -view.z};
 }
 
 }  // namespace
@@ -61,12 +72,31 @@ InspectedRay inspect(const Tracer& tracer, const Scene& scene, const Camera& cam
     return ray;
 }
 
-glm::vec3 project(const glm::vec3& world, const Camera& camera, float width, float height) {
-    const glm::vec3 view = glm::inverse(camera.world_from_view) * glm::vec4(world, 1.0f);
-    const float half = camera.orthographic ? 0.5f * camera.vertical_extent
-                                           : -view.z * std::tan(0.5f * camera.vertical_fov);  // height at that depth
-    const float scale = half != 0.0f ? 0.5f * height / half : 0.0f;
-    return {0.5f * width + view.x * scale, 0.5f * height - view.y * scale, -view.z};
+void draw_ray(const InspectedRay& ray, const Camera& camera, const Bounds& bounds) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const glm::vec2 start(float(ray.pixel.x) + 0.5f, float(ray.pixel.y) + 0.5f);
+    list.AddCircle({start.x, start.y}, 5.0f, IM_COL32(255, 255, 0, 255));
+    std::vector<glm::vec3> points;
+    for (const InspectedEvent& event : ray.events) points.push_back(event.position);
+    const RefractedPath& path = ray.path;
+    if (path.object >= 0)
+        points.push_back(path.position);
+    else if (!points.empty())
+        points.push_back(points.back() + bounds.radius * path.direction);
+    glm::vec3 from(start, 1.0f);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::vec3 to = project(points[i], camera, size.x, size.y);
+        if (to.z <= 0.0f || from.z <= 0.0f) break;
+        const bool after_reflection = i > 0 && ray.events[i - 1].reflected;
+        const ImU32 color = i == 0                   ? IM_COL32(255, 255, 0, 255)
+                            : i + 1 == points.size() ? IM_COL32(90, 220, 255, 255)
+                            : after_reflection       ? IM_COL32(120, 255, 120, 255)
+                                                     : IM_COL32(255, 140, 60, 255);
+        list.AddLine({from.x, from.y}, {to.x, to.y}, color, 2.0f);
+        if (i < ray.events.size()) list.AddCircleFilled({to.x, to.y}, 3.5f, color);
+        from = to;
+    }
 }
 
 }  // namespace pellucid::viewer

@@ -28,7 +28,7 @@ struct InspectedRay {
 InspectedRay inspect(const Tracer& tracer, const Scene& scene, const Camera& camera, glm::uvec2 pixel,
                      std::uint32_t width, std::uint32_t height);
 
-/// Position in an image of this size, pixels from the top left; z is above 0 in front of the camera.
-glm::vec3 project(const glm::vec3& world, const Camera& camera, float width, float height);
+/// Draws the ray with Dear ImGui, over the whole window and below all panels. `bounds`: of the scene.
+void draw_ray(const InspectedRay& ray, const Camera& camera, const Bounds& bounds);
 
 }  // namespace pellucid::viewer

@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -64,7 +65,7 @@ std::optional<SavedState> saved_state(const Options& options) {
 void save_state(const Options& options, Viewer& viewer) {
     const std::filesystem::path file = state_file();
     const vk::Extent2D extent = viewer.window().extent();
-    if (!options.keeps_state() || file.empty() || extent.width == 0) return;
+    if (!options.keeps_state() || file.empty() || extent.width == 0 || viewer.document().scene_number() == 0) return;
     const Scene& scene = viewer.document().scene();
     const bool is_file = scene.source.find(':') == std::string::npos;
     try {
@@ -80,25 +81,43 @@ void save_state(const Options& options, Viewer& viewer) {
     }
 }
 
-/// Opens what the command line names, or else what was open last.
+/// Starts to open what the command line names, or else what was open last.
 void open_first(const Options& options, const std::optional<SavedState>& state, Viewer& viewer) {
+    const OnFailure give_up = [](const std::string&) { throw; };
     Document& document = viewer.document();
+    options.check();
     if (state) {
         viewer.panels().visible = state->panels;
         document.look = state->look;
-        if (!viewer.open_environment(state->look.environment)) document.open_environment("studio");
     }
-    if (!options.scene.empty()) {
-        viewer.load(options.scene, options.how);
-    } else if (!state || !viewer.open(state->scene)) {
-        viewer.load("shape:goblet");
-    } else if (document.fits(state->look)) {
-        const std::string environment = document.look.environment;
-        document.look = state->look;
-        document.look.environment = environment;
+    if (options.environment_given())
+        viewer.open_environment(options.environment.name_or_file, give_up);
+    else if (state)
+        viewer.open_environment(state->look.environment);
+    const auto apply = [&options, &document] {
+        options.apply(document);
+        document.commit();
+    };
+    const auto open_or_give_up = [&viewer, apply, give_up](const std::string& source, const cli::SceneArguments& how) {
+        viewer.open(source, {.how = how, .then = apply, .failed = give_up});
+    };
+    if (!options.scene.empty() || !state) {
+        open_or_give_up(options.scene.empty() ? "shape:goblet" : options.scene, options.how);
+        return;
     }
-    options.apply(document);
-    document.commit();
+    const auto restore = [&document, look = state->look, apply] {
+        if (document.fits(look)) {
+            const std::string environment = document.look.environment;
+            document.look = look;
+            document.look.environment = environment;
+        }
+        apply();
+    };
+    const auto open_goblet = [&viewer, open_or_give_up](const std::string& why) {
+        open_or_give_up("shape:goblet", {});
+        viewer.panels().say(why, true);
+    };
+    viewer.open(state->scene, {.then = restore, .failed = open_goblet});
 }
 
 int run(const Options& options) {
@@ -118,7 +137,7 @@ int run(const Options& options) {
     while (!viewer.window().should_close() && !asked_to_end) {
         viewer.turn(!script && options.screenshot.empty());
         if (script) {
-            script->step(viewer);
+            if (viewer.document().scene_number() > 0) script->step(viewer);
             if (script->done()) break;
         } else if (!options.screenshot.empty() && ++turns > 3 && viewer.still()) {
             write_image(options.screenshot, viewer.screenshot());
@@ -132,12 +151,7 @@ int run(const Options& options) {
     return kDone;
 }
 
-}  // namespace
-}  // namespace pellucid::viewer
-
-int main(int argc, char** argv) {
-    using namespace pellucid;
-    using namespace pellucid::viewer;
+int run_or_complain(int argc, char** argv) {
     CLI::App app{"Shows transparent objects and lets one look around.", "pellucid-view"};
     Options options;
     add_options(app, options);
@@ -159,4 +173,14 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         return complain(fmt::format("internal error: {}", error.what()), kBug);
     }
+}
+
+}  // namespace
+}  // namespace pellucid::viewer
+
+int main(int argc, char** argv) {
+    const int code = pellucid::viewer::run_or_complain(argc, argv);
+    // Files may still be loading that nobody waits for.
+    std::fflush(nullptr);
+    std::_Exit(code);
 }

@@ -39,17 +39,21 @@ void add_options(CLI::App& app, Options& o) {
     cli::add_parameter_options(app, o.parameters);
 }
 
+void Options::check() const {
+    check_technique_name(technique);
+    if (parse_tonemap(tonemap) == ToneMap::kKrawczyk)
+        throw Error("--tonemap: krawczyk is for still images, of pellucid render");
+    cli::given_parameters(parameters);
+}
+
 void Options::apply(Document& document) const {
     Look& look = document.look;
     const auto given = [&](const char* name) { return app->count(name) > 0; };
     if (given("--technique")) look.technique = technique;
-    check_technique_name(look.technique);
     for (const auto& [name, value] : cli::given_parameters(parameters)) look.parameters[name] = value;
     if (given("--samples")) look.samples = samples;
     if (given("--tonemap")) look.tonemap = parse_tonemap(tonemap);
-    if (look.tonemap == ToneMap::kKrawczyk) throw Error("--tonemap: krawczyk is for still images, of pellucid render");
     if (given("--exposure")) look.exposure_ev = float(exposure_ev);
-    if (given("--environment")) document.open_environment(environment.name_or_file);
     if (given("--environment-rotation")) look.environment_rotation_deg = environment.rotation_deg;
     if (given("--environment-intensity")) look.environment_intensity = environment.intensity;
     if (fov_deg) look.camera.fov_deg = float(*fov_deg);

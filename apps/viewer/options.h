@@ -30,7 +30,10 @@ struct Options {
 
     /// State is read and written: neither --fresh nor a script nor a screenshot.
     bool keeps_state() const { return !fresh && script.empty() && screenshot.empty(); }
-    /// Puts what was given into the look of the document.
+    bool environment_given() const { return app->count("--environment") > 0; }
+    /// Throws Error for what no scene makes right.
+    void check() const;
+    /// Puts what was given into the look of the document, except for the environment.
     void apply(Document& document) const;
 
     const CLI::App* app = nullptr;  ///< tells what was given

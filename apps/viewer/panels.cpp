@@ -11,7 +11,7 @@
 namespace pellucid::viewer {
 namespace {
 
-constexpr float kWidth = 310.0f;
+constexpr float kMargin = 8.0f, kWidth = 310.0f, kLeastWidth = 200.0f, kHelpWidth = 480.0f;  ///< pixels
 constexpr float kLeastScreen = 100.0f;  ///< pixels; smaller windows show no panels
 constexpr double kMessageSeconds = 6.0;
 
@@ -76,9 +76,10 @@ const std::vector<KeyHelp>& key_help() {
         {"Left drag", "orbit"},
         {"Middle drag, Shift+left drag", "pan"},
         {"Wheel", "zoom"},
-        {"Right drag", "look around; with W A S D Q E: fly"},
+        {"Right drag", "look around"},
+        {"W A S D Q E", "fly"},
         {"F", "frame the scene"},
-        {"Ctrl+click", "the ray of a pixel; Esc: none"},
+        {"Ctrl+click", "the ray of a pixel"},
         {"Space", "play or stop the animation"},
         {"Tab", "panels on or off"},
         {"V", "divider on or off; drag it"},
@@ -87,6 +88,7 @@ const std::vector<KeyHelp>& key_help() {
         {"Ctrl+S", "save the image"},
         {"Ctrl+C", "copy the equal pellucid render command"},
         {"F12", "save what the window shows"},
+        {"Esc", "cancel loading; no ray, no message"},
         {"F1", "these keys"},
         {"Ctrl+Q", "quit"},
     };
@@ -104,35 +106,53 @@ double Panels::seconds_to_change() const {
     return std::max(0.0, message_until_s_ - ImGui::GetTime());
 }
 
+/// The panel stands at the left. Messages and keys stand beside it. Narrow windows have messages below the panel, and keys
+/// in its stead.
 void Panels::draw(Document& document, const Facts& facts, Wishes& wishes) {
     if (!message_is_error_ && ImGui::GetTime() >= message_until_s_) message_.clear();
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     if (screen.x < kLeastScreen || screen.y < kLeastScreen) return;  // windows would shrink with it, and stay so
-    if (visible) {
-        ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
-        ImGui::SetNextWindowSize(ImVec2(kWidth, std::max(100.0f, screen.y - 16.0f)), ImGuiCond_FirstUseEver);
-        ImGui::SetNextWindowBgAlpha(0.85f);
-        if (ImGui::Begin("Pellucid")) {
-            ImGui::PushItemWidth(-110.0f);
-            show_progress(facts.right ? "left: " : "", *facts.left);
-            if (facts.right) show_progress("right: ", *facts.right);
-            scene_section(document, wishes);
-            technique_section(document.look, *facts.renderer);
-            camera_section(document);
-            animation_section(document, playing, speed);
-            material_section(document);
-            light_section(document);
-            environment_section(document, environment_path_, wishes.environment);
-            display_section(document.look);
-            times_section(facts);
-            ray_section(facts);
-            warnings_of(*facts.left);
-            ImGui::PopItemWidth();
-        }
-        ImGui::End();
+    const bool has_scene = document.scene_number() > 0;
+    const float whole = screen.x - 2.0f * kMargin;
+    const bool fits_beside = screen.x - panel_right_ >= kLeastWidth + 2.0f * kMargin;
+    const float message_height = message_.empty() && !facts.loading ? 0.0f : message_height_ + kMargin;
+    const float height = std::max(1.0f, screen.y - 2.0f * kMargin - (fits_beside ? 0.0f : message_height));
+    if (visible && has_scene && (fits_beside || !help)) {
+        ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin));
+        ImGui::SetNextWindowSize(ImVec2(kWidth, height), ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSizeConstraints(ImVec2(std::min(kLeastWidth, whole), height), ImVec2(whole, height));
+        draw_panel(document, facts, wishes);
+    } else {
+        panel_right_ = 0.0f;
     }
-    if (help) draw_help();
-    draw_message();
+    const Strip strip =
+        fits_beside ? Strip{panel_right_ + kMargin, screen.x - kMargin} : Strip{kMargin, screen.x - kMargin};
+    if (help) draw_help(strip, screen.y - 2.0f * kMargin - message_height);
+    if (!message_.empty() || facts.loading) draw_message(strip, has_scene, facts.loading, wishes);
+}
+
+void Panels::draw_panel(Document& document, const Facts& facts, Wishes& wishes) {
+    ImGui::SetNextWindowBgAlpha(0.85f);
+    const bool open = ImGui::Begin("Pellucid", nullptr, ImGuiWindowFlags_NoMove);
+    panel_right_ = open ? kMargin + ImGui::GetWindowWidth() : 0.0f;
+    if (open) {
+        ImGui::PushItemWidth(-110.0f);
+        show_progress(facts.right ? "left: " : "", *facts.left);
+        if (facts.right) show_progress("right: ", *facts.right);
+        scene_section(document, wishes);
+        technique_section(document.look, *facts.renderer);
+        camera_section(document);
+        animation_section(document, playing, speed);
+        material_section(document);
+        light_section(document);
+        environment_section(document, environment_path_, wishes.environment);
+        display_section(document.look);
+        times_section(facts);
+        ray_section(facts);
+        warnings_of(*facts.left);
+        ImGui::PopItemWidth();
+    }
+    ImGui::End();
 }
 
 void Panels::scene_section(Document& document, Wishes& wishes) {
@@ -157,33 +177,42 @@ void Panels::scene_section(Document& document, Wishes& wishes) {
     if (ImGui::Button("Keys (F1)")) help = !help;
 }
 
-void Panels::draw_message() {
-    if (message_.empty()) return;
+void Panels::draw_message(Strip strip, bool has_scene, const std::optional<LoadingProgress>& loading, Wishes& wishes) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, screen.y - 12.0f), ImGuiCond_Always, ImVec2(0.5f, 1.0f));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.9f * screen.x, screen.y));
+    const float width = strip.right - strip.left;
+    ImGui::SetNextWindowPos(ImVec2(strip.left + 0.5f * width, screen.y - kMargin), ImGuiCond_Always,
+                            ImVec2(0.5f, 1.0f));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(width, 0.5f * screen.y));
     ImGui::Begin("##message", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoSavedSettings);
-    const ImVec4 color = message_is_error_ ? ImVec4(1.0f, 0.5f, 0.4f, 1.0f) : ImVec4(0.8f, 0.9f, 1.0f, 1.0f);
-    ImGui::PushTextWrapPos(0.85f * screen.x);
-    ImGui::TextColored(color, "%s", message_.c_str());
+    ImGui::PushTextWrapPos(width - 2.0f * ImGui::GetStyle().WindowPadding.x);
+    if (loading) {
+        ImGui::Text("Loading %s, %.0f s", one_line(loading->name).c_str(), loading->seconds);
+        if (has_scene && ImGui::SmallButton("Cancel (Esc)")) wishes.cancel = true;
+    }
+    if (!message_.empty()) {
+        const ImVec4 color = message_is_error_ ? ImVec4(1.0f, 0.5f, 0.4f, 1.0f) : ImVec4(0.8f, 0.9f, 1.0f, 1.0f);
+        ImGui::TextColored(color, "%s", message_.c_str());
+        if (message_is_error_ && ImGui::SmallButton("Close (Esc)")) message_.clear();
+    }
     ImGui::PopTextWrapPos();
-    const bool closed = message_is_error_ && ImGui::SmallButton("Close");
+    message_height_ = ImGui::GetWindowHeight();
     ImGui::End();
-    if (closed) message_.clear();
 }
 
-void Panels::draw_help() {
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, 0.5f * screen.y), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
-    ImGui::Begin("Keys", &help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+void Panels::draw_help(Strip strip, float height) {
+    const float width = std::min(kHelpWidth, strip.right - strip.left);
+    ImGui::SetNextWindowPos(ImVec2(0.5f * (strip.left + strip.right), kMargin), ImGuiCond_Always, ImVec2(0.5f, 0.0f));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, std::max(1.0f, height)));
+    ImGui::Begin("Keys", &help,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
     if (ImGui::BeginTable("keys", 2)) {
         for (const KeyHelp& each : key_help()) {
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(each.keys);
+            ImGui::TextWrapped("%s", each.keys);
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(each.does);
+            ImGui::TextWrapped("%s", each.does);
         }
         ImGui::EndTable();
     }

@@ -14,8 +14,14 @@ namespace pellucid::viewer {
 /// What the user asked for by a button or a key.
 struct Wishes {
     bool undo = false, redo = false, save = false, copy_command = false, frame = false, screenshot = false,
-         close = false;
+         close = false, cancel = false;
     std::string open, environment;  ///< scenes and files to open; empty: none
+};
+
+/// A file that is being loaded.
+struct LoadingProgress {
+    std::string name;
+    double seconds = 0.0;  ///< so far
 };
 
 /// What the panels show and do not change.
@@ -25,6 +31,7 @@ struct Facts {
     const PictureInfo* right;  ///< null: no divider
     const std::deque<float>* frame_times_ms;
     const InspectedRay* ray;  ///< null: none
+    std::optional<LoadingProgress> loading;
 };
 
 /// Panels above the image: everything that can be set and everything that is known.
@@ -46,12 +53,18 @@ public:
 
 private:
     void scene_section(Document& document, Wishes& wishes);
-    void draw_message();
-    void draw_help();
+    /// Pixels of the window, from left to right.
+    struct Strip {
+        float left, right;
+    };
+    void draw_panel(Document& document, const Facts& facts, Wishes& wishes);
+    void draw_message(Strip strip, bool has_scene, const std::optional<LoadingProgress>& loading, Wishes& wishes);
+    void draw_help(Strip strip, float height);
 
     std::string message_;
     bool message_is_error_ = false;
     double message_until_s_ = 0.0;
+    float panel_right_ = 0.0f, message_height_ = 0.0f;  ///< pixels, of the last frame; 0: there was none
     std::string path_, environment_path_;
 };
 

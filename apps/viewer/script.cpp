@@ -45,6 +45,7 @@ constexpr std::array kCommands{
     Command{"time", "S", 1, 1},
     Command{"play", "on|off", 1, 1},
     Command{"inspect", "X Y", 2, 2},
+    Command{"cancel", "", 0, 0},
     Command{"undo", "", 0, 0},
     Command{"redo", "", 0, 0},
     Command{"panels", "on|off", 1, 1},

@@ -20,6 +20,9 @@ namespace {
 /// The viewer sees what the line before has changed only in its next turns.
 constexpr int kTurnsToNotice = 3;
 
+/// All other commands wait for what is being loaded.
+constexpr std::string_view kWhileLoading[]{"cancel", "mark", "screenshot", "wait"};
+
 bool on_off(const std::string& word) {
     if (word != "on" && word != "off") throw Error(fmt::format("'{}' is neither on nor off", word));
     return word == "on";
@@ -34,19 +37,23 @@ std::uint64_t resident_bytes() {
 
 void write_report(const std::string& file, Viewer& viewer) {
     const PictureInfo& info = viewer.info();
+    const vulkan::Made made = viewer.made();
     const vk::Extent2D extent = viewer.window().extent();
-    nlohmann::ordered_json json{{"scene", viewer.document().scene().source},
-                                {"width", extent.width},
-                                {"height", extent.height},
-                                {"frames", viewer.frames()},
-                                {"samples", info.samples},
-                                {"scale", info.pace.scale},
-                                {"coarse", info.pace.coarse},
-                                {"frame_times_ms", viewer.frame_times_ms()},
-                                {"response_times_ms", viewer.response_times_ms()},
-                                {"resident_bytes", resident_bytes()},
-                                {"message", viewer.panels().message()},
-                                {"warnings", info.warnings}};
+    nlohmann::ordered_json json{
+        {"scene", viewer.document().scene().source},
+        {"width", extent.width},
+        {"height", extent.height},
+        {"frames", viewer.frames()},
+        {"samples", info.samples},
+        {"made", {{"allocations", made.allocations}, {"pipelines", made.pipelines}, {"pools", made.pools}}},
+        {"longest_turn_ms", viewer.longest_turn_ms()},
+        {"scale", info.pace.scale},
+        {"coarse", info.pace.coarse},
+        {"frame_times_ms", viewer.frame_times_ms()},
+        {"response_times_ms", viewer.response_times_ms()},
+        {"resident_bytes", resident_bytes()},
+        {"message", viewer.panels().message()},
+        {"warnings", info.warnings}};
     json["validation_messages"] = viewer.gpu().validation_messages();
     write_text_file(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
@@ -163,6 +170,8 @@ bool use_window(const ScriptLine& line, Viewer& viewer) {
         viewer.open_environment(words[0]);
     else if (command == "frame")
         viewer.frame();
+    else if (command == "cancel")
+        viewer.cancel_loading();
     else if (command == "undo")
         viewer.undo();
     else if (command == "redo")
@@ -215,6 +224,8 @@ void ScriptRunner::step(Viewer& viewer) {
 
 /// False: the line waits.
 bool ScriptRunner::run(const ScriptLine& line, Viewer& viewer) {
+    const bool any_time = std::ranges::find(kWhileLoading, line.command) != std::end(kWhileLoading);
+    if (viewer.loading() && !any_time) return false;
     if (line.command == "wait") return waited(line, viewer);
     const std::string& message = viewer.panels().message();
     if (line.command == "expect-message") {

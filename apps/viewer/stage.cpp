@@ -39,6 +39,7 @@ bool Stage::apply(const Document& document, const std::function<void()>& before_
 bool Stage::apply_scene(const Document& document, const std::function<void()>& before_scene) {
     if (scene_number_ == document.scene_number()) return false;
     before_scene();
+    scene_number_ = 0;  // a renderer that fails to take a scene has none
     renderer_.set_scene(document.scene());
     scene_ = document.scene();
     scene_number_ = document.scene_number();

@@ -23,12 +23,8 @@ constexpr double kPollSeconds = 0.002;  ///< while there is something to do
 constexpr double kMinimizedSeconds = 0.02;
 constexpr double kIdleSeconds = 0.5;
 constexpr std::size_t kFrameTimes = 120;
-constexpr int kLateTurns = 3;
-
-bool is_environment(const std::string& file) {
-    const std::string extension = lower_extension(file);
-    return extension == ".hdr" || extension == ".exr";
-}
+constexpr double kLoadingSeconds = 0.03;
+constexpr std::chrono::milliseconds kLoadingRedraw{100};
 
 /// The parameters that the technique has; others belong to the other side of the divider.
 ParameterMap own_parameters(const ParameterMap& given, const TechniqueInfo& technique) {
@@ -46,58 +42,28 @@ Viewer::Viewer(const cli::DeviceArguments& device, std::uint32_t width, std::uin
       renderer_(gpu_.lent(), device.threads), frames_of_renderer_(renderer_), stage_(renderer_),
       left_(gpu_, frames_of_renderer_), right_(gpu_, frames_of_renderer_) {}
 
-void Viewer::try_to(const std::function<void()>& action) {
+void Viewer::attempt(const std::function<void()>& action, const OnFailure& failed) {
+    const auto report = [&](const std::string& why) {
+        turns_to_draw_ = kLateTurns;
+        failed ? failed(why) : panels_.say(why, true);
+    };
     try {
         action();
     } catch (const Error& error) {
-        panels_.say(error.what(), true);
+        report(error.what());
     } catch (const DeviceError& error) {
-        panels_.say(error.what(), true);
+        report(error.what());
     }
-    turns_to_draw_ = kLateTurns;
-}
-
-void Viewer::load(const std::string& source, const cli::SceneArguments& how) {
-    const vk::Extent2D extent = window_.extent();
-    document_.open(source, how, std::max(1u, extent.width), std::max(1u, extent.height));
-    ray_.reset();
-    window_.set_title(fmt::format("{} - Pellucid", std::filesystem::path(source).filename().string()));
-    panels_.clear_message();
-    const std::vector<std::string>& warnings = document_.scene().warnings;
-    if (warnings.size() == 1) panels_.say(warnings.front(), false);
-    if (warnings.size() > 1)
-        panels_.say(fmt::format("{} (and {} more warnings)", warnings.front(), warnings.size() - 1), false);
-}
-
-bool Viewer::open(const std::string& source) {
-    if (is_environment(source)) return open_environment(source);
-    bool opened = false;
-    try_to([&] {
-        load(source);
-        opened = true;
-    });
-    return opened;
-}
-
-bool Viewer::open_environment(const std::string& name_or_file) {
-    bool opened = false;
-    try_to([&] {
-        document_.open_environment(name_or_file);
-        opened = true;
-    });
-    return opened;
 }
 
 void Viewer::undo() {
-    try_to([&] {
-        if (!document_.undo()) panels_.say("nothing to undo", false);
-    });
+    if (!document_.undo()) panels_.say("nothing to undo", false);
+    turns_to_draw_ = kLateTurns;
 }
 
 void Viewer::redo() {
-    try_to([&] {
-        if (!document_.redo()) panels_.say("nothing to redo", false);
-    });
+    if (!document_.redo()) panels_.say("nothing to redo", false);
+    turns_to_draw_ = kLateTurns;
 }
 
 void Viewer::frame() {
@@ -120,13 +86,15 @@ void Viewer::inspect(glm::ivec2 pixel) {
     turns_to_draw_ = kLateTurns;
 }
 
-bool Viewer::moving() const { return panels_.playing || input_.dragging() || Clock::now() - moved_at_ < kSettle; }
-
-bool Viewer::still() const {
-    const bool minimized = window_.extent().width == 0;
-    return minimized ||
-           (!moving() && seen_ == document_.look && left_.still() && (document_.look.other.empty() || right_.still()));
+bool Viewer::moving() const {
+    return panels_.playing || input_.dragging() || input_.flying() || Clock::now() - moved_at_ < kSettle;
 }
+
+bool Viewer::pictures_still() const {
+    return !moving() && seen_ == document_.look && left_.still() && (document_.look.other.empty() || right_.still());
+}
+
+bool Viewer::still() const { return !loading() && (window_.extent().width == 0 || pictures_still()); }
 
 void Viewer::advance_animation() {
     const auto now = Clock::now();
@@ -243,37 +211,14 @@ std::vector<ShownImage> Viewer::shown_images() const {
     return {left, right};
 }
 
-void Viewer::draw_ray() {
+void Viewer::draw_divider() {
+    const Look& look = document_.look;
+    if (look.other.empty()) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    if (!document_.look.other.empty()) {
-        const float x = document_.look.divider * size.x;
-        list.AddLine({x, 0.0f}, {x, size.y}, IM_COL32(255, 255, 255, 200), 2.0f);
-        list.AddText({x + 6.0f, 6.0f}, IM_COL32(255, 255, 255, 220), document_.look.other.c_str());
-    }
-    if (!ray_) return;
-    const glm::vec2 start(float(ray_->pixel.x) + 0.5f, float(ray_->pixel.y) + 0.5f);
-    list.AddCircle({start.x, start.y}, 5.0f, IM_COL32(255, 255, 0, 255));
-    std::vector<glm::vec3> points;
-    for (const InspectedEvent& event : ray_->events) points.push_back(event.position);
-    const RefractedPath& path = ray_->path;
-    if (path.object >= 0)
-        points.push_back(path.position);
-    else if (!points.empty())
-        points.push_back(points.back() + document_.bounds().radius * path.direction);
-    glm::vec3 from(start, 1.0f);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const glm::vec3 to = project(points[i], stage_.camera(), size.x, size.y);
-        if (to.z <= 0.0f || from.z <= 0.0f) break;
-        const bool after_reflection = i > 0 && ray_->events[i - 1].reflected;
-        const ImU32 color = i == 0                   ? IM_COL32(255, 255, 0, 255)
-                            : i + 1 == points.size() ? IM_COL32(90, 220, 255, 255)
-                            : after_reflection       ? IM_COL32(120, 255, 120, 255)
-                                                     : IM_COL32(255, 140, 60, 255);
-        list.AddLine({from.x, from.y}, {to.x, to.y}, color, 2.0f);
-        if (i < ray_->events.size()) list.AddCircleFilled({to.x, to.y}, 3.5f, color);
-        from = to;
-    }
+    const float x = look.divider * size.x;
+    list.AddLine({x, 0.0f}, {x, size.y}, IM_COL32(255, 255, 255, 200), 2.0f);
+    list.AddText({x + 6.0f, 6.0f}, IM_COL32(255, 255, 255, 220), look.other.c_str());
 }
 
 void Viewer::draw_window(Image* capture) {
@@ -302,11 +247,12 @@ void Viewer::save(const Image& image, const char* stem) {
 void Viewer::grant(const Wishes& wishes) {
     if (!wishes.open.empty()) open(wishes.open);
     if (!wishes.environment.empty()) open_environment(wishes.environment);
+    if (wishes.cancel) cancel_loading();
     if (wishes.undo) undo();
     if (wishes.redo) redo();
     if (wishes.frame) frame();
-    if (wishes.save) try_to([&] { save(image(), "pellucid"); });
-    if (wishes.screenshot) try_to([&] { save(screenshot(), "pellucid-window"); });
+    if (wishes.save) attempt([&] { save(image(), "pellucid"); });
+    if (wishes.screenshot) attempt([&] { save(screenshot(), "pellucid-window"); });
     if (wishes.copy_command) {
         glfwSetClipboardString(window_.handle(), command_line().c_str());
         panels_.say("copied: " + command_line(), false);
@@ -314,53 +260,62 @@ void Viewer::grant(const Wishes& wishes) {
     if (wishes.close) window_.close();
 }
 
+/// Seconds that a turn may wait for an event.
+double Viewer::patience_s(bool wait) const {
+    if (window_.extent().width == 0) return kMinimizedSeconds;
+    if (!wait || turns_to_draw_ > 0 || !pictures_still()) return kPollSeconds;
+    if (loading()) return kLoadingSeconds;
+    const double change = panels_.seconds_to_change();
+    return change >= 0.0 ? std::min(kIdleSeconds, change + 0.01) : kIdleSeconds;
+}
+
 void Viewer::turn(bool wait) {
-    double seconds = kPollSeconds;
-    if (wait && still() && turns_to_draw_ == 0) {
-        const double change = panels_.seconds_to_change();
-        seconds = change >= 0.0 ? std::min(kIdleSeconds, change + 0.01) : kIdleSeconds;
-    } else if (window_.extent().width == 0) {
-        seconds = kMinimizedSeconds;
-    }
-    if (window_.handle_events(seconds)) turns_to_draw_ = kLateTurns;
+    if (window_.handle_events(patience_s(wait))) turns_to_draw_ = kLateTurns;
+    const auto start = Clock::now();
     for (const std::filesystem::path& file : window_.take_dropped()) open(file.string());
     advance_animation();
+    if (loading()) take_loaded();
 
-    bool another = false;
-    try {
-        another = take_pictures();
+    bool another = input_.flying() || (loading() && start - drawn_at_ > kLoadingRedraw);
+    attempt([&] {
+        another |= take_pictures();
         update_pictures();
         another |= update_overlay();
         submit_pictures();
         if (changed_at_ && left_.in_flight()) shows_change_of_ = std::exchange(changed_at_, std::nullopt);
-    } catch (const Error& error) {
-        panels_.say(error.what(), true);
-        another = true;
-    } catch (const DeviceError& error) {
-        panels_.say(error.what(), true);
-        another = true;
+    });
+    if (another || panels_.seconds_to_change() == 0.0) turns_to_draw_ = std::max(1, turns_to_draw_);
+    if (turns_to_draw_ > 0) {
+        --turns_to_draw_;
+        if (window_.extent().width != 0) draw_and_listen();
     }
-    if (panels_.seconds_to_change() == 0.0) another = true;
-    if (!another && turns_to_draw_ == 0) return;
-    turns_to_draw_ = another ? std::max(1, turns_to_draw_) : turns_to_draw_;
-    --turns_to_draw_;
-    if (window_.extent().width == 0) return;
+    const double turn_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    longest_turn_ms_ = std::max(longest_turn_ms_, turn_ms);
+}
 
+/// Draws the window and does what was asked for in its panels, by keys and by the pointer.
+void Viewer::draw_and_listen() {
+    drawn_at_ = Clock::now();
     Wishes wishes;
     std::optional<glm::ivec2> pixel;
     gui_.begin_frame();
     panels_.draw(document_,
-                 {&renderer_, &left_.info(), document_.look.other.empty() ? nullptr : &right_.info(), &frame_times_ms_,
-                  ray_ ? &*ray_ : nullptr},
+                 {.renderer = &renderer_,
+                  .left = &left_.info(),
+                  .right = document_.look.other.empty() ? nullptr : &right_.info(),
+                  .frame_times_ms = &frame_times_ms_,
+                  .ray = ray_ ? &*ray_ : nullptr,
+                  .loading = progress()},
                  wishes);
-    input_.handle(document_, panels_, wishes, pixel);
-    draw_ray();
+    if (document_.scene_number() > 0) input_.handle(document_, panels_, wishes, pixel);
+    draw_divider();
+    if (ray_) draw_ray(*ray_, stage_.camera(), document_.bounds());
     gui_.end_frame();
     draw_window(nullptr);
     if (const auto changed = std::exchange(response_to_, std::nullopt)) note_response(*changed);
-    if (!input_.dragging() && !panels_.playing) document_.commit();
+    if (!input_.dragging() && !panels_.playing && !loading()) document_.commit();
     grant(wishes);
-    if (pixel) try_to([&] { inspect(*pixel); });
+    if (pixel) attempt([&] { inspect(*pixel); });
 }
 
 void Viewer::note_response(Clock::time_point start) {

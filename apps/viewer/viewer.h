@@ -1,5 +1,6 @@
 #pragma once
 
+#include "viewer/background_load.h"
 #include "viewer/gui.h"
 #include "viewer/input.h"
 #include "viewer/panels.h"
@@ -16,6 +17,16 @@
 
 namespace pellucid::viewer {
 
+/// Called inside of a catch block with the message of an error. Empty: the message is shown in the window.
+using OnFailure = std::function<void(const std::string& why)>;
+
+/// How a scene is opened.
+struct Opening {
+    cli::SceneArguments how{};
+    std::function<void()> then{};  ///< called once the scene is shown; empty: nothing
+    OnFailure failed{};
+};
+
 /// The window, the renderer and the document, and one turn of the loop that ties them.
 class Viewer {
 public:
@@ -27,12 +38,12 @@ public:
     Gpu& gpu() { return gpu_; }
     const PictureInfo& info() const { return left_.info(); }
 
-    /// Replaces the scene. Throws Error, and changes nothing, if it cannot be loaded.
-    void load(const std::string& source, const cli::SceneArguments& how = {});
-    /// Opens a scene (model, shape, volume) or an environment. What fails is shown as a message; the old scene stays. True: it
-    /// was opened.
-    bool open(const std::string& source);
-    bool open_environment(const std::string& name_or_file);
+    /// Opens a scene (model, shape, volume) or an environment in the background. It replaces one that is still being loaded.
+    /// Until it is there, and if it cannot be opened, the old one stays.
+    void open(const std::string& source, Opening opening = {});
+    void open_environment(const std::string& name_or_file, OnFailure failed = {});
+    void cancel_loading();
+    bool loading() const;
     void undo();
     void redo();
     void frame();
@@ -49,12 +60,19 @@ public:
     std::string command_line();
 
     std::uint64_t frames() const { return frames_; }  ///< images drawn so far
+    /// Vulkan objects that the renderer has made so far.
+    vulkan::Made made() const { return frames_of_renderer_.made(); }
+    /// The longest that the window has not answered.
+    double longest_turn_ms() const { return longest_turn_ms_; }
     const std::deque<float>& frame_times_ms() const { return frame_times_ms_; }
     /// From a change of the look until the window has an image of it, of the last changes.
     const std::deque<float>& response_times_ms() const { return response_times_ms_; }
 
 private:
     using Clock = std::chrono::steady_clock;
+    void take_loaded();
+    void show(LoadedScene loaded);
+    void load_environment();
     void advance_animation();
     void update_pictures();
     bool take_pictures();
@@ -63,10 +81,14 @@ private:
     void draw_window(Image* capture);
     bool update_overlay();
     void note_response(Clock::time_point start);
-    void draw_ray();
+    void draw_divider();
     void grant(const Wishes& wishes);
     void save(const Image& image, const char* stem);
-    void try_to(const std::function<void()>& action);
+    void attempt(const std::function<void()>& action, const OnFailure& failed = {});
+    void draw_and_listen();
+    double patience_s(bool wait) const;
+    std::optional<LoadingProgress> progress() const;
+    bool pictures_still() const;
     std::vector<ShownImage> shown_images() const;
     bool moving() const;
 
@@ -87,9 +109,15 @@ private:
     std::optional<Look> overlay_look_;  ///< that the overlay is of; none: there is none
     std::uint64_t overlay_revision_ = 0;
 
+    BackgroundLoad<LoadedScene> scene_load_;
+    BackgroundLoad<LoadedEnvironment> environment_load_;
+    Opening opening_;
+    OnFailure environment_failed_;
+
     Look seen_;  ///< of the last turn
     vk::Extent2D seen_extent_;
-    Clock::time_point moved_at_{}, turned_at_ = Clock::now();
+    Clock::time_point moved_at_{}, turned_at_ = Clock::now(), drawn_at_{};
+    double longest_turn_ms_ = 0.0;
     std::uint64_t revision_ = 0;
     std::uint64_t frames_ = 0;
     std::deque<float> frame_times_ms_;
@@ -97,7 +125,8 @@ private:
     std::optional<Clock::time_point> changed_at_, shows_change_of_, response_to_;
     std::deque<float> response_times_ms_;
     std::optional<InspectedRay> ray_;
-    int turns_to_draw_ = 3;  ///< Dear ImGui shows some things a frame late
+    static constexpr int kLateTurns = 3;  ///< Dear ImGui shows some things a few frames late
+    int turns_to_draw_ = kLateTurns;
 };
 
 }  // namespace pellucid::viewer

@@ -144,6 +144,19 @@ class TestScripts(ViewerTest):
         self.assertEqual(self.read("before.png"), self.read("after.png"))
         self.assertEqual(self.report("report.json")["scene"], "shape:goblet")
 
+    def test_what_is_being_loaded_can_be_cancelled(self):
+        self.run_script("wait still", "save before.png", "open shape:sphere,segments=900", "screenshot loading.png", "cancel",
+                        "wait still", "save after.png", "screenshot idle.png", "expect-no-message", "report report.json")
+        self.assertEqual(self.report("report.json")["scene"], "shape:goblet")
+        self.assertEqual(self.read("before.png"), self.read("after.png"))
+        self.assertNotEqual(self.read("loading.png"), self.read("idle.png"))
+
+    def test_an_environment_that_is_missing_leaves_the_old_one(self):
+        self.run_script("environment sky", "wait still", "save before.png", "environment missing.hdr",
+                        "expect-message missing.hdr", "wait still", "save after.png", "command command")
+        self.assertEqual(self.read("before.png"), self.read("after.png"))
+        self.assertIn(b"--environment sky", self.read("command"))
+
     def test_files_that_are_dropped_together(self):
         self.run_script("drop shape:gem shape:torus", "expect-no-message", "wait still", "report report.json")
         self.assertEqual(self.report("report.json")["scene"], "shape:torus")
