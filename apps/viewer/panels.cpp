@@ -112,30 +112,31 @@ void Panels::draw(Document& document, const Facts& facts, Wishes& wishes) {
     if (!message_is_error_ && ImGui::GetTime() >= message_until_s_) message_.clear();
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     if (screen.x < kLeastScreen || screen.y < kLeastScreen) return;  // windows would shrink with it, and stay so
-    const bool has_scene = document.scene_number() > 0;
-    const float whole = screen.x - 2.0f * kMargin;
-    const bool fits_beside = screen.x - panel_right_ >= kLeastWidth + 2.0f * kMargin;
-    const float message_height = message_.empty() && !facts.loading ? 0.0f : message_height_ + kMargin;
-    const float height = std::max(1.0f, screen.y - 2.0f * kMargin - (fits_beside ? 0.0f : message_height));
-    if (visible && has_scene && (fits_beside || !help)) {
+    const bool has_scene = document.scene_number() > 0, has_message = !message_.empty() || facts.loading;
+    const bool wants_panel = visible && has_scene;
+    const bool covers_left = wants_panel && !collapsed_;
+    const bool fits_beside = !covers_left || screen.x - panel_right_ >= kLeastWidth + 2.0f * kMargin;
+    const bool has_panel = wants_panel && (fits_beside || !help);
+    const float whole = screen.x - 2.0f * kMargin,
+                above_message = screen.y - 2.0f * kMargin - (has_message ? message_height_ + kMargin : 0.0f);
+    if (has_panel) {
+        const float height = std::max(1.0f, fits_beside ? screen.y - 2.0f * kMargin : above_message);
         ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin));
         ImGui::SetNextWindowSize(ImVec2(kWidth, height), ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowSizeConstraints(ImVec2(std::min(kLeastWidth, whole), height), ImVec2(whole, height));
         draw_panel(document, facts, wishes);
-    } else {
-        panel_right_ = 0.0f;
     }
-    const Strip strip =
-        fits_beside ? Strip{panel_right_ + kMargin, screen.x - kMargin} : Strip{kMargin, screen.x - kMargin};
-    if (help) draw_help(strip, screen.y - 2.0f * kMargin - message_height);
-    if (!message_.empty() || facts.loading) draw_message(strip, has_scene, facts.loading, wishes);
+    const Strip strip{covers_left && fits_beside ? panel_right_ + kMargin : kMargin, screen.x - kMargin};
+    if (help) draw_help(strip, above_message);
+    if (has_message) draw_message(strip, has_scene, facts.loading, wishes);
 }
 
 void Panels::draw_panel(Document& document, const Facts& facts, Wishes& wishes) {
     ImGui::SetNextWindowBgAlpha(0.85f);
     const bool open = ImGui::Begin("Pellucid", nullptr, ImGuiWindowFlags_NoMove);
-    panel_right_ = open ? kMargin + ImGui::GetWindowWidth() : 0.0f;
+    collapsed_ = !open;
     if (open) {
+        panel_right_ = kMargin + ImGui::GetWindowWidth();
         ImGui::PushItemWidth(-110.0f);
         show_progress(facts.right ? "left: " : "", *facts.left);
         if (facts.right) show_progress("right: ", *facts.right);
@@ -208,6 +209,10 @@ void Panels::draw_help(Strip strip, float height) {
     ImGui::Begin("Keys", &help,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
     if (ImGui::BeginTable("keys", 2)) {
+        // A window that fits its contents asks them for their width.
+        const float text = width - 2.0f * ImGui::GetStyle().WindowPadding.x - ImGui::GetStyle().ScrollbarSize;
+        ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 0.42f * text);
+        ImGui::TableSetupColumn("does", ImGuiTableColumnFlags_WidthFixed, 0.53f * text);
         for (const KeyHelp& each : key_help()) {
             ImGui::TableNextColumn();
             ImGui::TextWrapped("%s", each.keys);

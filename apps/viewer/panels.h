@@ -64,7 +64,8 @@ private:
     std::string message_;
     bool message_is_error_ = false;
     double message_until_s_ = 0.0;
-    float panel_right_ = 0.0f, message_height_ = 0.0f;  ///< pixels, of the last frame; 0: there was none
+    float panel_right_ = 0.0f, message_height_ = 0.0f;  ///< pixels, when they were drawn last
+    bool collapsed_ = false;                            ///< the panel
     std::string path_, environment_path_;
 };
 

@@ -129,6 +129,8 @@ Look look_of(const Json& json) {
     if (json.contains("animation")) look.animation = json["animation"].get<std::size_t>();
     read("time_s", look.time_s);
     if (look.samples < 1) throw Error("0 samples");
+    check_technique_name(look.technique);
+    if (!look.other.empty()) check_technique_name(look.other);
     return look;
 }
 

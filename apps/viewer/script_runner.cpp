@@ -46,7 +46,7 @@ void write_report(const std::string& file, Viewer& viewer) {
         {"frames", viewer.frames()},
         {"samples", info.samples},
         {"made", {{"allocations", made.allocations}, {"pipelines", made.pipelines}, {"pools", made.pools}}},
-        {"longest_turn_ms", viewer.longest_turn_ms()},
+        {"longest_turn_ms", viewer.take_longest_turn_ms()},
         {"scale", info.pace.scale},
         {"coarse", info.pace.coarse},
         {"frame_times_ms", viewer.frame_times_ms()},

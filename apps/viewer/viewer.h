@@ -62,8 +62,8 @@ public:
     std::uint64_t frames() const { return frames_; }  ///< images drawn so far
     /// Vulkan objects that the renderer has made so far.
     vulkan::Made made() const { return frames_of_renderer_.made(); }
-    /// The longest that the window has not answered.
-    double longest_turn_ms() const { return longest_turn_ms_; }
+    /// The longest time since the last call that the window did not handle events.
+    double take_longest_turn_ms() { return std::exchange(longest_turn_ms_, 0.0); }
     const std::deque<float>& frame_times_ms() const { return frame_times_ms_; }
     /// From a change of the look until the window has an image of it, of the last changes.
     const std::deque<float>& response_times_ms() const { return response_times_ms_; }
