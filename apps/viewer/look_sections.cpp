@@ -120,7 +120,8 @@ void technique_section(Look& look, const Renderer& renderer) {
         look.samples = std::uint32_t(samples);
     const TechniqueChoice chosen = renderer.choose(look.technique);
     if (chosen.technique->name != look.technique)
-        ImGui::TextDisabled("is %s here", std::string(chosen.technique->name).c_str());
+        ImGui::TextDisabled("%s is %s on this device", look.technique.c_str(),
+                            std::string(chosen.technique->name).c_str());
     if (chosen.technique->parameters.empty()) return;
     if (!ImGui::TreeNode("parameters")) return;
     for (const ParameterInfo& info : chosen.technique->parameters)

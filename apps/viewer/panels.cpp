@@ -159,7 +159,7 @@ void Panels::draw_panel(Document& document, const Facts& facts, Wishes& wishes) 
 void Panels::scene_section(Document& document, Wishes& wishes) {
     if (!ImGui::CollapsingHeader("Scene", ImGuiTreeNodeFlags_DefaultOpen)) return;
     ImGui::TextWrapped("%s", document.scene().source.c_str());
-    ImGui::TextDisabled("%zu objects, %llu triangles", document.scene().objects.size(),
+    ImGui::TextDisabled("objects: %zu, triangles: %llu", document.scene().objects.size(),
                         static_cast<unsigned long long>(document.scene().triangle_count()));
     if (ImGui::InputText("open", &path_, ImGuiInputTextFlags_EnterReturnsTrue)) wishes.open = path_;
     if (ImGui::BeginCombo("shape", "choose")) {

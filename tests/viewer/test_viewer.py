@@ -18,7 +18,7 @@ SKIPPED = 77  # exit code for "nothing could be tested", as viewer.cmake tells c
 PATIENCE_S = 120
 
 # Of the keyboard of Xvfb (evdev)
-KEY_TAB, KEY_F1, KEY_CTRL, KEY_Z = 23, 67, 37, 52
+KEY_ESCAPE, KEY_TAB, KEY_W, KEY_CTRL, KEY_D, KEY_Z, KEY_V, KEY_F1 = 9, 23, 25, 37, 40, 52, 55, 67
 
 
 def start_server():
@@ -133,6 +133,80 @@ class TestWindow(ViewerTest):
         viewer.communicate(timeout=PATIENCE_S)
         self.assertEqual(viewer.returncode, 0)
         self.assertNotEqual(self.read("before.png"), self.read("after.png"))
+
+
+class TestInput(ViewerTest):
+    """Each act is one call of the X client; between two of them the viewer writes its command and what it shows."""
+
+    def play(self, *acts, scene="shape:goblet", size="400x240", options=("--no-panels",), first=()):
+        script = [*first, "wait still", "command command0", "screenshot shot0.png", "mark ready0"]
+        for i in range(1, len(acts) + 1):
+            script += [f"wait file acted{i}", "wait still", f"command command{i}", f"screenshot shot{i}.png", f"mark ready{i}"]
+        viewer = self.start(scene, "--size", size, "--technique", "fast", "--samples", "1", *options, script=script)
+        for i, act in enumerate(acts, 1):
+            self.wait_for(viewer, f"ready{i - 1}")
+            self.x_client(act[0], "Pellucid", *(str(word) for word in act[1:]))
+            self.mark(f"acted{i}")
+        _, err = viewer.communicate(timeout=PATIENCE_S)
+        self.assertEqual(viewer.returncode, 0, err)
+        return [self.read(f"command{i}").decode() for i in range(len(acts) + 1)]
+
+    @staticmethod
+    def orbit(command):
+        """Azimuth, elevation, distance and, where it is not the centre, the target."""
+        return [float(x) for x in command.split("orbit:")[1].split()[0].split(",")]
+
+    def test_the_wheel_zooms(self):
+        start, near, back = map(self.orbit, self.play(("wheel", 200, 120, 3), ("wheel", 200, 120, -3)))
+        self.assertLess(near[2], 0.8 * start[2])
+        self.assertAlmostEqual(back[2], start[2], places=3)
+
+    def test_the_right_button_looks_around_and_the_middle_one_pans(self):
+        start, looked, panned = map(self.orbit, self.play(("drag", 200, 120, 260, 120, 3), ("drag", 200, 120, 200, 90, 2)))
+        self.assertNotEqual(start[0], looked[0])
+        self.assertEqual(len(looked), 6)
+        self.assertEqual(looked[:3], panned[:3])
+        self.assertNotEqual(looked[3:], panned[3:])
+
+    def test_keys_fly_as_long_as_they_are_held(self):
+        start, forward, right, undone = self.play(("hold", KEY_W, 600), ("hold", KEY_D, 600), ("keys", KEY_CTRL, KEY_Z))
+        self.assertNotEqual(start, forward)
+        self.assertNotEqual(forward, right)
+        self.assertEqual(undone, forward)  # one step of the history for each key
+
+    def test_the_divider_is_dragged(self):
+        acts = [("drag", 200, 120, 100, 120), ("keys", KEY_V), ("keys", KEY_V)]
+        commands = self.play(*acts, first=["split one-interface 0.5"])
+        self.assertEqual(commands[0], commands[1])  # the camera stays
+        self.assertIn("right of the divider", commands[1])
+        self.assertNotIn("right of the divider", commands[2])
+        self.assertNotEqual(self.read("shot0.png"), self.read("shot1.png"))
+        self.assertEqual(self.read("shot1.png"), self.read("shot3.png"))
+
+    def test_files_are_dropped_into_the_window(self):
+        model = self.path("a cube 100%.obj")
+        with open(model, "w", encoding="utf-8") as file:
+            for i in range(8):
+                file.write(f"v {i & 1} {i >> 1 & 1} {i >> 2}\n")
+            for face in ("1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"):
+                file.write(f"f {face}\n")
+        broken = self.path("broken.obj")
+        with open(broken, "w", encoding="utf-8") as file:
+            file.write("v 1 2\nf 1 2 3\n")
+        commands = self.play(("drop", model), ("drop", broken))
+        self.assertIn("a cube 100%.obj", commands[1])
+        self.assertEqual(commands[1], commands[2])
+        self.assertNotEqual(self.read("shot1.png"), self.read("shot2.png"))  # the message
+
+    def test_escape_cancels_loading(self):
+        script = ["wait still", "open shape:sphere,segments=900", "mark ready", "wait still", "expect-no-message",
+                  "report report.json"]
+        viewer = self.start("shape:goblet", "--size", "300x200", "--technique", "fast", "--samples", "1", script=script)
+        self.wait_for(viewer, "ready")
+        self.x_client("keys", "Pellucid", str(KEY_ESCAPE))
+        viewer.communicate(timeout=PATIENCE_S)
+        self.assertEqual(viewer.returncode, 0)
+        self.assertEqual(self.report("report.json")["scene"], "shape:goblet")
 
 
 class TestScripts(ViewerTest):
