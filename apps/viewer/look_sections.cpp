@@ -86,6 +86,11 @@ std::string labelled(std::string_view kind, std::size_t index, const std::string
     return fmt::format("{} {}{}{}##{}", kind, index, name.empty() ? "" : ": ", one_line(name), index);
 }
 
+/// A node of the tree, which is open from the start where there is only one.
+bool list_entry(std::string_view kind, std::size_t index, const std::string& name, std::size_t count) {
+    return ImGui::TreeNodeEx(labelled(kind, index, name).c_str(), count == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
 void edit_direction(glm::vec3& direction) {
     float elevation = glm::degrees(std::asin(std::clamp(-direction.y, -1.0f, 1.0f)));
     float azimuth = glm::degrees(std::atan2(-direction.x, -direction.z));
@@ -171,7 +176,7 @@ void material_section(Document& document) {
     if (!ImGui::CollapsingHeader("Materials")) return;
     const auto& materials = document.scene().materials;
     for (std::size_t i = 0; i < materials.size(); ++i) {
-        if (!ImGui::TreeNode(labelled("material", i, materials[i].name).c_str())) continue;
+        if (!list_entry("material", i, materials[i].name, materials.size())) continue;
         edit_material(materials[i], document.look.materials[i], std::max(document.bounds().radius, 1e-6f));
         ImGui::TreePop();
     }
@@ -188,7 +193,7 @@ void light_section(Document& document) {
     const auto& lights = document.scene().lights;
     const float radius = std::max(document.bounds().radius, 1e-6f);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (!ImGui::TreeNode(labelled("light", i, lights[i].name).c_str())) continue;
+        if (!list_entry("light", i, lights[i].name, lights.size())) continue;
         LightLook& light = look.lights[i];
         ImGui::DragFloat3("intensity", &light.intensity.x, 0.02f, 0.0f, 1e6f, "%.3g", ImGuiSliderFlags_AlwaysClamp);
         if (lights[i].kind != Light::Kind::kDirectional)

@@ -89,6 +89,7 @@ const std::vector<KeyHelp>& key_help() {
         {"Ctrl+C", "copy the equal pellucid render command"},
         {"F12", "save what the window shows"},
         {"Esc", "cancel loading; no ray, no message"},
+        {"Drag a number", "change it; Ctrl+click: type it"},
         {"F1", "these keys"},
         {"Ctrl+Q", "quit"},
     };

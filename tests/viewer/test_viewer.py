@@ -183,6 +183,14 @@ class TestInput(ViewerTest):
         self.assertNotEqual(self.read("shot0.png"), self.read("shot1.png"))
         self.assertEqual(self.read("shot1.png"), self.read("shot3.png"))
 
+    def test_a_number_of_a_material_is_dragged(self):
+        acts = [("drag", 100, 366, 100, 366), ("drag", 100, 452, 130, 452), ("keys", KEY_CTRL, KEY_Z)]
+        closed, opened, dragged, undone = self.play(*acts, size="500x480", options=())
+        self.assertNotEqual(self.read("shot0.png"), self.read("shot1.png"))  # the section is open
+        self.assertEqual(closed, opened)
+        self.assertIn("--ior 1.65", dragged)
+        self.assertEqual(undone, opened)
+
     def test_files_are_dropped_into_the_window(self):
         model = self.path("a cube 100%.obj")
         with open(model, "w", encoding="utf-8") as file:
