@@ -21,6 +21,7 @@ struct PictureInfo {
     std::uint32_t samples = 0, samples_wanted = 0;
     Pace pace{};            ///< that it was drawn at
     double frame_ms = 0.0;  ///< from its submission until it was there
+    double still_ms = 0.0;  ///< likewise from the first sample of a finished image to the last
     std::vector<PassTime> passes;
     std::vector<std::string> warnings;
     std::vector<std::string> overflows;
@@ -79,6 +80,7 @@ private:
     std::uint64_t shown_generation_ = 0;
     bool shown_still_ = false;
     std::uint64_t failed_generation_ = 0;
+    Clock::time_point still_start_{};  ///< of the first sample of the finished image
     PictureInfo info_;
 };
 

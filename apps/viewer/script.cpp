@@ -53,7 +53,7 @@ constexpr std::array kCommands{
     Command{"size", "WxH", 1, 1},
     Command{"minimize", "", 0, 0},
     Command{"restore", "", 0, 0},
-    Command{"wait", "still|frames N|file FILE", 1, 2},
+    Command{"wait", "still|frames N|seconds S|file FILE", 1, 2},
     Command{"mark", "FILE", 1, 1},
     Command{"expect-message", "TEXT", 1, 1},
     Command{"expect-no-message", "", 0, 0},

@@ -47,6 +47,7 @@ void write_report(const std::string& file, Viewer& viewer) {
         {"samples", info.samples},
         {"made", {{"allocations", made.allocations}, {"pipelines", made.pipelines}, {"pools", made.pools}}},
         {"longest_turn_ms", viewer.take_longest_turn_ms()},
+        {"still_ms", info.still_ms},
         {"scale", info.pace.scale},
         {"coarse", info.pace.coarse},
         {"frame_times_ms", viewer.frame_times_ms()},
@@ -249,14 +250,19 @@ bool ScriptRunner::waited(const ScriptLine& line, Viewer& viewer) {
     } else if (what == "frames" && line.arguments.size() == 2) {
         if (!waits_for_frame_) waits_for_frame_ = viewer.frames() + std::uint64_t(std::max(0.0, number_at(line, 1)));
         over = viewer.frames() >= *waits_for_frame_;
+    } else if (what == "seconds" && line.arguments.size() == 2) {
+        const auto now = std::chrono::steady_clock::now();
+        if (!waits_until_) waits_until_ = now + std::chrono::microseconds(std::int64_t(1e6 * number_at(line, 1)));
+        over = now >= *waits_until_;
     } else if (what == "file" && line.arguments.size() == 2) {
         over = std::filesystem::exists(line.arguments[1]);
     } else {
-        throw Error("should be: wait still|frames N|file FILE");
+        throw Error("should be: wait still|frames N|seconds S|file FILE");
     }
     if (!over) return false;
     turns_ = 0;
     waits_for_frame_.reset();
+    waits_until_.reset();
     return true;
 }
 

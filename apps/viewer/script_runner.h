@@ -3,6 +3,8 @@
 #include "viewer/script.h"
 #include "viewer/viewer.h"
 
+#include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ private:
     std::string name_;
     std::size_t next_ = 0;
     std::optional<std::uint64_t> waits_for_frame_;
+    std::optional<std::chrono::steady_clock::time_point> waits_until_;
     int turns_ = 0;  ///< that the line has waited for
 };
 
