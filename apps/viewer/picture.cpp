@@ -52,6 +52,7 @@ bool Picture::take() {
     if (flight.still && report->samples == 1) still_start_ = flight.start;
     if (flight.still && report->samples == wanted_->samples)
         info_.still_ms = std::chrono::duration<double, std::milli>(Clock::now() - still_start_).count();
+    info_.moving = !flight.still;
     info_.pace = flight.pace;
     info_.passes = std::move(report->passes);
     info_.warnings = std::move(report->warnings);

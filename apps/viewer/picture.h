@@ -19,6 +19,7 @@ namespace pellucid::viewer {
 /// What is known of the image that a Picture shows.
 struct PictureInfo {
     std::uint32_t samples = 0, samples_wanted = 0;
+    bool moving = false;    ///< drawn while something moved
     Pace pace{};            ///< that it was drawn at
     double frame_ms = 0.0;  ///< from its submission until it was there
     double still_ms = 0.0;  ///< likewise from the first sample of a finished image to the last

@@ -142,6 +142,8 @@ bool Viewer::take_pictures() {
     for (Picture* picture : {&left_, &right_}) {
         if (!picture->take()) continue;
         ++frames_;
+        // The next change follows what is seen of this one, however slow the device is.
+        if (picture->info().moving) moved_at_ = Clock::now();
         if (picture == &left_) {
             response_to_ = std::exchange(shows_change_of_, std::nullopt);
             frame_times_ms_.push_back(float(picture->info().frame_ms));
