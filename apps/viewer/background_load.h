@@ -3,7 +3,6 @@
 #include <chrono>
 #include <functional>
 #include <future>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -24,14 +23,13 @@ public:
     }
     void cancel() { value_ = {}; }
     bool busy() const { return value_.valid(); }
-    /// Of the value that is being loaded, as given to start().
+    /// As given to start().
     const std::string& name() const { return name_; }
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-    /// The value, once and as soon as it is loaded. Throws what `load` has thrown.
-    std::optional<Value> take() {
-        if (!busy() || value_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
-        return std::exchange(value_, {}).get();
-    }
+    /// The load has ended.
+    bool ready() const { return busy() && value_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+    /// The value of a load that is ready(). Throws what `load` has thrown.
+    Value take() { return std::exchange(value_, {}).get(); }
 
 private:
     std::string name_;

@@ -1,13 +1,17 @@
 #include "viewer/document.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <new>
+#include <utility>
 
 namespace pellucid::viewer {
 namespace {
 
 constexpr std::size_t kMostSteps = 256;
 
-/// Of the old look what has nothing to do with the scene.
+/// Copies from the old look all that is independent of the scene.
 void keep(Look& look, const Look& old) {
     look.technique = old.technique;
     look.other = old.other;
@@ -28,11 +32,21 @@ void keep(Look& look, const Look& old) {
 
 }  // namespace
 
-LoadedScene load_document_scene(const std::string& source, const cli::SceneArguments& how) {
+LoadedScene load_document_scene(const std::string& source, const cli::SceneArguments& how) try {
     LoadedScene loaded{.scene = cli::load_given_scene(source, how), .how = how};
     loaded.bounds = scene_bounds(loaded.scene);
     loaded.animations = pellucid::animations(loaded.scene);
     return loaded;
+} catch (const std::bad_alloc&) {
+    throw Error(fmt::format("{}: there is not enough memory", source));
+}
+
+LoadedEnvironment load_document_environment(const std::string& name_or_file) try {
+    LoadedEnvironment loaded;
+    loaded.environment = load_environment(name_or_file, &loaded.warning);
+    return loaded;
+} catch (const std::bad_alloc&) {
+    throw Error(fmt::format("{}: there is not enough memory", name_or_file));
 }
 
 void Document::show(LoadedScene loaded, std::uint32_t width, std::uint32_t height) {
@@ -76,7 +90,9 @@ bool Document::redo() {
 
 bool Document::fits(const Look& other) const {
     return other.materials.size() == scene().materials.size() && other.lights.size() == scene().lights.size() &&
-           (!other.animation || *other.animation < animations().size());
+           (!other.animation || *other.animation < animations().size()) &&
+           (other.file_camera.empty() ||
+            std::ranges::any_of(scene().cameras, [&](const Camera& each) { return each.name == other.file_camera; }));
 }
 
 }  // namespace pellucid::viewer

@@ -24,6 +24,9 @@ struct LoadedEnvironment {
     std::string warning;  ///< empty: none
 };
 
+/// Throws Error.
+LoadedEnvironment load_document_environment(const std::string& name_or_file);
+
 /// A loaded scene, a loaded environment, and the look that the user gives them, with its history.
 class Document {
 public:
@@ -48,7 +51,7 @@ public:
     /// False: there is nothing to undo.
     bool undo();
     bool redo();
-    /// `look` fits to the scene: it has as many materials, lights and animations.
+    /// `look` fits to the scene: it has as many materials, lights and animations, and the camera.
     bool fits(const Look& other) const;
 
 private:

@@ -26,6 +26,7 @@ void FramePace::restart(bool has_coarse) {
 }
 
 void FramePace::go(Pace pace) {
+    if (!(pace == pace_)) ++changes_;
     pace_ = pace;
     times_ms_.clear();
 }

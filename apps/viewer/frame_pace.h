@@ -24,6 +24,7 @@ public:
     /// A frame that was drawn at pace() took so long.
     void measured(double frame_ms);
     Pace pace() const { return pace_; }
+    std::uint64_t changes() const { return changes_; }  ///< of the pace so far
     double median_ms() const;
 
 private:
@@ -32,6 +33,7 @@ private:
     double target_ms_;
     bool has_coarse_ = false;
     Pace pace_{.scale = 0.5f};
+    std::uint64_t changes_ = 0;
     std::deque<double> times_ms_;  ///< of the last frames at this pace
 };
 

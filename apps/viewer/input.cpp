@@ -9,11 +9,11 @@
 namespace pellucid::viewer {
 namespace {
 
-constexpr float kDegreesAcross = 240.0f;  ///< that a drag over the window's height turns the camera
-constexpr float kLookAcross = 90.0f;      ///< likewise, where it stands
-constexpr float kZoomStep = 1.15f;        ///< of a step of the wheel
-constexpr float kRadiiPerSecond = 0.8f;   ///< of flying
-constexpr float kMostFlySeconds = 0.1f;   ///< of a frame: the first one follows a pause
+constexpr float kDegreesAcross = 240.0f;  ///< turn of an orbit for a drag over the window's height
+constexpr float kLookAcross = 90.0f;      ///< turn of the view for a drag over the window's height
+constexpr float kZoomStep = 1.15f;        ///< factor of one step of the wheel
+constexpr float kRadiiPerSecond = 0.8f;   ///< speed of flying
+constexpr float kMostFlySeconds = 0.1f;   ///< longest step of flying: the first frame follows a pause
 constexpr float kDividerPixels = 6.0f;    ///< where the divider can be taken
 
 /// A camera of the file becomes an orbit camera once it is moved.

@@ -4,7 +4,7 @@
 
 namespace pellucid::viewer {
 
-/// What mouse and keys do to the image under the panels, from one frame to the next.
+/// Moves the camera and the divider, and grants keys, from one frame to the next.
 class Input {
 public:
     /// To be called between Gui::begin_frame() and Gui::end_frame(), after the panels. `inspect` gets a pixel of the window

@@ -11,7 +11,7 @@
 
 namespace pellucid::viewer {
 
-/// What can be changed of a material.
+/// The editable values of a material.
 struct MaterialLook {
     float ior = 1.5f;
     float dispersion = 0.0f;  ///< 20 / Abbe number
@@ -25,7 +25,7 @@ struct MaterialLook {
 MaterialLook look_of(const Material& material);
 void apply(const MaterialLook& look, Material& material);
 
-/// What can be changed of a light.
+/// The editable values of a light.
 struct LightLook {
     glm::vec3 intensity{1.0f};
     glm::vec3 position{0.0f};
@@ -37,7 +37,7 @@ struct LightLook {
 LightLook look_of(const Light& light);
 void apply(const LightLook& look, Light& light);
 
-/// What the window shows of a scene, and all that can be undone.
+/// Everything about the image that the user can change and undo.
 struct Look {
     std::string technique = RenderSettings{}.technique;  ///< or a preset
     std::string other;                                   ///< right of the divider; empty: there is no divider
@@ -60,7 +60,7 @@ struct Look {
     OrbitCamera camera;
     std::string file_camera;              ///< of the scene, in place of `camera`; empty: none
     std::vector<MaterialLook> materials;  ///< one for each of the scene
-    std::vector<LightLook> lights;        ///< likewise
+    std::vector<LightLook> lights;        ///< one for each of the scene
     std::optional<std::size_t> animation;
     double time_s = 0.0;  ///< of the animation
 
@@ -70,7 +70,7 @@ struct Look {
 /// The look of a scene as its file has it.
 Look look_of(const Scene& scene);
 
-/// Of `technique`, one of the two of the look.
+/// The settings of an image by `technique`, which is one of the two of the look.
 RenderSettings settings_of(const Look& look, const std::string& technique, std::uint32_t width, std::uint32_t height);
 
 /// The camera that the look shows. `bounds`: of the scene at rest.

@@ -49,7 +49,7 @@ std::optional<ScriptRunner> script_of(const Options& options) {
     }
 }
 
-/// What the start before has left; nothing where it is not wanted or cannot be read.
+/// The state that the last start has kept, if it is wanted and can be read.
 std::optional<SavedState> saved_state(const Options& options) {
     if (!options.keeps_state() || state_file().empty()) return std::nullopt;
     const std::optional<std::string> text = read_text(state_file());

@@ -77,7 +77,7 @@ const std::vector<KeyHelp>& key_help() {
         {"Middle drag, Shift+left drag", "pan"},
         {"Wheel", "zoom"},
         {"Right drag", "look around"},
-        {"W A S D Q E", "fly"},
+        {"W A S D Q E", "fly: forward, left, back, right, down, up"},
         {"F", "frame the scene"},
         {"Ctrl+click", "the ray of a pixel"},
         {"Space", "play or stop the animation"},

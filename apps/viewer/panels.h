@@ -11,7 +11,7 @@
 
 namespace pellucid::viewer {
 
-/// What the user asked for by a button or a key.
+/// Actions that the user has asked for by a button or a key.
 struct Wishes {
     bool undo = false, redo = false, save = false, copy_command = false, frame = false, screenshot = false,
          close = false, cancel = false;
@@ -24,7 +24,7 @@ struct LoadingProgress {
     double seconds = 0.0;  ///< so far
 };
 
-/// What the panels show and do not change.
+/// Values that the panels show and do not change.
 struct Facts {
     const Renderer* renderer;
     const PictureInfo* left;

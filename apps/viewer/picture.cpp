@@ -53,6 +53,7 @@ bool Picture::take() {
     if (flight.still && report->samples == wanted_->samples)
         info_.still_ms = std::chrono::duration<double, std::milli>(Clock::now() - still_start_).count();
     info_.moving = !flight.still;
+    info_.pace_changes = pace_.changes();
     info_.pace = flight.pace;
     info_.passes = std::move(report->passes);
     info_.warnings = std::move(report->warnings);
@@ -80,7 +81,7 @@ void Picture::submit(const std::function<void()>& wait_for_reads) {
             settings.parameters.clear();
         }
     }
-    // Of three images one is shown, and the window may still be reading the one before it.
+    // One of the three images is shown, and the window may still read the one before it.
     std::size_t target = 0;
     while (shown_ == target) ++target;
     DeviceImage& image = targets_[target];

@@ -16,13 +16,14 @@
 
 namespace pellucid::viewer {
 
-/// What is known of the image that a Picture shows.
+/// Facts about the image that a Picture shows.
 struct PictureInfo {
     std::uint32_t samples = 0, samples_wanted = 0;
-    bool moving = false;    ///< drawn while something moved
-    Pace pace{};            ///< that it was drawn at
-    double frame_ms = 0.0;  ///< from its submission until it was there
-    double still_ms = 0.0;  ///< likewise from the first sample of a finished image to the last
+    bool moving = false;             ///< drawn while something moved
+    Pace pace{};                     ///< resolution and technique
+    std::uint64_t pace_changes = 0;  ///< so far
+    double frame_ms = 0.0;           ///< from its submission until the viewer knew that it had run
+    double still_ms = 0.0;           ///< from the first submission of the last finished image to its last sample
     std::vector<PassTime> passes;
     std::vector<std::string> warnings;
     std::vector<std::string> overflows;
@@ -35,7 +36,7 @@ public:
     /// Frames may be shared by several pictures, which take turns: one of them is finished before the next begins.
     Picture(Gpu& gpu, vulkan::Frames& frames);
 
-    /// What the image is to show. `revision` ascends when the scene, its camera or its environment change.
+    /// Sets what the image shows. `revision` ascends when the scene, its camera or its environment change.
     void want(const RenderSettings& settings, bool moving, std::uint64_t revision);
     /// Takes what has been drawn. True: there is another image to show. Throws Error for what cannot be drawn.
     bool take();

@@ -8,7 +8,7 @@
 
 namespace pellucid::viewer {
 
-/// What is kept between two starts.
+/// The state that the viewer keeps between two starts.
 struct SavedState {
     std::string scene;  ///< as load_scene() takes it
     std::uint32_t width = 960, height = 540;

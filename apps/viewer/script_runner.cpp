@@ -50,6 +50,7 @@ void write_report(const std::string& file, Viewer& viewer) {
         {"still_ms", info.still_ms},
         {"scale", info.pace.scale},
         {"coarse", info.pace.coarse},
+        {"pace_changes", info.pace_changes},
         {"frame_times_ms", viewer.frame_times_ms()},
         {"response_times_ms", viewer.response_times_ms()},
         {"resident_bytes", resident_bytes()},

@@ -8,7 +8,7 @@
 namespace pellucid::viewer {
 namespace {
 
-/// What the pose has moved, as the scene has it at rest.
+/// Replaces placements and vertices of the pose by those of the scene at rest.
 void rest(const Scene& scene, Pose& pose) {
     for (PosedObject& object : pose.objects)
         object.world_from_object = scene.objects[std::size_t(object.object)].world_from_object;
@@ -80,7 +80,7 @@ bool Stage::apply_pose(const Document& document) {
         return std::exchange(scene_.objects[std::size_t(each.object)].world_from_object, each.world_from_object) ==
                each.world_from_object;
     });
-    // What is scaled to nothing has no inverse: it keeps its last placement.
+    // Objects that are scaled to nothing have no inverse. They keep their last placement.
     std::erase_if(pose.objects, [](const PosedObject& each) {
         return !(std::abs(glm::determinant(glm::mat3(each.world_from_object))) > 0.0f);
     });

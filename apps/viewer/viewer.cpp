@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace pellucid::viewer {
@@ -41,6 +42,14 @@ Viewer::Viewer(const cli::DeviceArguments& device, std::uint32_t width, std::uin
     : gpu_(device.device, device.validate), window_(gpu_, "Pellucid", width, height), gui_(gpu_, window_),
       renderer_(gpu_.lent(), device.threads), frames_of_renderer_(renderer_), stage_(renderer_),
       left_(gpu_, frames_of_renderer_), right_(gpu_, frames_of_renderer_) {}
+
+Viewer::~Viewer() {
+    try {
+        finish_pictures();  // a frame in flight writes to images that are destroyed before the renderer
+    } catch (...) {
+        std::fputs("pellucid-view: the last frame failed\n", stderr);
+    }
+}
 
 void Viewer::attempt(const std::function<void()>& action, const OnFailure& failed) {
     const auto report = [&](const std::string& why) {

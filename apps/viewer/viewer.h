@@ -31,6 +31,7 @@ struct Opening {
 class Viewer {
 public:
     Viewer(const cli::DeviceArguments& device, std::uint32_t width, std::uint32_t height);
+    ~Viewer();
 
     Document& document() { return document_; }
     Panels& panels() { return panels_; }
@@ -53,7 +54,7 @@ public:
     void turn(bool wait);
     /// Nothing moves, and the image has all of its samples.
     bool still() const;
-    /// What the window shows now, RGB 0..1. Empty where it has no pixels.
+    /// The pixels of the window, RGB 0..1. Empty where it has none.
     Image screenshot();
     /// The image without panels, RGB 0..1.
     Image image();

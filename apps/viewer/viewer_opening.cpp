@@ -37,6 +37,7 @@ void Viewer::open_environment(const std::string& name_or_file, OnFailure failed)
 void Viewer::cancel_loading() {
     scene_load_.cancel();
     environment_load_.cancel();
+    environment_failed_ = {};
     document_.look.environment = document_.environment_name();
     turns_to_draw_ = kLateTurns;
 }
@@ -46,49 +47,42 @@ bool Viewer::loading() const {
 }
 
 std::optional<LoadingProgress> Viewer::progress() const {
+    if (!loading()) return std::nullopt;
     if (scene_load_.busy()) return LoadingProgress{scene_load_.name(), scene_load_.seconds()};
-    if (environment_load_.busy()) return LoadingProgress{environment_load_.name(), environment_load_.seconds()};
-    return std::nullopt;
+    return LoadingProgress{document_.look.environment, environment_load_.seconds()};
 }
 
 /// Shows what has been loaded since the last turn.
 void Viewer::take_loaded() {
-    attempt([&] { load_environment(); },
-            [&](const std::string& why) {
-                document_.look.environment = document_.environment_name();
-                if (environment_failed_)
-                    environment_failed_(why);
-                else
-                    panels_.say(why, true);
-            });
+    load_environment();
+    if (!scene_load_.ready()) return;
+    const Opening opening = std::exchange(opening_, {});  // functions of it may open another file
     attempt(
         [&] {
-            std::optional<LoadedScene> loaded = scene_load_.take();
-            if (!loaded) return;
-            show(std::move(*loaded));
-            if (opening_.then) opening_.then();
+            show(scene_load_.take());
+            if (opening.then) opening.then();
         },
-        opening_.failed);
+        opening.failed);
 }
 
-/// The look names the environment that is wanted, which undo changes, too.
+/// Loads the environment that the look names. Undo changes that name, too.
 void Viewer::load_environment() {
-    const std::string& wanted = document_.look.environment;
-    if (wanted == document_.environment_name()) {
-        environment_load_.cancel();
-        return;
-    }
-    if (!environment_load_.busy() || environment_load_.name() != wanted) {
-        environment_load_.start(wanted, [wanted] {
-            LoadedEnvironment loaded;
-            loaded.environment = pellucid::load_environment(wanted, &loaded.warning);
-            return loaded;
+    const std::string wanted = document_.look.environment;
+    if (wanted == document_.environment_name()) return;
+    if (!environment_load_.busy() || environment_load_.name() != wanted)
+        environment_load_.start(wanted, [wanted] { return load_document_environment(wanted); });
+    if (!environment_load_.ready()) return;
+    const OnFailure failed = std::exchange(environment_failed_, {});
+    attempt(
+        [&] {
+            LoadedEnvironment loaded = environment_load_.take();
+            document_.show(wanted, std::move(loaded.environment));
+            if (!loaded.warning.empty()) panels_.say(loaded.warning, false);
+        },
+        [&](const std::string& why) {
+            document_.look.environment = document_.environment_name();
+            failed ? failed(why) : panels_.say(why, true);
         });
-    }
-    std::optional<LoadedEnvironment> loaded = environment_load_.take();
-    if (!loaded) return;
-    document_.show(wanted, std::move(loaded->environment));
-    if (!loaded->warning.empty()) panels_.say(loaded->warning, false);
 }
 
 void Viewer::show(LoadedScene loaded) {
