@@ -496,7 +496,7 @@ TEST_F(FramesTest, WhatIsSetIsSeenByTheNextFrame) {
     const Camera camera = orbit_camera(scene_bounds(scene), 20.0f, 20.0f, 4.0f, 0.6f);
     renderer().set_camera(camera);
     const Screen shown = screen(vk::Format::eR8G8B8A8Unorm);
-    for (const char* technique : {"visibility-layers", "balanced", "wyman-2005"}) {
+    for (const char* technique : {"balanced", "wyman-2005"}) {
         SCOPED_TRACE(technique);
         RenderSettings settings = settings_of(technique);
         settings.light.transport = LightTransport::kDirect;
