@@ -77,6 +77,14 @@ void check_target(const Target& target) {
     if (target.offset.x < 0 || target.offset.y < 0) throw Error("a frame's first texel lies outside of its target");
 }
 
+void check_frame(const RenderSettings& settings, const Target& target, const Background* background,
+                 const Device& device) {
+    check_settings(settings, device);
+    check_frame_settings(settings);
+    check_target(target);
+    check_background(background, settings);
+}
+
 }  // namespace
 
 struct Frames::Impl {
@@ -366,10 +374,7 @@ std::string Frames::unrecordable(const RenderSettings& settings) const {
 
 Ticket Frames::record(VkCommandBuffer commands, const RenderSettings& settings, const Target& target,
                       const Background* background) {
-    check_settings(settings, impl_->of.device);
-    check_frame_settings(settings);
-    check_target(target);
-    check_background(background, settings);
+    check_frame(settings, target, background, impl_->of.device);
     if (const std::string why = unrecordable(settings); !why.empty()) throw Error("cannot be recorded: " + why);
     Impl::Slot& slot = impl_->free_slot();
     slot.submitted = false;
@@ -387,10 +392,7 @@ Ticket Frames::record(VkCommandBuffer commands, const RenderSettings& settings, 
 
 Ticket Frames::submit(const RenderSettings& settings, const Target& target, std::span<const SemaphoreValue> wait,
                       std::span<const SemaphoreValue> signal, const Background* background) {
-    check_settings(settings, impl_->of.device);
-    check_frame_settings(settings);
-    check_target(target);
-    check_background(background, settings);
+    check_frame(settings, target, background, impl_->of.device);
     Impl::Slot& slot = impl_->free_slot();
     slot.submitted = true;
     slot.recorder.restart();
