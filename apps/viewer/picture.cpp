@@ -16,8 +16,7 @@ bool Picture::stays_equal(const RenderSettings& s) const {
     return wanted_ && wanted_->width == s.width && wanted_->height == s.height && wanted_->technique == s.technique &&
            wanted_->parameters == s.parameters && wanted_->view == s.view && wanted_->samples == s.samples &&
            wanted_->tonemap == s.tonemap && wanted_->exposure_ev == s.exposure_ev &&
-           wanted_->light.transport == s.light.transport && wanted_->light.shadows == s.light.shadows &&
-           wanted_->light.bounces == s.light.bounces;
+           wanted_->light == s.light;
 }
 
 void Picture::want(const RenderSettings& settings, bool moving, std::uint64_t revision) {

@@ -121,14 +121,13 @@ struct Made {
     std::uint64_t pools = 0;  ///< of commands, descriptors and queries
 };
 
-/// Frames of a Renderer, which has one such object at a time, that run while the caller goes on. Not thread safe; used by the thread that uses the renderer, which
-/// outlives it. While a ticket has not been read, Renderer::render() and set_scene() throw Error; the other setters do not
+/// Frames of a Renderer that run while the caller goes on. A renderer, which outlives them, has one such object at a time. Not
+/// thread safe; used by the thread that uses the renderer. While a ticket has not been read, Renderer::render() and set_scene() throw Error; the other setters do not
 /// wait, and hold for the frames after them.
 ///
 /// RenderSettings::samples frames of equal settings, of a scene that does not change, make a picture together: each adds a
 /// sample, and what its target gets is their mean, in the end that of Renderer::render(), bit for bit (of technique `path`: to
-/// rounding). Frames after that
-/// show it again. With `samples` 1 every frame is a picture. AOVs, `error`, `paths` and the tone map kKrawczyk are of
+/// rounding). Frames after that show it again. With `samples` 1 every frame is a picture. AOVs, `error`, `paths` and the tone map kKrawczyk are of
 /// stills: frames refuse them.
 class PELLUCID_API Frames {
 public:
@@ -139,7 +138,7 @@ public:
     Frames(const Frames&) = delete;
     Frames& operator=(const Frames&) = delete;
 
-    /// Why record() would refuse these settings, in words that follow "cannot be recorded: "; empty: it would not.
+    /// Why the technique that they name cannot be recorded, in words that follow "cannot be recorded: "; empty: it can.
     std::string unrecordable(const RenderSettings& settings) const;
 
     /// Records a frame into `commands`, which are recording, outside of a render pass, for the renderer's queue family. Does

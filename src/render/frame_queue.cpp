@@ -1,8 +1,5 @@
 #include "render/frame_queue.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace pellucid {
 namespace {
 
@@ -112,11 +109,6 @@ void FrameQueue::wait(FrameRun& run) {
         changed_.wait(lock, [&] { return run.submitted; });
     }
     wait_for(device_, *run.fence);
-}
-
-void FrameQueue::drain() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return waiting_.empty(); });
 }
 
 }  // namespace pellucid

@@ -35,11 +35,9 @@ public:
 
     /// `run` lives until it has run.
     void submit(FrameRun& run);
-    /// Throws what went wrong in it.
+    /// FrameRun::failure is then what went wrong in it.
     bool has_run(FrameRun& run);
     void wait(FrameRun& run);
-    /// Until nothing on the host is left to do.
-    void drain();
 
 private:
     void work();

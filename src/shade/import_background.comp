@@ -1,5 +1,5 @@
 #version 460
-// The caller's depths become distances along the view's axis, and what the caller has drawn joins the opaque surfaces.
+// The caller's depths become distances along the view's axis.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/frame.glsl"

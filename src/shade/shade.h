@@ -38,7 +38,7 @@ ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& 
 const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers,
                       const ThinWalls& walls, const Refraction& refraction, View view);
 
-/// Pixels with glass, by Status, and those where shading and geometric normal disagreed about the side.
+/// Twin in count_events.comp. Pixels with glass, by Status, and those where shading and geometric normal disagreed about the side.
 struct EventCounts {
     std::uint32_t side_conflicts;
     std::uint32_t statuses[7];

@@ -27,7 +27,7 @@ TEST(SavedState, ComesBackAsItWas) {
     look.exposure_ev = -1.25f;
     look.transport = LightTransport::kDirect;
     look.shadows = Shadows::kTinted;
-    look.environment = "/tmp/a b.hdr";
+    look.environment = "maps/a b.hdr";
     look.environment_rotation_deg = 90.5;
     look.camera = {{0.1f, 0.2f, 0.3f}, 12.5f, -33.0f, 2.7f, 44.0f};
     look.materials = {{1.7f, 0.1f, 0.2f, {0.1f, 0.9f, 0.5f}, 0.03f, {1, 1, 0.5f}}, {}};
