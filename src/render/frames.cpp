@@ -316,7 +316,9 @@ FrameReport Frames::Impl::finish(Slot& slot) {
         try {
             std::rethrow_exception(slot.run.failure);
         } catch (const TracingStopped&) {
-            return {.light = slot.light};
+            FrameReport stopped;
+            stopped.light = slot.light;
+            return stopped;
         }
     }
     FrameReport report;
