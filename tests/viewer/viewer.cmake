@@ -20,6 +20,7 @@ if(TARGET pellucid_viewer AND XCB_FOUND)
         add_test(NAME viewer.${class} COMMAND Python3::Interpreter ${file} ${class})
         set_tests_properties(viewer.${class} PROPERTIES
             ENVIRONMENT "PELLUCID_VIEWER=$<TARGET_FILE:pellucid_viewer>;PELLUCID_BINARY=$<TARGET_FILE:pellucid_cli>;PELLUCID_X_CLIENT=$<TARGET_FILE:x_client>;PYTHONDONTWRITEBYTECODE=1;${pellucid_test_cache}"
-            SKIP_RETURN_CODE 77 TIMEOUT 600)
+            SKIP_RETURN_CODE 77)
+        pellucid_label_tests(${PROJECT_SOURCE_DIR}/tests viewer.${class})
     endforeach()
 endif()
