@@ -78,7 +78,7 @@ void ProgramInterface::add(ShaderCode shader, vk::ShaderStageFlagBits stage) {
     stages |= stage;
 }
 
-std::string ProgramInterface::lacking(const vk::PhysicalDeviceLimits& limits) const {
+ProgramNeeds ProgramInterface::needs() const {
     using Type = vk::DescriptorType;
     const auto most_in_a_stage = [&](std::initializer_list<Type> types) {
         std::uint32_t most = 0;
@@ -89,18 +89,22 @@ std::string ProgramInterface::lacking(const vk::PhysicalDeviceLimits& limits) co
         }
         return most;
     };
+    return {.storage_buffers = most_in_a_stage({Type::eStorageBuffer}),
+            .storage_images = most_in_a_stage({Type::eStorageImage}),
+            .sampled_images = most_in_a_stage({Type::eSampledImage, Type::eUniformTexelBuffer}),
+            .push_bytes = push_size};
+}
+
+std::string ProgramNeeds::lacking(const vk::PhysicalDeviceLimits& limits) const {
     struct Need {
         const char* of;
         std::uint32_t needed, limit;
     };
     for (const Need& need :
-         {Need{"storage buffers per shader stage", most_in_a_stage({Type::eStorageBuffer}),
-               limits.maxPerStageDescriptorStorageBuffers},
-          Need{"storage images per shader stage", most_in_a_stage({Type::eStorageImage}),
-               limits.maxPerStageDescriptorStorageImages},
-          Need{"sampled images per shader stage", most_in_a_stage({Type::eSampledImage, Type::eUniformTexelBuffer}),
-               limits.maxPerStageDescriptorSampledImages},
-          Need{"bytes of push constants", push_size, limits.maxPushConstantsSize}}) {
+         {Need{"storage buffers per shader stage", storage_buffers, limits.maxPerStageDescriptorStorageBuffers},
+          Need{"storage images per shader stage", storage_images, limits.maxPerStageDescriptorStorageImages},
+          Need{"sampled images per shader stage", sampled_images, limits.maxPerStageDescriptorSampledImages},
+          Need{"bytes of push constants", push_bytes, limits.maxPushConstantsSize}}) {
         if (need.needed > need.limit) return fmt::format("{} {} (it has {})", need.needed, need.of, need.limit);
     }
     return {};
@@ -109,16 +113,20 @@ std::string ProgramInterface::lacking(const vk::PhysicalDeviceLimits& limits) co
 std::string lacking_limit(ShaderCode compute, const vk::PhysicalDeviceLimits& limits) {
     // Reflection takes milliseconds, and renderers ask before every frame.
     static std::mutex mutex;
-    static std::map<const std::uint32_t*, ProgramInterface> known;
+    static std::map<const std::uint32_t*, ProgramNeeds> known;
     const std::lock_guard lock(mutex);
     const auto [found, first] = known.try_emplace(compute.words.data());
-    if (first) found->second.add(compute, vk::ShaderStageFlagBits::eCompute);
+    if (first) {
+        ProgramInterface interface;
+        interface.add(compute, vk::ShaderStageFlagBits::eCompute);
+        found->second = interface.needs();
+    }
     return found->second.lacking(limits);
 }
 
 void Program::make_layouts(const Device& device) {
     const auto& [slots, push_size, stages, workgroup] = interface_;
-    if (const std::string lacking = interface_.lacking(device.limits()); !lacking.empty())
+    if (const std::string lacking = interface_.needs().lacking(device.limits()); !lacking.empty())
         throw DeviceError(fmt::format("{} needs {}, which {} lacks", name_, lacking, device.info().name));
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (const BindingSlot& slot : slots) {

@@ -32,6 +32,15 @@ struct Constant {
     std::uint32_t value;
 };
 
+/// How much of what devices limit the shaders of a program take.
+struct ProgramNeeds {
+    std::uint32_t storage_buffers = 0, storage_images = 0, sampled_images = 0;  ///< per shader stage
+    std::uint32_t push_bytes = 0;
+
+    /// The first limit that they exceed, in words that follow "needs"; empty: none.
+    std::string lacking(const vk::PhysicalDeviceLimits& limits) const;
+};
+
 /// The bindings and push constants of shaders, as SPIR-V reflection finds them.
 struct ProgramInterface {
     std::vector<BindingSlot> slots;
@@ -41,10 +50,9 @@ struct ProgramInterface {
 
     /// Throws std::logic_error if the shader disagrees with those before.
     void add(ShaderCode shader, vk::ShaderStageFlagBits stage);
-    /// The first limit that they exceed, in words that follow "needs"; empty: none.
-    std::string lacking(const vk::PhysicalDeviceLimits& limits) const;
+    ProgramNeeds needs() const;
 };
-/// Likewise for a compute shader alone.
+/// The first limit that a compute shader exceeds, in words that follow "needs"; empty: none.
 std::string lacking_limit(ShaderCode compute, const vk::PhysicalDeviceLimits& limits);
 
 /// How a fragment's colour joins what the target holds; kMaxAddAlpha: the maximum of red, green and blue, the sum of
