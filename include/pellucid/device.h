@@ -8,15 +8,15 @@
 
 namespace pellucid {
 
-/// Which Vulkan device to use, and how carefully.
+/// Choice of the Vulkan device, and validation.
 struct DeviceOptions {
-    /// Empty: the best usable one (discrete, integrated, virtual, then software). Otherwise an index
-    /// of list_devices() or a part of a device name, upper and lower case alike.
+    /// Empty: the best usable device (discrete, integrated, virtual, then software). Otherwise an index into
+    /// list_devices() or a part of a device name, in upper or lower case.
     std::string device;
-    /// Turns on the Khronos validation layer, core and synchronisation checks. Its messages are
-    /// collected (Renderer::validation_messages). DeviceError if the layer is not installed.
+    /// Turns on the Khronos validation layer with core and synchronisation checks. Renderer::validation_messages()
+    /// returns its messages. DeviceError if the layer is not installed.
     bool validation = false;
-    std::uint32_t threads = 0;  ///< of the techniques that trace on the CPU; 0: all cores
+    std::uint32_t threads = 0;  ///< threads of techniques that trace on the CPU; 0: all cores
 };
 
 /// A Vulkan device as the loader reports it.
@@ -25,11 +25,11 @@ struct DeviceInfo {
     std::string driver;                ///< driver name and version
     std::string type;                  ///< discrete, integrated, virtual, software, other
     std::string api_version;           ///< Vulkan version of the device, "1.3.224"
-    std::vector<std::string> missing;  ///< what Pellucid needs and the device lacks; empty: usable
-    std::vector<std::string> absent;   ///< optional features it lacks, with what happens instead
+    std::vector<std::string> missing;  ///< required features that the device lacks; empty: usable
+    std::vector<std::string> absent;   ///< optional features that the device lacks, each with the fallback used
 };
 
-/// Every Vulkan device on this machine, usable or not. Throws DeviceError if Vulkan itself fails.
+/// Every Vulkan device on this machine, usable or not. Throws DeviceError if Vulkan fails to start.
 PELLUCID_API std::vector<DeviceInfo> list_devices();
 
 /// Time that one group of passes took on the device.

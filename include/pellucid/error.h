@@ -8,21 +8,21 @@
 
 namespace pellucid {
 
-/// Bad input: a file, a name or a value that cannot be used. `what()` is one line that names the
-/// file (and, where there is one, the element or line) and the cause. Programs print it and exit 2.
+/// Bad input: an unusable file, name or value. `what()` is one line that names the file, the element or line if any,
+/// and the cause. Programs print it and exit 2.
 class PELLUCID_API Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// No Vulkan device offers what Pellucid needs; `what()` says what is missing. Programs exit 3.
+/// No Vulkan device offers the features that Pellucid needs; `what()` lists the missing features. Programs exit 3.
 class PELLUCID_API DeviceError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// `text` with every run of white space and control characters as one blank. Names inside of files may hold line
-/// breaks; messages are one line.
+/// Replaces every run of white space and control characters in `text` by one blank. Names in files may contain line
+/// breaks, but messages are one line.
 PELLUCID_API std::string one_line(std::string_view text);
 
 }  // namespace pellucid

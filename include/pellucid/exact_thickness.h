@@ -14,13 +14,14 @@
 
 namespace pellucid {
 
-/// Thickness of a pixel where there is none.
-inline constexpr float kNotTranslucent = -1.0f;  ///< something else is seen, or the light's cone or range ends before
-inline constexpr float kShadowed = -2.0f;        ///< an opaque object is in between
+/// Thickness values of pixels without a thickness.
+/// the surface is not translucent, or lies outside the light's cone or range
+inline constexpr float kNotTranslucent = -1.0f;
+inline constexpr float kShadowed = -2.0f;  ///< an opaque object blocks the light
 
-/// The exact thickness: a ray of Embree from every visible point to the light, in double precision. Solids are told
-/// from gaps by the sides of their triangles: a ray is in a solid as long as it has entered more than it has left;
-/// an entry without an exit counts nothing.
+/// Exact thickness: an Embree ray from every visible point to the light, in double precision. The sides of the
+/// triangles tell solids from gaps: a ray is inside a solid while its entries outnumber its exits. An entry without an
+/// exit contributes no thickness.
 class PELLUCID_API ThicknessTracer {
 public:
     /// Builds the hierarchy. `scene` must be checked (load_scene does it) and outlive the tracer. `threads` 0: all
@@ -30,7 +31,8 @@ public:
     ThicknessTracer(ThicknessTracer&&) noexcept;
     ThicknessTracer& operator=(ThicknessTracer&&) noexcept;
 
-    /// One channel: m of solid between the light and the visible point, kNotTranslucent or kShadowed. Throws Error if there is no such light.
+    /// One channel: thickness of solid between the light and the visible point in m, kNotTranslucent or kShadowed.
+    /// Throws Error if the light does not exist.
     Image trace(const Camera& camera, std::uint32_t width, std::uint32_t height, std::uint32_t light,
                 const Progress& progress = {}) const;
 
@@ -39,20 +41,21 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Signed distance to a solid, m, negative inside: no more than the true distance anywhere.
+/// Signed distance to a solid, m, negative inside. Its magnitude never exceeds the true distance.
 using DistanceField = std::function<double(const glm::dvec3&)>;
-/// The union of balls.
+/// A ball. Solids are unions of balls.
 struct Ball {
     glm::dvec3 center{0.0};
     double radius = 1.0;
 };
 PELLUCID_API DistanceField distance_to(std::vector<Ball> balls);
-/// Length of the segment from `from` to `to` that lies in the solid, by sphere tracing (Hart 1996, "Sphere Tracing")
-/// in and out of it. `tolerance`: m within which the surface counts as reached.
+/// Length of the part of the segment `from`..`to` inside the solid, by sphere tracing (Hart 1996, "Sphere Tracing").
+/// `tolerance`: distance in m at which the surface counts as reached.
 PELLUCID_API double marched_thickness(const DistanceField& field, const glm::dvec3& from, const glm::dvec3& to,
                                       double tolerance);
-/// As ThicknessTracer::trace, of the solid alone, for a directional light that goes along `light_direction`. Visible
-/// points and thickness are both marched. `bounds` holds the solid.
+/// Thickness as ThicknessTracer::trace() returns it, for the solid alone under a directional light. Sphere tracing
+/// finds both the visible points and the thickness. `light_direction` points away from the light. `bounds` encloses
+/// the solid.
 PELLUCID_API Image march_thickness(const DistanceField& field, const Bounds& bounds, const Camera& camera,
                                    std::uint32_t width, std::uint32_t height, const glm::dvec3& light_direction,
                                    std::uint32_t threads = 0);

@@ -19,14 +19,13 @@ inline std::string lower_extension(const std::filesystem::path& file) {
     return extension;
 }
 
-/// Throws Error naming `file` if it certainly cannot be written: its folder is missing or read-only, or a folder or
-/// device has that name. Call it before long work.
+/// Throws Error naming `file` if it cannot be written: its folder is missing or read-only, or a folder or device has
+/// that name. Call it before long work.
 PELLUCID_API void check_writable(const std::filesystem::path& file);
 
-/// Lets `write` make a new file under the temporary name it is given (same folder, same extension)
-/// and then renames it to `file`, so that a killed run leaves no half-written file. Where `file` is a
-/// symbolic link to a file, that file is replaced.
-/// Throws Error naming `file` if that fails; the temporary file is removed.
+/// Calls `write` with a temporary name (same folder, same extension), then renames the temporary file to `file`. A
+/// killed run thus leaves no half-written file. If `file` is a symbolic link to a file, the target is replaced. Throws
+/// Error naming `file` on failure and removes the temporary file.
 PELLUCID_API void write_file_atomically(const std::filesystem::path& file,
                                         const std::function<void(const std::filesystem::path& temporary)>& write);
 

@@ -30,20 +30,20 @@ private:
     }
 };
 
-/// Reads any format that OpenImageIO knows. 8 and 16 bit values map to 0..1 and are not decoded
-/// (an sRGB file stays sRGB-encoded); float files are returned as they are.
-/// Throws Error naming the file if it is missing, is no image, or is larger than 2^28 pixels.
+/// Reads any format that OpenImageIO supports. 8 and 16 bit values map to 0..1 and are not decoded: an sRGB file stays
+/// sRGB-encoded. Float values stay unchanged. Throws Error naming the file if it is missing, is not an image, or has
+/// more than 2^28 pixels.
 PELLUCID_API Image read_image(const std::filesystem::path& file);
 
-/// As read_image, from the bytes of an image file; `name` stands for the file in error messages.
+/// Reads an image as read_image() does, from the bytes of an image file. Error messages use `name` as the file's name.
 PELLUCID_API Image decode_image(const void* bytes, std::size_t size, const std::string& name);
 
-/// Writes `image` in the format of the file's extension: `.exr` as 32-bit float (ZIP), `.png` as
-/// 8 bit, where values are expected in 0..1 and already encoded for display.
-/// The file appears complete or not at all. Throws Error if it cannot be written.
+/// Writes `image` in the format of the file's extension: `.exr` as 32-bit float (ZIP), `.png` as 8 bit. For `.png`,
+/// values must be in 0..1 and already encoded for display. The file appears complete or not at all. Throws Error if it
+/// cannot be written.
 PELLUCID_API void write_image(const std::filesystem::path& file, const Image& image);
 
-/// As above with a name for every channel (EXR keeps them; the default is Y, or R, G, B, A).
+/// Writes an image with a name for every channel. EXR stores the names; the default is Y, or R, G, B, A.
 PELLUCID_API void write_image(const std::filesystem::path& file, const Image& image,
                               const std::vector<std::string>& channel_names);
 

@@ -6,17 +6,18 @@
 
 namespace pellucid {
 
-/// How layers are gathered. All give the same layers; kCompute but for pixels whose centres lie on an edge to within
-/// rounding.
+/// Method of building layers. All methods give the same layers, except that kCompute may differ at pixels whose
+/// centres lie on an edge to within rounding.
 enum class LayerBuilder {
     kAutomatic,         ///< kCompute on devices that are CPUs, kSinglePass on others (default)
     kSinglePass,        ///< per-pixel lists, one geometry pass
     kDepthPeeling,      ///< one geometry pass per layer (Everitt 2001)
-    kCompute,           ///< per-pixel lists, triangles rasterised in compute shaders; visibility techniques use it
-    kDualDepthPeeling,  ///< nearest and farthest in one geometry pass, half as many (Bavoil & Myers 2008)
+    kCompute,           ///< per-pixel lists, triangles rasterised in compute shaders; for visibility techniques
+    kDualDepthPeeling,  ///< nearest and farthest layer per geometry pass, half as many passes (Bavoil & Myers 2008)
 };
 
-/// The builder of a name: automatic, single-pass, compute, depth-peeling, dual-depth-peeling. Throws Error listing them.
+/// The builder with this name: automatic, single-pass, compute, depth-peeling, dual-depth-peeling. Throws Error
+/// listing the names.
 PELLUCID_API LayerBuilder parse_layer_builder(std::string_view name);
 
 }  // namespace pellucid

@@ -8,34 +8,35 @@
 
 namespace pellucid {
 
-/// Which light the frames of a technique follow to opaque surfaces. Truths follow all of it.
+/// Light on opaque surfaces that frames of a technique include. Reference techniques always include all light.
 enum class LightTransport {
-    /// kEnvironment in scenes without lights and emissive objects, kFull in stills of 8 samples or more, kDirect otherwise
-    /// (default).
+    /// kEnvironment in scenes without lights and emissive objects, kFull in stills of 8 samples or more, kDirect
+    /// otherwise (default).
     kAutomatic,
-    kEnvironment,  ///< the environment's, unshadowed, as if each surface stood alone; lights of the scene are left out
-    kDirect,       ///< kEnvironment and the light of suns, lamps and spots, with shadows
-    kFull,         ///< kDirect, diffuse reflections between surfaces, and what hides the environment
+    kEnvironment,  ///< unshadowed environment light, as if each surface stood alone; the scene's lights are ignored
+    kDirect,       ///< kEnvironment plus directional, point and spot lights with shadows
+    kFull,         ///< kDirect plus diffuse interreflection and occlusion of the environment
 };
-/// The value of a name: automatic, environment, direct, full. Throws Error listing them.
+/// The light transport with this name: automatic, environment, direct, full. Throws Error listing the names.
 PELLUCID_API LightTransport parse_light_transport(std::string_view name);
 PELLUCID_API std::string_view light_transport_name(LightTransport transport);
 
-/// What refracting glass does to the straight ray from a light to a surface. Thin walls tint it in both.
+/// Effect of refracting glass on the straight ray from a light to a surface. Thin walls tint this ray with either
+/// value.
 enum class Shadows {
-    kExact,   ///< glass blocks it: what passes is bent, and comes as a caustic
-    kTinted,  ///< glass lets it pass straight on, weakened by absorption, tint and Fresnel reflection
+    kExact,   ///< glass blocks the ray; refracted light arrives as a caustic
+    kTinted,  ///< glass passes the ray unbent, attenuated by absorption, tint and Fresnel reflection
 };
-/// The value of a name: exact, tinted. Throws Error listing them.
+/// The shadows with this name: exact, tinted. Throws Error listing the names.
 PELLUCID_API Shadows parse_shadows(std::string_view name);
 
 struct LightOptions {
     LightTransport transport = LightTransport::kAutomatic;
     Shadows shadows = Shadows::kExact;
-    /// Technique that finds where the light of photons leaves glass, run from the lights' views; empty: photons follow every
-    /// interface, reflections included. Techniques that see the whole scene do as empty does.
+    /// Technique that finds where photons leave glass, run from the lights' views. Empty: photons follow every
+    /// interface, reflections included. Techniques that see the whole scene behave as if it were empty.
     std::string caustics = {};
-    std::uint32_t bounces = 2;  ///< reflections that rays follow, 0 to 7, before a cache has the rest; kFull
+    std::uint32_t bounces = 2;  ///< kFull: reflections that rays follow before they read a cache, 0 to 7
 
     bool operator==(const LightOptions&) const = default;
 };

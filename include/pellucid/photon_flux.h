@@ -6,16 +6,16 @@
 
 namespace pellucid {
 
-/// Where the light goes that lights, emissive surfaces and the environment send towards glass and metal in one frame: W, RGB, before any kernel. What is sent and
-/// arrives nowhere was absorbed, or followed no further.
+/// Destinations of the light that lights, emissive surfaces and the environment emit towards glass and metal in one
+/// frame. W, RGB, before any kernel. Flux that is sent and arrives nowhere was absorbed or no longer followed.
 struct PhotonFlux {
-    /// What an opaque object gets.
+    /// Flux received by an opaque object.
     struct Received {
-        glm::dvec3 bent{0.0};      ///< by photons: glass has bent it, or metal reflected it
-        glm::dvec3 straight{0.0};  ///< straight from the light, or through thin walls: what shadow rays bring
+        glm::dvec3 bent{0.0};      ///< through photons: refracted by glass or reflected by metal
+        glm::dvec3 straight{0.0};  ///< along straight rays from the light, thin walls included, as shadow rays find it
     };
     glm::dvec3 sent{0.0};
-    glm::dvec3 left{0.0};           ///< without meeting another opaque surface
+    glm::dvec3 left{0.0};           ///< left the scene without meeting another opaque surface
     std::vector<Received> objects;  ///< one per Scene::objects; empty: no photons were sent
 };
 

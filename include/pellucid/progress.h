@@ -4,8 +4,7 @@
 
 namespace pellucid {
 
-/// Called now and then during long work with the share that is done, 0..1, never twice at a time.
-/// Empty: nobody listens.
+/// Callback during long work, with the finished share, 0..1. Calls never overlap. An empty function is not called.
 using Progress = std::function<void(double share)>;
 
 }  // namespace pellucid

@@ -14,10 +14,10 @@
 
 namespace pellucid {
 
-/// How the length of solid between a light and a visible point of a translucent surface is found.
+/// Method of finding the length of solid between a light and a visible point of a translucent surface.
 enum class ThicknessMethod {
-    kTranslucentShadowMap,  ///< from the first surface that the light meets; gaps count as solid
-    kLocalThickness,        ///< baked per vertex, whatever the light's direction
+    kTranslucentShadowMap,  ///< distance from the first surface seen by the light; gaps count as solid
+    kLocalThickness,        ///< baked per vertex, independent of the light's direction
     kDepthPeeling,          ///< layers from the light, one geometry pass each
     kDualDepthPeeling,      ///< layers from the light, two per geometry pass
     kLayers,                ///< layers from the light, all in one geometry pass (default)
@@ -25,7 +25,7 @@ enum class ThicknessMethod {
 
 struct ThicknessMethodInfo {
     ThicknessMethod method;
-    std::string_view name;     ///< as commands call it
+    std::string_view name;     ///< name in commands
     std::string_view summary;  ///< one line
     std::string_view source;
 };
@@ -35,32 +35,32 @@ PELLUCID_API ThicknessMethod parse_thickness_method(std::string_view name);
 
 struct ThicknessSettings {
     ThicknessMethod method = ThicknessMethod::kLayers;
-    /// Surfaces that are kept of every ray of light, nearest to the light first, 1 and more. Solid behind the last
-    /// one is not counted; an odd one out is the entry of a solid whose exit is not known, and counts nothing.
+    /// Surfaces kept of every light ray, nearest to the light first, >= 1. Solid behind the last surface is not
+    /// counted. An unpaired entry has an unknown exit and contributes no thickness.
     std::uint32_t layers = 8;
-    std::uint32_t resolution = 1024;  ///< texels along a side of a light's map, from 2
+    std::uint32_t resolution = 1024;  ///< texels along a side of a light's map, >= 2
 
     bool operator==(const ThicknessSettings&) const = default;
 };
 
-/// What is measured for one light.
+/// Settings of a measurement for one light.
 struct ThicknessRequest {
     std::uint32_t width = 512;  ///< pixels
     std::uint32_t height = 512;
     ThicknessSettings settings;
-    std::uint32_t light = 0;  ///< Scene::lights
-    bool time_maps = false;   ///< build the light's maps once more, alone, for ThicknessResult::map_ms
-    Progress progress;        ///< of baking
+    std::uint32_t light = 0;  ///< index into Scene::lights
+    bool time_maps = false;   ///< build the light's maps a second time, alone, for ThicknessResult::map_ms
+    Progress progress;        ///< progress of baking
 };
 
 struct ThicknessResult {
-    /// One channel: m of solid between the light and the visible point, kNotTranslucent or kShadowed.
+    /// One channel: thickness of solid between the light and the visible point in m, kNotTranslucent or kShadowed.
     Image thickness;
-    std::uint64_t cut_rays = 0;         ///< visible points whose ray of light crosses more surfaces than were kept
-    std::uint32_t geometry_passes = 0;  ///< that built the light's layers
-    std::uint32_t light_views = 0;      ///< maps that the light needed: 1, or faces of a cube around a point light
+    std::uint64_t cut_rays = 0;         ///< visible points whose light ray crosses more surfaces than were kept
+    std::uint32_t geometry_passes = 0;  ///< geometry passes that built the light's layers
+    std::uint32_t light_views = 0;      ///< maps of the light: 1, or the faces of a cube around a point light
     double wall_ms = 0.0;               ///< from recording to the finished image, host and device
-    double map_ms = 0.0;                ///< of building the light's maps alone, if asked for
+    double map_ms = 0.0;                ///< time to build the light's maps alone, if requested
     std::vector<std::string> warnings;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pellucid on a Vulkan device of the caller's. The only public header with Vulkan's types.
+// Pellucid on a Vulkan device of the caller's. This is the only public header with Vulkan types.
 #include <pellucid/api.h>
 #include <pellucid/device.h>
 #include <pellucid/refracted_path.h>
@@ -24,8 +24,8 @@ enum class LightTransport;
 
 namespace pellucid::vulkan {
 
-/// What a device has to be created with: what Pellucid cannot do without, and of the rest what the device has. A caller with
-/// features and extensions of its own turns on these as well. May be moved, not copied.
+/// Features and extensions for creating a device: all that Pellucid requires, and the optional ones that the device
+/// supports. A caller may enable more. Movable, not copyable.
 class PELLUCID_API DeviceFeatures {
 public:
     /// Throws DeviceError, naming what is missing, if Pellucid cannot use the device.
@@ -34,10 +34,10 @@ public:
     DeviceFeatures(DeviceFeatures&&) noexcept;
     DeviceFeatures& operator=(DeviceFeatures&&) noexcept;
 
-    /// For VkDeviceCreateInfo::pNext: this structure and a chain of others, which live as long as this object.
+    /// For VkDeviceCreateInfo::pNext: this structure and its chain, alive as long as this object.
     const VkPhysicalDeviceFeatures2* features() const;
     std::span<const char* const> extensions() const;
-    /// A queue family that does graphics and compute, as Pellucid needs it.
+    /// A queue family with graphics and compute.
     std::uint32_t queue_family() const;
 
 private:
@@ -45,126 +45,131 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// A device of the caller's. All of it outlives the Renderer that draws on it, which destroys none of it.
+/// A device of the caller's. All its members must outlive the Renderer, which destroys none of them.
 ///
-/// Vulkan has a queue used by one thread at a time: while a function of the Renderer runs, the caller leaves `queue` alone.
-/// Pellucid waits for its own work on the queue before it returns, and for that of nobody else.
+/// Vulkan allows one thread at a time on a queue: the caller must not use `queue` while a function of the Renderer
+/// runs. Pellucid waits for its own work on the queue before it returns, and for no other work.
 struct LentDevice {
-    VkInstance instance = VK_NULL_HANDLE;  ///< made for Vulkan 1.3 or later
+    VkInstance instance = VK_NULL_HANDLE;  ///< created for Vulkan 1.3 or later
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;  ///< does graphics and compute
-    std::uint32_t queue_family = 0;  ///< of `queue`
-    /// What `device` was made with; read in the constructor of the Renderer only. What is not needed (DeviceFeatures) and
-    /// not turned on is not used: info `absent` of Renderer::device() says what happens instead.
+    VkQueue queue = VK_NULL_HANDLE;  ///< with graphics and compute
+    std::uint32_t queue_family = 0;  ///< family of `queue`
+    /// Features and extensions that `device` was created with; read only in the constructor of the Renderer. Optional
+    /// features (DeviceFeatures) that are off are not used; `absent` of Renderer::device() lists the fallbacks.
     const VkPhysicalDeviceFeatures2* features = nullptr;
     std::span<const char* const> extensions;
-    /// Locked around every use of `queue`, if given: Frames::submit() uses it from a thread of its own. Whoever else uses the
-    /// queue locks it, too.
+    /// If given, locked around every use of `queue`, because Frames::submit() uses a thread of its own. Other users of
+    /// the queue must lock it too.
     std::mutex* queue_mutex = nullptr;
 };
 
-/// An image of the caller's that a frame is drawn to: two-dimensional, one sample, of usage TRANSFER_DST.
+/// An image of the caller's that receives a frame: two-dimensional, one sample, usage TRANSFER_DST.
 struct Target {
     VkImage image = VK_NULL_HANDLE;
-    /// R8G8B8A8 or B8G8R8A8, UNORM or SRGB: RenderResult::display, with alpha 1. R32G32B32A32_SFLOAT: RenderResult::radiance,
-    /// the mean of the samples that the picture has so far.
+    /// R8G8B8A8 or B8G8R8A8, UNORM or SRGB: RenderResult::display, with alpha 1. R32G32B32A32_SFLOAT:
+    /// RenderResult::radiance, the mean of the samples so far.
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
-    VkOffset2D offset{0, 0};                           ///< of the frame's first texel
-    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< before the frame; UNDEFINED: what the image holds may go
+    VkOffset2D offset{0, 0};  ///< offset of the frame's first texel
+    /// layout before the frame; UNDEFINED discards the image's content
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkImageLayout layout_after = VK_IMAGE_LAYOUT_GENERAL;
 };
 
-/// What the caller has drawn of the same view, which Pellucid's scene stands in: it hides what lies behind it, and is seen
-/// through glass and in it where the picture shows it (Wyman 2005). It throws no shadow on Pellucid's objects, and has none
-/// from them. Both images are of the frame's size and usage TRANSFER_SRC, and keep their layouts.
+/// The caller's rendering of the same view, which Pellucid's scene is composed with. It occludes objects behind it.
+/// Glass shows it by reflection and refraction where the image contains it (Wyman 2005). It casts no shadows on
+/// Pellucid's objects and receives none. Both images have the frame's size and usage TRANSFER_SRC, and keep their
+/// layouts.
 struct Background {
-    /// RGB, scene-linear radiance, in a format that can be blitted; where nothing was drawn, the caller's sky.
+    /// RGB, scene-linear radiance, in a format that can be blitted. Texels without geometry contain the caller's sky.
     VkImage color = VK_NULL_HANDLE;
     VkImageLayout color_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     VkImage depth = VK_NULL_HANDLE;  ///< D32_SFLOAT
     VkImageLayout depth_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    /// Rows z and w of the caller's projection, by z along the view's axis, m, negative ahead: clip z = zz z + zw,
+    /// Rows z and w of the caller's projection, for z along the view axis in m, negative ahead: clip z = zz z + zw,
     /// clip w = wz z + ww. In a column-major matrix these are elements 10, 14, 11 and 15.
     float zz = 0.0f, zw = 0.0f, wz = -1.0f, ww = 0.0f;
-    float far_depth = 1.0f;  ///< of texels where nothing was drawn: 1, or 0 where depth is reversed
+    float far_depth = 1.0f;  ///< depth of texels without geometry: 1, or 0 if depth is reversed
 };
 
-/// A semaphore to wait for or to signal. `value`: of a timeline semaphore; binary ones have none.
+/// A semaphore to wait for or to signal. `value`: for timeline semaphores; binary semaphores ignore it.
 struct SemaphoreValue {
     VkSemaphore semaphore = VK_NULL_HANDLE;
     std::uint64_t value = 0;
 };
 
-/// A frame that was recorded or submitted; ascending from 1.
+/// Number of a recorded or submitted frame, ascending from 1.
 using Ticket = std::uint64_t;
 
-/// What is known of a frame once it has run.
+/// Results of a frame that has run.
 struct FrameReport {
-    /// Of the picture, with this frame's. RenderSettings::samples: the picture is finished. 0: something overflowed, or what a
-    /// truth was tracing has changed meanwhile.
+    /// Samples of the image, including this frame's. RenderSettings::samples: the image is complete. 0: a buffer
+    /// overflowed, or the scene changed while a reference technique was tracing it.
     std::uint32_t samples = 0;
-    /// What had no room in this frame, which therefore shows less than there is: one line each. The next frame has room.
+    /// Buffers whose capacity this frame exceeded, one line each; the frame is incomplete. The next frame has enough
+    /// capacity.
     std::vector<std::string> overflows;
-    std::vector<PassTime> passes;  ///< empty where the device has no timestamps
-    LightTransport light{};        ///< that the frame has followed
-    std::uint64_t covered = 0;     ///< pixels whose first surface is refracting glass; 0 where a truth traces the image
+    std::vector<PassTime> passes;  ///< empty if the device has no timestamps
+    LightTransport light{};        ///< light transport of the frame
+    std::uint64_t covered = 0;     ///< pixels whose first surface is refracting glass; 0 for reference techniques
     std::array<std::uint64_t, kStatusCount> status{};  ///< covered pixels by Status
     std::uint64_t side_conflicts = 0;                  ///< as RenderResult::side_conflicts
-    std::vector<std::string> warnings;  ///< what of the scene is drawn otherwise than it is; one line each
+    std::vector<std::string> warnings;                 ///< differences between the scene and its image; one line each
 };
 
-/// Objects of Vulkan that a renderer has made so far.
+/// Vulkan objects that a renderer has created so far.
 struct Made {
-    std::uint64_t allocations = 0;  ///< of device memory
+    std::uint64_t allocations = 0;  ///< allocations of device memory
     std::uint64_t pipelines = 0;
-    std::uint64_t pools = 0;  ///< of commands, descriptors and queries
+    std::uint64_t pools = 0;  ///< pools of commands, descriptors and queries
 };
 
-/// Frames of a Renderer that run while the caller goes on. A renderer, which outlives them, has one such object at a time. Not
-/// thread safe; used by the thread that uses the renderer. While a ticket has not been read, Renderer::render() and set_scene() throw Error; the other setters do not
-/// wait, and hold for the frames after them.
+/// Asynchronous frames of a Renderer. The renderer must outlive this object and has one at a time. Not thread safe;
+/// used on the same thread as the renderer. While a ticket is unread, Renderer::render() and set_scene() throw Error.
+/// The other setters do not wait, and apply to later frames.
 ///
-/// RenderSettings::samples frames of equal settings, of a scene that does not change, make a picture together: each adds a
-/// sample, and what its target gets is their mean, in the end that of Renderer::render(), bit for bit (of technique `path`: to
-/// rounding). Frames after that show it again. With `samples` 1 every frame is a picture. AOVs, `error`, `paths` and the tone map kKrawczyk are of
-/// stills: frames refuse them.
+/// RenderSettings::samples frames of equal settings and an unchanged scene form one image. Each frame adds a sample,
+/// and its target gets the mean so far. The last mean equals that of Renderer::render() bit for bit (for technique
+/// `path` to within rounding). Further frames show it again. With `samples` 1 every frame is an image of its own.
+/// Frames refuse AOVs, `error`, `paths` and the tone map kKrawczyk, which need stills.
 class PELLUCID_API Frames {
 public:
-    /// `in_flight`: tickets that may be unread at a time, 1 to 8. Throws Error if the renderer has Frames already.
+    /// `in_flight`: most unread tickets at a time, 1 to 8. Throws Error if the renderer already has Frames.
     explicit Frames(Renderer& renderer, std::uint32_t in_flight = 2);
-    /// Waits for frames that were submitted. Commands that were recorded must have run, or never will.
+    /// Waits for submitted frames. Recorded commands must have run, or must never run.
     ~Frames();
     Frames(const Frames&) = delete;
     Frames& operator=(const Frames&) = delete;
 
-    /// Why the technique that they name cannot be recorded, in words that follow "cannot be recorded: "; empty: it can.
+    /// Reason why the technique in `settings` cannot be recorded, worded to follow "cannot be recorded: "; empty: it
+    /// can.
     std::string unrecordable(const RenderSettings& settings) const;
 
-    /// Records a frame into `commands`, which are recording, outside of a render pass, for the renderer's queue family. Does
-    /// not wait. The commands run once, in the order of the tickets; read() comes after they have, and lets go of what they
-    /// use. Throws Error if the settings cannot be recorded, or if in_flight tickets are unread.
+    /// Records a frame into `commands`. They must be in the recording state, outside of a render pass, for the
+    /// renderer's queue family. Does not wait. The commands must run once, in the order of the tickets. Call read()
+    /// after they have run; it releases the resources that they use. Throws Error if the settings cannot be recorded,
+    /// or if in_flight tickets are unread.
     Ticket record(VkCommandBuffer commands, const RenderSettings& settings, const Target& target,
                   const Background* background = nullptr);
 
-    /// Draws a frame by submissions of its own, after `wait` and before `signal`. Takes every technique; does not wait: where
-    /// the host has a part in the frame, a thread of the renderer's sees to it. Then binary semaphores are signalled by
-    /// submissions that may come later; timeline semaphores may be waited for before. Throws Error for settings out of range,
-    /// or if in_flight tickets are unread.
+    /// Draws a frame by own submissions, after `wait` and before `signal`. Supports every technique and does not wait:
+    /// a thread of the renderer's does the host's part of the frame. In that case binary semaphores are signalled by
+    /// submissions that may come later; timeline semaphores may be waited for earlier. Throws Error for settings out
+    /// of range, or if in_flight tickets are unread.
     Ticket submit(const RenderSettings& settings, const Target& target, std::span<const SemaphoreValue> wait = {},
                   std::span<const SemaphoreValue> signal = {}, const Background* background = nullptr);
 
-    /// What became of a frame; nothing while it runs. Tickets are read in their order, each once. Throws DeviceError if
-    /// the frame failed.
+    /// The report of a frame; empty while it runs. Read tickets in order, each once. Throws DeviceError if the frame
+    /// failed.
     std::optional<FrameReport> read(Ticket ticket);
-    /// Waits for a frame that was submitted, then reads it.
+    /// Waits for a submitted frame, then reads it.
     FrameReport wait(Ticket ticket);
     std::uint32_t unread() const;
 
-    /// The next frame begins a new picture.
+    /// Makes the next frame begin a new image.
     void restart();
 
-    /// What the renderer has made so far: steady frames make nothing.
+    /// Counts of objects that the renderer has created. Steady frames create none.
     Made made() const;
 
 private:
