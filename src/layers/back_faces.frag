@@ -1,5 +1,5 @@
 #version 460
-// The nearest or farthest surface that a view ray leaves a solid through; the depth test decides between them.
+// The nearest or farthest surface through which a view ray leaves a solid. The depth test selects it.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "layers/layer_fragment.glsl"

@@ -4,13 +4,14 @@
 
 namespace pellucid {
 
-/// Which surface stands for the far side of the glass, where techniques look at one only.
+/// The surface that represents the far side of the glass in techniques that use only one.
 enum class BackFace : std::uint32_t {
-    kFirst,     ///< the nearest that a view ray leaves a solid through
-    kFarthest,  ///< the last
+    kFirst,     ///< nearest surface through which the view ray leaves a solid
+    kFarthest,  ///< farthest such surface
 };
 
-/// Per pixel, a surface that the view ray leaves a solid through; as a layer of Layers, with one layer.
+/// Per pixel, a surface through which the view ray leaves a solid. The images have the format of Layers, with one
+/// layer.
 struct BackFaces {
     const GpuImage& depth;
     const GpuImage& triangle;

@@ -1,15 +1,16 @@
 #ifndef PELLUCID_LAYERS_CANDIDATES_GLSL
 #define PELLUCID_LAYERS_CANDIDATES_GLSL
 
-// The nearest surface that a ray meets among those that the host has found on a path's way (host_finder.h).
+// The nearest surface that a ray meets among the candidates that the host has found for its path (host_finder.h).
+// The arithmetic is that of layers/surface_walk.glsl.
 //
-// Needs: what layers/surface_walk.glsl needs, whose arithmetic this is.
+// Needs: everything that layers/surface_walk.glsl needs.
 #include "layers/surface_walk.glsl"
 
-layout(set = 0, binding = 44) uniform utextureBuffer candidate_lists;  // per path: the first, and how many
+layout(set = 0, binding = 44) uniform utextureBuffer candidate_lists;  // per path: index of its first candidate, count
 layout(set = 0, binding = 45) uniform utextureBuffer candidates;       // triangle, traits
 
-// Beyond `t_min`, m.
+// The nearest candidate beyond `t_min`, m.
 SurfaceHit find_candidate(vec3 origin, vec3 direction, float t_min, Search search) {
     uvec2 own = texelFetch(candidate_lists, int(search.pixel)).xy;
     SurfaceHit hit = kNoHit;

@@ -1,8 +1,9 @@
 #ifndef PELLUCID_LAYERS_CORNER_WEIGHTS_GLSL
 #define PELLUCID_LAYERS_CORNER_WEIGHTS_GLSL
 
-// Weights of a triangle's corners where a line meets its plane (Moeller & Trumbore 1997); kept to the triangle,
-// which a rasteriser's rounding can leave a little. `a` is the first corner seen from the line's origin.
+// Weights of a triangle's corners where a line meets its plane (Moeller & Trumbore 1997). They are clamped to the
+// triangle, because a rasteriser's rounding can put the point slightly outside. `a` is the first corner relative to the
+// line's origin.
 vec3 corner_weights(vec3 direction, vec3 a, vec3 edge_b, vec3 edge_c) {
     vec3 p = cross(direction, edge_c), q = cross(a, edge_b);
     float determinant = dot(edge_b, p);

@@ -1,10 +1,10 @@
-// Dual depth peeling, two depths per geometry pass, one from either side: Bavoil & Myers, "Order Independent
-// Transparency with Dual Depth Peeling", NVIDIA 2008. The list made of both sides: Chen, translucency by measured
-// thickness. Needs Device::float_blending().
+// Dual depth peeling finds two depths per geometry pass, one from either side: Bavoil & Myers, "Order Independent
+// Transparency with Dual Depth Peeling", NVIDIA 2008. Both sides are joined into one list as by Chen, translucency by
+// measured thickness. Needs Device::float_blending().
 //
-// Blending finds depths only; the triangles that lie at the depths of one pass are collected in the next. So n layers
-// take n/2 passes and one more, wherever a view ray crosses no more than n surfaces. Where it crosses more, the two
-// sides have not met, and more passes are needed, n + 1 at most.
+// Blending finds only depths. The next pass collects the triangles that lie at these depths. So n layers take n/2 + 1
+// passes if no view ray crosses more than n surfaces. Otherwise the two sides do not meet, and up to n + 1 passes are
+// needed.
 #include "layers/layer_images.h"
 #include "layers/shaders.h"
 
@@ -18,7 +18,7 @@ namespace pellucid {
 namespace {
 
 constexpr vk::Format kSideFormat = vk::Format::eR32G32B32A32Sfloat;
-constexpr std::uint64_t kMostTriangles = 0x7f000000u / 2;  // as many as dual_peel.glsl can tell apart
+constexpr std::uint64_t kMostTriangles = 0x7f000000u / 2;  // number of keys that dual_peel.glsl can distinguish
 
 bool too_many_triangles(const Frame& frame, std::span<const DrawCall> solids) {
     return std::any_of(solids.begin(), solids.end(), [&](const DrawCall& call) {
@@ -39,14 +39,14 @@ Sides peel_both_sides(Recorder& recorder, const Frame& frame, const Opaque& opaq
                                                  .fragment = shaders::dual_peel_layers_frag,
                                                  .colors = {kSideFormat, kSideFormat},
                                                  .blend = Blend::kMaxAddAlpha});
-    // Requests of one frame may take different numbers of passes.
+    // Requests of one frame may need different numbers of passes, so the names contain the number.
     const Sides sides{workspace.image(fmt::format("near side of {} passes", passes), kSideFormat, frame.extent, passes),
                       workspace.image(fmt::format("far side of {} passes", passes), kSideFormat, frame.extent, passes)};
     const vk::ClearValue nothing = vk::ClearColorValue(std::array{-float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f});
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
         const RenderTarget target{.extent = frame.extent,
                                   .colors = {{&sides.near_side, pass, nothing}, {&sides.far_side, pass, nothing}}};
-        // Before the first pass there is nothing to read; something of the right kind has to be bound.
+        // The first pass reads neither image, but an image of the right kind has to be bound.
         const bool first = pass == 0;
         const std::uint32_t last = first ? 0 : pass - 1;
         recorder.draw(program,
@@ -83,8 +83,8 @@ Layers LayerSource::peel_dual(Recorder& recorder, const Frame& frame, const Opaq
     return finish_layers(recorder, frame, images, opaque, request, *this);
 }
 
-// Sides that have not met do not say how far they are from it: the frame is drawn again with as many passes as can
-// be needed, and that tells how many are.
+// Sides that have not met do not reveal how many passes are missing. So the frame is drawn again with the largest
+// number of passes, and that frame counts the passes that are needed.
 bool LayerSource::must_peel_more() {
     if (!dual_.counted) return false;
     const auto [extra_peels, crowded] = std::pair(dual_.counted->x, dual_.counted->y);

@@ -1,7 +1,7 @@
 #ifndef PELLUCID_LAYERS_FRAGMENT_LIST_GLSL
 #define PELLUCID_LAYERS_FRAGMENT_LIST_GLSL
 
-// An entry of a pixel's list of fragments; kFragmentNodeSize in layers.h is its size.
+// An entry of a pixel's list of fragments. kFragmentNodeSize in layers.h is its size.
 #include "layers/layers.glsl"
 
 struct Node {

@@ -11,7 +11,7 @@ layout(push_constant) uniform Push { uint drawn_object; };
 
 void main() {
     uint node = atomicAdd(node_count, 1u);
-    if (node >= nodes.length()) return;  // counted all the same: the host enlarges the pool
+    if (node >= nodes.length()) return;  // the fragment is counted, so the host enlarges the pool
     uint next = imageAtomicExchange(heads, ivec3(gl_FragCoord.xy, 0), node + 1u);
     nodes[node] = Node(rasterised_fragment(), next);
 }

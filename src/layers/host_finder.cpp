@@ -27,10 +27,11 @@ namespace {
 constexpr std::uint32_t kKindMask = 3, kRefractiveKind = 2, kClosed = 4, kTouchesOthers = 8, kCavity = 64,
                         kSingleSided = 128, kCrossesItself = 256, kSlotShift = 9, kCavitySlot = 0x80000000,
                         kSameShell = 0x20000000;
-// Twins in follow_paths.glsl: how far along a flat ray surfaces at one place may be apart, and how far behind.
+// Distances ahead and behind, along a flat ray, between surfaces that touch. Multiples of the contact distance; twins
+// in follow_paths.glsl.
 constexpr float kGrazing = 512.0f, kBehind = 32.0f, kSpacings = 4.8e-7f;
 
-constexpr std::size_t kGrain = 256;  // paths that one task takes
+constexpr std::size_t kGrain = 256;  // paths per task
 
 struct DeviceDeleter {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -40,9 +41,9 @@ struct SceneDeleter {
 };
 
 struct Placed {
-    std::vector<glm::vec3> positions;  ///< world; one more than there are, as Embree reads 16 bytes at the last
+    std::vector<glm::vec3> positions;  ///< world; one extra at the end, as Embree reads 16 bytes at the last vertex
     std::uint32_t first_triangle = 0;  ///< over all objects
-    float sense = 1.0f;                ///< -1: mirrored, so that normals by winding point inwards
+    float sense = 1.0f;                ///< -1: mirrored, so normals from the winding point inwards
 };
 
 struct Ray {
@@ -55,19 +56,19 @@ struct Hit {
     bool leaving;
 };
 
-/// What a ray of Embree is for, which hands out the address of the first member.
+/// Context of an Embree ray. Embree passes the address of the first member to accept_hit().
 struct Search {
     RTCIntersectContext embree{};
     const std::vector<Placed>* objects = nullptr;
     const std::vector<std::uint32_t>* traits = nullptr;  ///< per triangle over all objects
-    const std::uint32_t* media = nullptr;                ///< of the path that looks,
-    std::uint32_t standing = 0;                          ///< and the triangle on which it stands
-    std::vector<Hit>* all = nullptr;  ///< takes everything that is met instead of the nearest that can be
+    const std::uint32_t* media = nullptr;                ///< media of the searching path
+    std::uint32_t standing = 0;                          ///< triangle on which the searching path starts
+    std::vector<Hit>* all = nullptr;  ///< if set, receives every hit, and the search finds no nearest hit
 };
 
 bool is_closed_shell(std::uint32_t traits) { return (traits & (kKindMask | kClosed)) == (kRefractiveKind | kClosed); }
 
-/// Twin of can_meet() in path_walk.glsl, before the path has crossed anything here.
+/// Twin of can_meet() in path_walk.glsl for a path that has crossed no surface in this search.
 bool can_meet(const Search& path, std::uint32_t traits, bool leaving, std::uint32_t triangle) {
     if (!is_closed_shell(traits)) return triangle != path.standing && !(leaving && (traits & kSingleSided) != 0);
     if ((traits & kCrossesItself) != 0) return triangle != path.standing;
@@ -87,7 +88,7 @@ void accept_hit(const RTCFilterFunctionNArguments* args) {
     if (search.all != nullptr || !can_meet(search, traits, leaving, triangle)) args->valid[0] = 0;
 }
 
-/// Takes a path to the other side of a shell; twin of step_across() in cross_surface.glsl.
+/// Moves a path to the other side of a shell; twin of step_across() in cross_surface.glsl.
 void step_across(std::span<const std::uint32_t> slot_words, std::uint32_t* media, std::uint32_t traits, bool leaving) {
     const auto inside = [&](std::uint32_t slot) { return (media[slot / 32] >> slot % 32 & 1) != 0; };
     const auto cavity = [&](std::uint32_t slot) { return (slot_words[4 * slot + 3] & kCavitySlot) != 0; };
@@ -132,7 +133,7 @@ struct HostFinder::Hierarchy {
     std::unique_ptr<RTCSceneTy, SceneDeleter> scene;
     std::vector<Placed> objects;
     std::vector<std::uint32_t> traits;
-    std::span<const std::uint32_t> slot_words;  ///< SceneTopology's
+    std::span<const std::uint32_t> slot_words;  ///< of the SceneTopology
     Buffer triangles, normals;
     float largest_contact = 0.0f;
     std::uint64_t moves = 0;
@@ -149,7 +150,7 @@ struct HostFinder::Hierarchy {
         search.embree.filter = accept_hit;
         return search;
     }
-    /// Calls work(range) for ranges of `count` paths, on all threads.
+    /// Divides `count` paths into ranges and calls work(range) for each, on all threads.
     template <class Work>
     void share_out(std::size_t count, const Work& work) const {
         arena.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), work); });
@@ -161,7 +162,7 @@ struct HostFinder::Hierarchy {
                          std::vector<Candidate>& found) const;
 };
 
-/// World positions, the device's triangles (surface_map.glsl), and their normals.
+/// Updates the object's world positions, its triangles for the device (surface_map.glsl) and their normals.
 void HostFinder::Hierarchy::place(std::uint32_t object, const Scene& from, const GpuScene& gpu_scene) {
     const Object& own = from.objects[object];
     const Mesh& mesh = from.meshes[std::size_t(own.mesh)];
@@ -196,7 +197,7 @@ void HostFinder::Hierarchy::build(const Scene& from) {
     const unsigned flags = unsigned(RTC_SCENE_FLAG_ROBUST) | unsigned(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION) |
                            (deforming ? unsigned(RTC_SCENE_FLAG_DYNAMIC) : 0u);
     rtcSetSceneFlags(scene.get(), RTCSceneFlags(flags));
-    // Only in a scene of low quality does Embree keep a hierarchy per object, which it can refit.
+    // Embree keeps a hierarchy per object, which it can refit, only in a scene of low quality.
     rtcSetSceneBuildQuality(scene.get(), deforming ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const std::vector<glm::uvec3>& corners = from.meshes[std::size_t(from.objects[i].mesh)].triangles;
@@ -235,7 +236,7 @@ const Buffer& HostFinder::normals() const { return hierarchy_->normals; }
 void HostFinder::bring_up_to_date(const Device& device, const Scene& scene, const GpuScene& gpu_scene, bool deforming) {
     Hierarchy& own = *hierarchy_;
     const bool first = !own.device;
-    // What has moved once is likely to move again.
+    // An object that has moved once is likely to move again.
     deforming = deforming || own.deforming || gpu_scene.moves > 0;
     if (!first && own.moves == gpu_scene.moves && own.deforming == deforming) return;
     if (first) {
@@ -275,7 +276,7 @@ void HostFinder::refit() {
     rtcCommitScene(hierarchy_->scene.get());
 }
 
-/// What lies between two distances; Embree looks at none that is negative.
+/// Traces a ray between two distances, m. The ray starts at `from`, because Embree ignores negative distances.
 RTCRayHit HostFinder::Hierarchy::shoot(Search& search, const Ray& ray, float from, float to) const {
     const glm::vec3 start = ray.origin + from * ray.direction;
     RTCRayHit hit{};
@@ -289,7 +290,7 @@ RTCRayHit HostFinder::Hierarchy::shoot(Search& search, const Ray& ray, float fro
     return hit;
 }
 
-/// Appends what lies at one place with a surface at `t`.
+/// Appends the surface at distance `t` and all surfaces that may touch it there.
 void HostFinder::Hierarchy::add_nearby(Search& search, const Ray& ray, const PathsOnHost& paths, Candidate surface,
                                        float t, std::vector<Candidate>& found) const {
     found.push_back(surface);
@@ -311,7 +312,7 @@ void HostFinder::Hierarchy::find_candidates(Search& search, std::size_t path, co
     search.media = paths.media + path * (paths.words + 1);
     search.standing = std::bit_cast<std::uint32_t>(paths.places[path].w);
     const Ray ray{glm::vec3(paths.places[path]), glm::vec3(paths.ways[path])};
-    // What is as near as this may lie behind: then the next one is a candidate, too.
+    // A surface within the coincidence distance may lie behind the path. Then the next surface is a candidate, too.
     for (const float from : {-paths.coincidence, paths.coincidence}) {
         const RTCRayHit hit = shoot(search, ray, from, std::numeric_limits<float>::infinity());
         if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
@@ -376,7 +377,7 @@ void HostFinder::find_media(const PathsOnHost& paths) const {
             std::uint32_t* media = paths.media + path * (paths.words + 1);
             std::fill_n(media, paths.words, 0);
             std::fill(decided.begin(), decided.end(), 0);
-            std::map<std::uint32_t, int> windings;  // of shells that cross themselves, by their traits
+            std::map<std::uint32_t, int> windings;  // windings of shells that cross themselves, by traits
             for (const Hit& hit : hits) {
                 const std::uint32_t traits = hit.surface.traits, slot = traits >> kSlotShift, bit = 1u << slot % 32;
                 if (!is_closed_shell(traits)) continue;

@@ -9,60 +9,62 @@
 
 namespace pellucid {
 
-/// Paths that look for the next surface, as path_state.glsl keeps them, in memory that the host shares with the device.
+/// Paths that search for their next surface, in memory that host and device share. The layout is that of
+/// path_state.glsl.
 struct PathsOnHost {
-    PixelListOnHost list;     ///< those that look
-    std::uint32_t width;      ///< of the picture; path `x + width y` is of pixel (x, y)
-    const glm::vec4* places;  ///< world, m; w: bits of the triangle on which the path stands
-    const glm::vec4* ways;    ///< unit, world
-    std::uint32_t* media;     ///< per path `words`, whose bits say what it is inside of, and its mark
+    PixelListOnHost list;     ///< pixels of the searching paths
+    std::uint32_t width;      ///< image width; pixel (x, y) has path `x + width y`
+    const glm::vec4* places;  ///< positions, world, m; w: bits of the triangle on which the path stands
+    const glm::vec4* ways;    ///< directions, unit, world
+    std::uint32_t* media;     ///< per path: `words` words with a bit per slot that it is inside of, and a word of marks
     std::uint32_t words;
-    float coincidence;  ///< m, by so much places are uncertain
-    bool touching;      ///< surfaces of several shells may lie at one place
+    float coincidence;  ///< uncertainty of positions, m
+    bool touching;      ///< surfaces of several shells may coincide
 };
 
 /// A surface that a path may meet; twin of a texel of `candidates` in candidates.glsl.
 struct Candidate {
     std::uint32_t triangle, traits;
 };
-/// Where those of a path lie; twin of a texel of `candidate_lists`.
+/// Range of a path's candidates; twin of a texel of `candidate_lists`.
 struct CandidateList {
     std::uint32_t first, count;
 };
-/// What a finder hands to the device. The first Candidate counts how many there were at most in any search of the frame.
+/// Results of a search, for the device. The first Candidate holds the largest candidate count of any search of the
+/// frame.
 struct CandidatesOnHost {
     CandidateList* lists;  ///< per path
     std::span<Candidate> all;
 };
 
-/// Finds the surfaces that paths meet by Embree, on the cores of the host, where that shares its memory with the device:
-/// on software drivers.
+/// Finds the surfaces that paths meet with Embree on the host's cores. Host and device must share memory, as on
+/// software drivers.
 ///
-/// It names candidates: the nearest surface that the path can meet and, where others may lie at the same place, those; and
-/// where the nearest lies behind the path, within rounding, also the next. The device intersects them itself
-/// (candidates.glsl), so a path goes the same way, bit for bit, whoever has found its surfaces.
+/// The candidates of a path are the nearest surface that it can meet and all surfaces that may coincide with it. If the
+/// nearest surface may lie behind the path, within rounding, the next surface is a candidate, too. The device
+/// intersects the candidates itself (candidates.glsl), so every finder leads to the same path, bit for bit.
 class HostFinder final : public PreparedState {
 public:
-    /// `threads` 0: all cores.
+    /// `threads`: 0 for all cores.
     explicit HostFinder(std::uint32_t threads);
     ~HostFinder() override;
 
-    /// Builds the hierarchy of the scene's triangles, or refits it where vertices have moved. `deforming`: as one that can be
-    /// refitted, although none have moved yet. `scene` has to stay where it is. Needs GpuScene::topology. Throws Error if
-    /// there is not enough memory.
+    /// Builds the hierarchy of the scene's triangles, or refits it if vertices have moved. `deforming`: build a
+    /// hierarchy that can be refitted, even if no vertex has moved yet. `scene` must stay at its address. Needs
+    /// GpuScene::topology. Throws Error if memory runs out.
     void bring_up_to_date(const Device& device, const Scene& scene, const GpuScene& gpu_scene, bool deforming = false);
-    /// Refits all of a hierarchy that can be refitted, as if every vertex had moved: to measure what that takes.
+    /// Refits the whole hierarchy, as if every vertex had moved. Serves to measure the time; needs `deforming`.
     void refit();
 
-    /// What stands for a map of the view: its triangles alone, in the world.
+    /// Triangles in world space, which replace a map of the view.
     const Buffer& triangles() const;
     const Buffer& normals() const;
 
-    /// Finds candidates of all paths. Those that are in the open and meet nothing go from their list to `ended`. Where there
-    /// is no room for candidates, a path has none, and they are counted.
+    /// Finds the candidates of all paths. Paths outside all shells that meet nothing move from their list to `ended`.
+    /// If candidates exceed the capacity, their paths get none; the candidates are still counted.
     void find(const PathsOnHost& paths, const CandidatesOnHost& candidates, const PixelListOnHost& ended) const;
-    /// Finds what paths are inside of where they start: the first surface of each slot on their way says it; of a shell
-    /// that crosses itself, all of its surfaces.
+    /// Finds the slots that paths are inside of where they start. The first surface of a slot along the ray decides.
+    /// For a shell that crosses itself, all of its surfaces along the ray decide.
     void find_media(const PathsOnHost& paths) const;
 
 private:

@@ -1,5 +1,5 @@
 #version 460
-// Transforms corners of glass triangles; every layer builder uses it.
+// Transforms the corners of glass triangles for every layer builder that rasterises in hardware.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };

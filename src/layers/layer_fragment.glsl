@@ -1,7 +1,7 @@
 #ifndef PELLUCID_LAYERS_LAYER_FRAGMENT_GLSL
 #define PELLUCID_LAYERS_LAYER_FRAGMENT_GLSL
 
-// The record of a rasterised fragment; every layer builder uses it. Needs: frame (FrameConstants).
+// The record of a fragment from the hardware rasteriser. Needs: frame (FrameConstants).
 #include "gpu/fragment_depth.glsl"
 #include "layers/layers.glsl"
 

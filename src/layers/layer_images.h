@@ -4,7 +4,7 @@
 
 namespace pellucid {
 
-/// The images that a request's layers go into.
+/// The images that store the layers of a request.
 struct LayerImages {
     const GpuImage& depth;
     const GpuImage& triangle;
@@ -12,11 +12,11 @@ struct LayerImages {
 };
 LayerImages allocate_layers(const Frame& frame, const LayerRequest& request);
 
-/// Fills in the normals of the triangles that stand in `images`; returns the list of the pixels that have any.
+/// Computes the normals of the triangles in `images`. Returns the list of pixels that have layers.
 const Buffer& resolve_normals(Recorder& recorder, const Frame& frame, const LayerImages& images,
                               const LayerRequest& request);
 
-/// Layers whose depths and triangles stand in `images`.
+/// Completes layers whose depths and triangles are in `images`.
 Layers finish_layers(Recorder& recorder, const Frame& frame, const LayerImages& images, const Opaque& opaque,
                      const LayerRequest& request, LayerSource& source);
 

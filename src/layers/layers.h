@@ -19,108 +19,111 @@ namespace pellucid {
 /// The nearest opaque surface of each pixel.
 struct Opaque {
     const GpuImage& radiance;  ///< RGBA32F, scene-linear
-    const GpuImage& depth;     ///< R32F, metres; PELLUCID_EMPTY_DEPTH where there is none
-    const GpuImage& object;    ///< R32UI, its index; undefined where there is none
-    const GpuImage& triangle;  ///< R32UI, over all objects; PELLUCID_NO_TRIANGLE where there is none
+    const GpuImage& depth;     ///< R32F, metres; PELLUCID_EMPTY_DEPTH: no surface
+    const GpuImage& object;    ///< R32UI, index of its object; undefined without a surface
+    const GpuImage& triangle;  ///< R32UI, index over all objects; PELLUCID_NO_TRIANGLE: no surface
 };
 
 class LayerSource;
 
 /// Per pixel, the glass surfaces that the view ray crosses, nearest first.
 ///
-/// Layer k of `depth` (R32F) holds linear eye depth in metres, PELLUCID_EMPTY_DEPTH where there is
-/// no k-th surface; of `triangle` (R32UI) its index over all objects, with PELLUCID_BACK_FACE set where
-/// the view ray leaves the solid, PELLUCID_NO_TRIANGLE where there is none; of `normal` (R32UI) the interpolated
-/// world normal (octahedral), undefined where there is none. The object follows from the triangle (find_object in
-/// objects.glsl).
+/// Layer k of the images describes the k-th surface:
+/// - `depth` (R32F): linear eye depth in metres; PELLUCID_EMPTY_DEPTH without a k-th surface.
+/// - `triangle` (R32UI): index over all objects, with PELLUCID_BACK_FACE if the view ray leaves the solid;
+///   PELLUCID_NO_TRIANGLE without a k-th surface.
+/// - `normal` (R32UI): interpolated world normal, octahedral; undefined without a k-th surface.
+/// find_object() in objects.glsl finds the object of a triangle.
 ///
-/// Order is by depth and, where depths are equal, by triangle index, in every builder.
+/// Every builder orders surfaces by depth, and surfaces of equal depth by triangle index.
 struct Layers {
     const GpuImage& depth;
     const GpuImage& triangle;
     const GpuImage& normal;
-    const Buffer& covered;  ///< the pixels that have layers, see pixel_list.glsl; arguments of compute_indirect()
+    const Buffer& covered;  ///< list of pixels that have layers (pixel_list.glsl); arguments of compute_indirect()
     std::uint32_t count;
     const Opaque& opaque;
-    LayerSource& source;  ///< builds more, for techniques that look at objects one by one
+    LayerSource& source;  ///< builds more layers, for techniques that process objects one by one
     std::vector<Binding> group = {reads("layer_depth", depth),           reads("layer_triangle", triangle),
                                   reads("layer_normal", normal),         reads("PixelList", covered),
                                   reads("opaque_depth", opaque.depth),   reads("opaque_radiance", opaque.radiance),
                                   reads("opaque_object", opaque.object), reads("opaque_triangle", opaque.triangle)};
-    /// All of this by the names that shaders have for it; "PixelList" is `covered`, unless the pass has another.
+    /// Binds all images by their names in shaders. "PixelList" is `covered`, unless the pass binds another list.
     Binding bindings() const { return all_of(group); }
 };
 
 /// Bytes of a fragment in its list; twin of Node in fragment_list.glsl.
 inline constexpr vk::DeviceSize kFragmentNodeSize = 12;
 
-/// Which layers are wanted.
+/// The layers that a technique wants.
 struct LayerRequest {
     std::span<const DrawCall> solids;
     std::uint32_t count;
-    /// A pixel whose first surface lies behind an opaque one has no layers; opaque surfaces further back cut
-    /// nothing. False: nothing opaque hides anything.
+    /// True: a pixel has no layers if its first glass surface lies behind an opaque surface. Opaque surfaces farther
+    /// back hide no layers. False: opaque surfaces hide no layers at all.
     bool hidden_by_opaque = true;
-    /// Layers of different names may be looked at side by side; those of one name replace each other.
+    /// Requests of different names may be used together. A request replaces an earlier one of the same name.
     std::string name = "layer";
 };
 
-/// Capacity for the fragments of the single pass, to begin with.
+/// Initial capacity for the fragments of the single pass.
 struct FragmentPool {
-    std::uint32_t capacity = 0;  ///< fragments; 0: choose
-    std::uint32_t bands = 1;     ///< the picture is done in this many horizontal bands
+    std::uint32_t capacity = 0;  ///< fragments; 0: automatic
+    std::uint32_t bands = 1;     ///< number of horizontal bands of the image
 };
 
-/// What dual depth peeling learnt of a scene: measured in one frame, used in the next. It is kept until another scene
-/// or picture size is set, so a single crowded pixel in one view makes later views peel one by one.
+/// Measurements of dual depth peeling in one frame, which the next frame uses. They are kept until another scene or
+/// image size is set, so a single crowded pixel in one view makes later views peel one by one.
 struct DualPeeling {
-    std::uint32_t extra_peels = 0;      ///< beyond half the layers: view rays cross more surfaces than there are layers
-    bool measuring = false;             ///< the frame makes all the passes that can be needed, to count those that are
-    bool crowded = false;               ///< three surfaces at one depth, which only peeling one by one tells apart
-    std::optional<glm::uvec2> counted;  ///< of the frame that has run: extra peels that it needs, crowded pixels
+    std::uint32_t extra_peels = 0;      ///< peels beyond half the layers, for rays that cross more surfaces than layers
+    bool measuring = false;             ///< the frame runs the largest number of passes, to count the needed ones
+    bool crowded = false;               ///< three surfaces share a depth; only peeling one by one separates them
+    std::optional<glm::uvec2> counted;  ///< counts of the frame that has run: needed extra peels, crowded pixels
 };
 
-/// Builds the layers of a frame, as often as it is asked to. Lives from frame to frame and learns from each how
-/// much room the next one needs.
+/// Builds the layers of a frame, for any number of requests. Lives from frame to frame, and learns from each frame the
+/// capacity that the next one needs.
 class LayerSource {
 public:
     explicit LayerSource(FragmentPool pool = {}) : bands_(pool.bands) {
         counted("fragments", kFragmentNodeSize).set_capacity(pool.capacity);
     }
 
-    /// Before the first build() of a frame.
+    /// Call before the first build() of a frame.
     void begin_frame(LayerBuilder builder) { builder_ = builder, geometry_passes_ = 0; }
     Layers build(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
-    /// A map of the view, in which every triangle of the scene is. Once per frame; needs GpuScene::topology.
+    /// Builds a map of the view from every triangle of the scene. Call once per frame; needs GpuScene::topology.
     SurfaceMap map_view(Recorder& recorder, const Frame& frame);
-    /// Whether the boxes of all glass lie in the view, so that paths inside it find all of its surfaces in a map of that.
+    /// Whether the view contains the boxes of all glass. Then the view's map holds all surfaces for paths inside the
+    /// glass.
     static bool view_holds_glass(const Frame& frame);
     /// Lists every triangle of the scene in the texels of a projection.
     SurfaceMap map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
                             const MapProjection& projection);
-    /// A buffer of a technique, which lives as long as what it has learnt; must_repeat() looks at it, too.
+    /// A buffer of a technique. It keeps its capacity from frame to frame, and must_repeat() checks it, too.
     CountedBuffer& counted(const std::string& name, vk::DeviceSize item_size,
                            vk::Format texels = vk::Format::eUndefined, bool host_visible = false) {
         return counted_.try_emplace(name, name, item_size, texels, host_visible).first->second;
     }
-    /// Maps of every mesh, each in its own frame, built where a mesh is new or has moved. Once per frame.
+    /// Maps of every mesh in the mesh's own frame. Builds maps of meshes that are new or have moved. Call once per
+    /// frame.
     SurfaceMap map_meshes(Recorder& recorder, const Frame& frame, std::uint32_t resolution) {
         return mesh_maps_.bring_up_to_date(recorder, frame, resolution);
     }
-    /// Paths that the view's map has lost: once there are some, maps of the meshes are to finish them, in the frame that is
-    /// then recorded again and in those that follow.
+    /// Reports paths that the view's map has lost. From then on maps of the meshes finish such paths, in the repeated
+    /// frame and in later frames.
     void note_lost_paths(std::uint32_t count) { paths_lost_ = paths_lost_ || count > 0; }
     bool finishes_paths() const { return finishes_paths_; }
-    /// The frame must be recorded again: something that a technique keeps did not fit.
+    /// Requests that the frame be recorded again, because data of a technique exceeded its capacity.
     void repeat() { repeats_ = true; }
-    /// Forgets what it has learnt of pictures of one size, and keeps what holds for all.
+    /// Resets all state that depends on the image size. Maps of meshes are kept.
     void forget_size();
-    /// After the frame has run: true if something did not fit. What build() does next will, and the frame must be
-    /// recorded again. Throws Error if the device has no room for it.
+    /// Call after the frame has run. True if data exceeded a capacity: the capacity has grown, and the frame must be
+    /// recorded again. Throws Error if the device does not have the memory.
     bool must_repeat(const Frame& frame);
-    /// What must_repeat() found too small, or lost, when it was last true.
+    /// Names of the data that exceeded their capacity, or were lost, when must_repeat() was last true.
     const std::vector<std::string>& outgrown() const { return outgrown_; }
-    /// How often the frame's builds drew their solids so far; bands of a picture count as one each.
+    /// Number of geometry passes in this frame so far. Every band of the image counts as one.
     std::uint32_t geometry_passes() const { return geometry_passes_; }
 
 private:
@@ -135,7 +138,7 @@ private:
 
     LayerBuilder builder_ = LayerBuilder::kSinglePass;
     std::uint32_t geometry_passes_ = 0;
-    std::uint32_t bands_;  ///< horizontal, of the picture, whose fragments fit one after the other
+    std::uint32_t bands_;  ///< number of horizontal bands of the image; the buffer holds the fragments of one band
     DualPeeling dual_;
     std::map<std::string, CountedBuffer> counted_;
     MeshMaps mesh_maps_;

@@ -1,10 +1,10 @@
 #version 460
-// Lists the pixels of an image that are not empty, and want the sample that is drawn.
+// Lists the pixels of an image that are not empty and want the current sample.
 #extension GL_GOOGLE_include_directive : require
 #define PELLUCID_MAKES_LISTS_ONLY
 #include "layers/pixel_list.glsl"
 
-// Narrow, so that the eight neighbours of a list that run together on some drivers are neighbours in both directions.
+// A narrow group: some drivers run eight list entries together, and these are then neighbours in both directions.
 layout(local_size_x = 4, local_size_y = 16) in;
 
 layout(set = 0, binding = 0, r32ui) readonly uniform uimage2DArray marks;

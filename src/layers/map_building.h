@@ -20,44 +20,44 @@ struct MapRecord {
 static_assert(sizeof(MapRecord) == 96);
 
 inline constexpr vk::DeviceSize kMapTriangleSize = 48;
-inline constexpr vk::DeviceSize kMapTexelSize = 8;   ///< TexelRecords
-inline constexpr vk::DeviceSize kMapFoundSize = 16;  ///< a record before it is sorted into its texel
+inline constexpr vk::DeviceSize kMapTexelSize = 8;   ///< size of TexelRecords
+inline constexpr vk::DeviceSize kMapFoundSize = 16;  ///< size of a record before it is sorted into its texel
 inline constexpr vk::DeviceSize kMapRangeSize = 4;
-inline constexpr vk::DeviceSize kMapRecordSize = 8;  ///< SurfaceRecord
-/// Records of a texel start at a multiple of it. Twin of kRangeBlock in surface_map.glsl.
+inline constexpr vk::DeviceSize kMapRecordSize = 8;  ///< size of SurfaceRecord
+/// The records of a texel start at a multiple of kMapRangeBlock. Twin of kRangeBlock in surface_map.glsl.
 inline constexpr std::uint64_t kMapRangeBlock = 4;
 constexpr std::uint64_t whole_range_blocks(std::uint64_t records) {
     return (records + kMapRangeBlock - 1) / kMapRangeBlock * kMapRangeBlock;
 }
 inline constexpr vk::DeviceSize kMapNodeSize = 16;
 inline constexpr vk::DeviceSize kMapTileSize = 8;
-/// In which rays read what the buffers of a SurfaceMap hold, except the maps and objects: triangles, ranges and nodes,
-/// and what has eight bytes.
+/// Formats in which rays read the buffers of a SurfaceMap, except maps and objects. kMapFormat: triangles, ranges and
+/// nodes. kMapPairFormat: items of eight bytes.
 inline constexpr vk::Format kMapFormat = vk::Format::eR32G32B32A32Uint;
 inline constexpr vk::Format kMapPairFormat = vk::Format::eR32G32Uint;
 
-/// Its parts lie at the start of their buffers.
+/// The record of a map whose texels, nodes and triangles lie at the start of their buffers.
 MapRecord record_of(const MapProjection& projection);
-/// Of a map, with those beside it that make its sides powers of two; and of its pyramid.
+/// Number of texels of a map whose sides are padded to powers of two, and number of nodes of its pyramid.
 std::uint64_t texel_count(const MapRecord& record);
 std::uint64_t node_count(const MapRecord& record);
 
-/// One map among those that share the buffers of `map`, and the room that there is for it.
+/// One of the maps that share the buffers of `map`, and its capacities.
 struct MapBuild {
     const SurfaceMap& map;
-    MapRecord record;     ///< as in map.maps,
-    std::uint32_t index;  ///< there
-    bool of_mesh;  ///< of the mesh that starts at record.first_triangle, in its own frame; otherwise of all objects
+    MapRecord record;     ///< equal to the record in map.maps
+    std::uint32_t index;  ///< of the record in map.maps
+    bool of_mesh;  ///< true: map of the mesh at record.first_triangle, in its own frame; false: map of all objects
     std::uint32_t triangle_count;
     std::uint32_t first_record, records;         ///< capacity in map.records
-    CountedBuffer& found;                        ///< begun; records before they are sorted, of at least that capacity
-    CountedBuffer& tiles;                        ///< that large triangles are cut into
-    std::function<void(std::uint32_t)> counted;  ///< gets the records that it needs, once the frame has run
+    CountedBuffer& found;                        ///< begun; unsorted records, with a capacity of at least `records`
+    CountedBuffer& tiles;                        ///< tiles of large triangles
+    std::function<void(std::uint32_t)> counted;  ///< gets the number of needed records once the frame has run
 };
-/// Records the passes that fill it.
+/// Records the passes that fill the map.
 void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topology, const MapBuild& build);
 
-/// Threads of the shaders that take a triangle each, in rows that a dispatch may have.
+/// Dispatch size for shaders with one thread per triangle, in rows that the device allows.
 vk::Extent2D threads_for(const Device& device, std::uint32_t triangles);
 
 }  // namespace pellucid

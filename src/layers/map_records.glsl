@@ -1,15 +1,15 @@
 #ifndef PELLUCID_LAYERS_MAP_RECORDS_GLSL
 #define PELLUCID_LAYERS_MAP_RECORDS_GLSL
 
-// Records as the rasteriser finds them, before they are sorted by texel. Needs: layers/map_triangle_setup.glsl.
+// Records from the rasteriser, before they are sorted by texel. Needs: layers/map_triangle_setup.glsl.
 layout(std430, set = 0, binding = 6) buffer Texels { TexelRecords texels[]; };
 layout(std430, set = 0, binding = 7) buffer Found {
     uint found_count, found_reserved[3];
-    uvec4 found[];  // texel, number there, triangle, range
+    uvec4 found[];  // texel, number within the texel, triangle, range
 };
 
-// Puts a record into its place of the list, if there is room (places are counted beyond it: the host then makes more)
-// and if the triangle is in the texel; kNoTexel holds the place otherwise.
+// Writes a record at index `place` of the list. If the triangle does not cover the texel, the record gets kNoTexel.
+// Places beyond the capacity are dropped but counted, so the host enlarges the list.
 void put_record(MapRecord map, uint place, ivec2 texel, uint triangle, uint range, bool covered) {
     uint index = kNoTexel, number = 0u;
     if (covered) {

@@ -1,22 +1,22 @@
 #ifndef PELLUCID_LAYERS_MAP_TRIANGLE_SETUP_GLSL
 #define PELLUCID_LAYERS_MAP_TRIANGLE_SETUP_GLSL
 
-// A triangle as seen in a map: which texels it covers (Olano & Greer, "Triangle scan conversion using 2D homogeneous
-// coordinates", 1997: no clipping is needed) and at what depths.
+// A triangle in a map: the texels that it covers, and its depths there. No clipping is needed (Olano & Greer, "Triangle
+// scan conversion using 2D homogeneous coordinates", 1997).
 #include "layers/surface_map.glsl"
 
-const float kTexelMargin = 0.01;  // texels; more than a walk's rounding, see surface_walk.glsl
+const float kTexelMargin = 0.01;  // texels; exceeds the rounding of a walk (surface_walk.glsl)
 
 struct MapCoverage {
     ivec2 low, high;      // texels; empty where high < low
-    vec2 base;            // texel that the equations count from, for their precision
+    vec2 base;            // texel at which the equations have their origin, for precision
     vec3 edges[3];        // inside where all (x, y, 1) . edge >= 0
     vec3 depth;           // q = (x, y, 1) . depth
     vec2 depth_range;     // of the whole triangle
-    bool speck;           // far smaller than a texel: its plane is lost in rounding, and depth_range is as good
+    bool speck;           // far smaller than a texel: rounding hides its plane, and depth_range suffices
 };
 
-// Corners in map space, before the division.
+// `p`: corners in map space, before the division by W.
 MapCoverage cover(MapRecord map, vec4 p[3]) {
     MapCoverage c;
     c.low = ivec2(1);
@@ -57,7 +57,7 @@ MapCoverage cover(MapRecord map, vec4 p[3]) {
     return c;
 }
 
-// Whether the triangle covers any of a texel.
+// Whether the triangle covers any part of a texel.
 bool covers(MapCoverage c, ivec2 texel) {
     vec3 center = vec3(vec2(texel) + 0.5 - c.base, 1.0);
     bool inside = true;
@@ -68,7 +68,7 @@ bool covers(MapCoverage c, ivec2 texel) {
     return inside;
 }
 
-// Depths of its plane over the texel, as far as the triangle has them.
+// Depths of the triangle's plane over the texel, clamped to the depth range of the triangle.
 uint depths_in_texel(MapCoverage c, ivec2 texel) {
     if (c.speck) return pack_range(c.depth_range.x, c.depth_range.y);
     float middle = dot(c.depth, vec3(vec2(texel) + 0.5 - c.base, 1.0));

@@ -21,7 +21,7 @@ struct MappedObject {
 };
 static_assert(sizeof(MappedObject) == 32);
 
-/// What the maps of a mesh hold: its box and half a texel around it, so that surfaces do not lie on the rim.
+/// Extent of a mesh's maps: the mesh's box plus half a texel on each side, so that no surface lies on the border.
 struct MapBox {
     glm::vec3 low, high;
     float texel;
@@ -31,7 +31,7 @@ MapBox box_of(const GpuMesh& mesh, std::uint32_t resolution) {
     if (mesh.triangle_count == 0) return {glm::vec3(1.0f), glm::vec3(-1.0f), 1.0f};
     const glm::vec3 size = mesh.high - mesh.low;
     const float longest = std::max({size.x, size.y, size.z});
-    // A map of a point, or of a speck far from its origin, still needs texels that can be told apart.
+    // Limits the resolution to float precision, for a mesh that is a point or is tiny and far from its origin.
     const float finest = 1e-5f * std::max(glm::length(mesh.low), glm::length(mesh.high));
     const float texel = std::max({longest / float(std::max(resolution, 2u) - 1), finest, 1e-30f});
     return {mesh.low - 0.5f * texel, mesh.high + 0.5f * texel, texel};
@@ -67,7 +67,7 @@ void make_room(Buffer& buffer, const Device& device, const char* name, std::uint
         Buffer(device, name, bytes, Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst, false, texels);
 }
 
-/// How many items of a size a buffer of the device can have, in whole blocks.
+/// Largest number of items of a size in a buffer of the device, in whole blocks.
 std::uint32_t most_map_items(const Device& device, vk::DeviceSize item_size) {
     const vk::DeviceSize bytes = std::min<vk::DeviceSize>(device.max_storage_binding(), device.max_allocation());
     const vk::DeviceSize most =
@@ -75,7 +75,7 @@ std::uint32_t most_map_items(const Device& device, vk::DeviceSize item_size) {
     return std::uint32_t(most / kMapRangeBlock * kMapRangeBlock);
 }
 
-constexpr std::uint32_t kCoarsest = 8;  // texels; what a scene whose maps do not fit even so lacks is memory
+constexpr std::uint32_t kCoarsest = 8;  // texels across; if even such maps do not fit, memory is too small
 
 }  // namespace
 
@@ -86,8 +86,8 @@ SurfaceMap MeshMaps::buffers() const {
     return {&maps_, &triangles_, &normals_, &texels_, &ranges_, &records_, &pyramid_, &objects_};
 }
 
-/// Finer where there are many triangles: a ray tests all of those in a texel that it crosses, and along walls seen
-/// edge-on these are many times the mean.
+/// Meshes with many triangles get finer maps. A ray tests all triangles in each texel that it crosses, and texels at
+/// walls seen edge-on hold many times the mean.
 std::uint32_t MeshMaps::texels_across(const GpuMesh& mesh) const {
     constexpr double kMostTrianglesPerTexel = 0.5;
     const double texels = double(resolution_) * resolution_ * kMostTrianglesPerTexel;
@@ -95,7 +95,7 @@ std::uint32_t MeshMaps::texels_across(const GpuMesh& mesh) const {
     return std::uint32_t(std::min(std::ceil(texels_across_ * finer), 8192.0));
 }
 
-/// Whether every mesh that has moved still fits where it was.
+/// Whether the maps of every mesh still fit their allocated ranges after it has moved.
 bool MeshMaps::fits(const Frame& frame) const {
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
         if (!meshes_[m].shown) continue;
@@ -123,7 +123,7 @@ MeshMaps::Room MeshMaps::place_maps(const GpuScene& scene) {
             place.texels = texel_count(record);
             place.first_node = room.nodes;
             place.nodes = node_count(record);
-            // Most closed surfaces are crossed twice or four times along an axis, over half of their box.
+            // A line along an axis crosses most closed surfaces two or four times, over half of their box.
             if (place.records == 0) place.records = whole_range_blocks(place.texels + scene.meshes[m].triangle_count);
             place.first_record = room.records;
             room.texels += place.texels;
@@ -146,7 +146,7 @@ void MeshMaps::lay_out(const Frame& frame) {
                room.nodes > most_map_items(device, kMapNodeSize) || room.records > found_.limit(device) ||
                tiles_.capacity() > tiles_.limit(device);
     };
-    // Coarser maps find the same surfaces, in more time.
+    // Coarser maps find the same surfaces, but take more time.
     while (too_much() && texels_across_ > kCoarsest) {
         texels_across_ = std::max(texels_across_ * 4 / 5, kCoarsest);
         tiles_.set_capacity(tiles());
@@ -239,7 +239,7 @@ bool MeshMaps::must_repeat() {
         meshes_[m].built = true;
         for (Place& place : meshes_[m].places) {
             if (place.counted <= place.records) continue;
-            // With room to spare, as deforming meshes need a little more in one frame and less in the next.
+            // Allocate a quarter more, because the need of a deforming mesh varies from frame to frame.
             place.records = whole_range_blocks(place.counted + place.counted / 4);
             repeat = true;
         }

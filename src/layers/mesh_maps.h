@@ -12,42 +12,42 @@ namespace pellucid {
 
 struct MapRecord;
 
-/// Surface maps of every mesh that an object shows: in the mesh's own frame, along each of its axes, in square texels
-/// that are as wide in all three. Objects that share a mesh share its maps, and they are kept until the mesh moves.
+/// Surface maps of every mesh that an object shows, in the mesh's own frame. A mesh has one map along each axis; their
+/// square texels have the same width. Objects that share a mesh share its maps. Maps are kept until the mesh moves.
 ///
-/// As every surface is in the map along any axis, one would do. A ray walks the one along the axis nearest to its own,
-/// in which it passes the fewest texels.
+/// Every map holds all surfaces, so one would suffice. A ray walks the map along the axis nearest to its direction,
+/// where it passes the fewest texels.
 class MeshMaps {
 public:
     MeshMaps();
 
     static constexpr std::uint32_t kAxes = 3;
 
-    /// Builds the maps of meshes that are new or have moved since the last call, within the frame. `resolution`:
-    /// texels along the longest side of each mesh's box, more where it has many triangles; fewer where the device has no
-    /// room for them. Throws Error if it has none even for coarse ones.
+    /// Records the building of maps of meshes that are new or have moved since the last call. `resolution`: texels
+    /// along the longest side of each mesh's box. Meshes with many triangles get more texels; all get fewer if memory
+    /// is short. Throws Error if the device does not have the memory for the coarsest maps.
     SurfaceMap bring_up_to_date(Recorder& recorder, const Frame& frame, std::uint32_t resolution);
-    /// After the frame has run: true if something did not fit; then the frame must be recorded again.
+    /// Call after the frame has run. True if data exceeded a capacity; then the frame must be recorded again.
     bool must_repeat();
-    /// The meshes whose maps the frame that is being recorded builds.
+    /// Indices of the meshes whose maps the current frame builds.
     const std::vector<std::uint32_t>& building() const { return building_; }
 
 private:
-    /// Where a map lies in the buffers, and how much room is there.
+    /// Ranges of a map in the buffers, as first item and capacity.
     struct Place {
         std::uint64_t first_texel = 0, texels = 0;
         std::uint64_t first_node = 0, nodes = 0;
-        std::uint64_t first_record = 0, records = 0;  ///< records 0: choose
-        std::uint64_t counted = 0;                    ///< records that it needs, of the frame that has run
+        std::uint64_t first_record = 0, records = 0;  ///< records = 0: automatic
+        std::uint64_t counted = 0;                    ///< records that the map needed in the frame that has run
     };
     struct Mapped {
         bool shown = false;  ///< by an object
         bool built = false;
-        std::uint64_t moves = 0;  ///< GpuMesh::moves that the maps are of
+        std::uint64_t moves = 0;  ///< GpuMesh::moves when the maps were built
         Place places[kAxes];
     };
 
-    /// What all maps need together, and `found` the largest.
+    /// Capacities that all maps need together. `found`: the need of the largest map.
     struct Room {
         std::uint64_t texels = 0, nodes = 0, records = 0, found = 0;
     };
@@ -59,11 +59,11 @@ private:
     SurfaceMap buffers() const;
 
     std::uint32_t texels_across(const GpuMesh& mesh) const;  ///< along the longest side of its box
-    std::uint32_t resolution_ = 0;                           ///< asked for,
-    std::uint32_t texels_across_ = 0;                        ///< and what there is room for
+    std::uint32_t resolution_ = 0;                           ///< requested
+    std::uint32_t texels_across_ = 0;                        ///< resolution that fits into memory
     std::vector<Mapped> meshes_;
-    std::vector<std::uint32_t> building_;  ///< meshes, in the frame that is being recorded
-    CountedBuffer found_, tiles_;          ///< while a map is built
+    std::vector<std::uint32_t> building_;  ///< meshes whose maps the current frame builds
+    CountedBuffer found_, tiles_;          ///< scratch memory while a map is built
     bool laid_out_ = false;
     Buffer maps_, objects_, triangles_, normals_, texels_, ranges_, records_, pyramid_;
 };

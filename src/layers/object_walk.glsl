@@ -1,21 +1,21 @@
 #ifndef PELLUCID_LAYERS_OBJECT_WALK_GLSL
 #define PELLUCID_LAYERS_OBJECT_WALK_GLSL
 
-// The nearest surface that a ray meets in maps of every mesh (mesh_maps.h), which lie in the meshes' own frames.
+// The nearest surface that a ray meets in the maps of all meshes (mesh_maps.h). Each map is in its mesh's own frame.
 //
-// Every object whose box the ray meets nearer than the best hit so far is walked, in the order of the scene: what a
-// ray costs grows with the objects whose boxes lie on its way, and with the number of objects by a box test each.
+// The ray visits objects in the order of the scene. It walks the maps of an object whose box it meets nearer than the
+// nearest hit so far. The cost is a box test per object plus a walk per box that the ray passes.
 //
-// Needs: frame, objects (ObjectRecord[]), traits (per object), and what surface_walk.glsl needs; can_meet() is asked with
-// triangles numbered over all objects.
+// Needs: frame, objects (ObjectRecord[]), traits (per object), and everything that surface_walk.glsl needs. can_meet()
+// gets triangle indices over all objects.
 #include "layers/surface_walk.glsl"
 
 // Twin of MappedObject in mesh_maps.cpp.
 struct MappedObject {
     vec3 low;
-    uint first_map;       // of the mesh's, one per axis
+    uint first_map;       // of the mesh's three maps, one per axis
     vec3 high;            // box of the maps, in the mesh's frame
-    uint first_triangle;  // of the mesh, among all meshes'
+    uint first_triangle;  // of the mesh, over all meshes
 };
 layout(std430, set = 0, binding = 26) readonly buffer MappedObjects { MappedObject mapped_objects[]; };
 
@@ -24,7 +24,7 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, 
     SurfaceHit nearest = kNoHit;
     for (uint i = 0u; i < frame.object_count; ++i) {
         MappedObject mapped = mapped_objects[i];
-        // The direction is not made a unit vector, so that distances are the world's.
+        // The direction is not normalised, so that distances are those in world space.
         mat3 object_from_world = transpose(mat3(objects[i].world_from_object_normal));
         vec3 from = object_from_world * (origin - objects[i].world_from_object[3].xyz);
         vec3 way = object_from_world * direction;
@@ -36,12 +36,13 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, 
         if (near > far) continue;
         search.object_traits = traits[i];
         search.first_triangle = objects[i].first_triangle - mapped.first_triangle;
-        // Texels are as wide in every map of a mesh: the way is shortest along the axis nearest to it.
+        // All maps of a mesh have the same texel width, so the ray passes the fewest texels along the nearest axis.
         vec3 along = abs(way);
         uint axis = along.x > along.y ? (along.x > along.z ? 0u : 2u) : (along.y > along.z ? 1u : 2u);
         float t_end;
         SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, t_min, search, t_end);
-        // A transform that mirrors turns the triangles' winding and their outward normals alike: `leaving` holds.
+        // A mirroring transform reverses both the triangles' winding and their outward normals, so `leaving` stays
+        // right.
         if (hit.t < nearest.t) nearest = hit;
     }
     search.object_traits = search.first_triangle = 0u;

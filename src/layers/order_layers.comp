@@ -1,6 +1,6 @@
 #version 460
-// Makes one list of what dual depth peeling found, the near side forwards and then the far side backwards (Chen),
-// and writes its beginning. Says what keeps the list from being right.
+// Joins both sides of dual depth peeling into one list: the near side forwards, then the far side backwards (Chen).
+// Writes the first layers of the list. Counts missing peels and crowded pixels, which make the list wrong.
 #extension GL_GOOGLE_include_directive : require
 #include "layers/dual_peel.glsl"
 
@@ -12,7 +12,7 @@ layout(set = 0, binding = 2, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 3, r32f) writeonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 4, r32ui) writeonly uniform uimage2DArray layer_triangle;
 layout(std430, set = 0, binding = 5) buffer PeelCounters {
-    uint extra_peels;  // that the picture needs beyond half the layers
+    uint extra_peels;  // peels that the image needs beyond half the layers
     uint crowded;      // pixels where three surfaces or more lie at one depth
 };
 layout(push_constant) uniform Push {
@@ -30,7 +30,7 @@ void write_layer(ivec2 texel, float depth, uint triangle) {
     ++written;
 }
 
-// The surfaces at one depth. False: some lie between the lowest and the highest triangle, and are not known.
+// Writes the surfaces at one depth. False if there are more than two: only the lowest and highest triangle are known.
 bool write_layers(ivec2 texel, float depth, vec4 triangles) {
     if (triangles.a > 2.0) return false;
     write_layer(texel, depth, lowest_triangle(triangles));
@@ -45,7 +45,7 @@ void main() {
     if (first_depth == PELLUCID_EMPTY_DEPTH) return;
     if (hidden_by_opaque != 0u && first_depth >= imageLoad(opaque_depth, ivec3(texel, 0)).r) return;
 
-    // Peels up to where the two sides met, or the near side alone had enough.
+    // Count the peels until the two sides met, or until the near side alone had enough layers.
     uint used = 0u, found = 0u;
     bool met = false;
     while (used < peels && !met && found < layer_count) {

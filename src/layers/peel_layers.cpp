@@ -14,7 +14,7 @@ Layers LayerSource::peel(Recorder& recorder, const Frame& frame, const Opaque& o
                                                  .depth = true});
     const LayerImages images = allocate_layers(frame, request);
     const GpuImage& nearest = workspace.image("peel depth test", vk::Format::eD32Sfloat, frame.extent);
-    // Before the first layer there is none to read; something of the right kind has to be bound.
+    // The first layer reads no previous layer, but an image of the right kind has to be bound.
     const GpuImage& no_triangle = workspace.image("no triangle", vk::Format::eR32Uint, {1, 1});
 
     for (std::uint32_t layer = 0; layer < request.count; ++layer) {

@@ -1,5 +1,5 @@
 #version 460
-// Depth peeling: keeps the nearest fragment behind the layer before (Everitt 2001).
+// Depth peeling: keeps the nearest fragment behind the previous layer (Everitt 2001).
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "layers/layer_fragment.glsl"

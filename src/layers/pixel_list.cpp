@@ -6,7 +6,7 @@
 namespace pellucid {
 namespace {
 
-constexpr vk::DeviceSize kHeaderWords = 4;  // arguments of the dispatch, and the length
+constexpr vk::DeviceSize kHeaderWords = 4;  // three arguments of the dispatch, and the length
 constexpr std::uint32_t kEverySample = ~0u;
 constexpr std::uint32_t kListGroup = 64;  // PELLUCID_LIST_GROUP of pixel_list.glsl
 

@@ -1,14 +1,14 @@
 #ifndef PELLUCID_LAYERS_PIXEL_LIST_GLSL
 #define PELLUCID_LAYERS_PIXEL_LIST_GLSL
 
-// Lists of pixels (pixel_list.h): the arguments of a dispatch of one invocation per pixel in workgroups of
-// PELLUCID_LIST_GROUP, how many pixels there are, and the pixels, x | y << 16. A device need not dispatch more than
-// 65,535 workgroups in a row, so there are as many rows of them as the largest list of the picture needs.
+// Lists of pixels (pixel_list.h): the arguments of a dispatch, the number of pixels, and the pixels as x | y << 16. The
+// dispatch has one invocation per pixel, in workgroups of PELLUCID_LIST_GROUP. Vulkan guarantees only 65,535 workgroups
+// in a row, so the dispatch has as many rows as the longest possible list of the image needs.
 #define PELLUCID_LIST_GROUP 64
 
 uint list_word(ivec2 texel) { return uint(texel.x) | uint(texel.y) << 16; }
 
-// The list that a shader with `layout(local_size_x = PELLUCID_LIST_GROUP) in;` goes through.
+// The list that a shader with `layout(local_size_x = PELLUCID_LIST_GROUP) in;` processes.
 #ifndef PELLUCID_MAKES_LISTS_ONLY
 layout(std430, set = 0, binding = 19) readonly buffer PixelList {
     uint list_groups[3];
@@ -16,7 +16,7 @@ layout(std430, set = 0, binding = 19) readonly buffer PixelList {
     uint list_pixels[];
 };
 
-// False: there is no pixel for this invocation.
+// The pixel of this invocation. False if the list has none for it.
 bool listed_pixel(out ivec2 texel) {
     uint group = gl_WorkGroupID.x * list_groups[1] + gl_WorkGroupID.y;
     uint i = group * PELLUCID_LIST_GROUP + gl_LocalInvocationID.x;
@@ -26,7 +26,7 @@ bool listed_pixel(out ivec2 texel) {
 }
 #endif
 
-// Declares a list, begun by start_list.comp, and the function that appends a pixel to it.
+// Declares a list that start_list.comp has begun, and a function that appends a pixel to it.
 #define PELLUCID_APPENDED_LIST(Block, block_binding, groups, length_, pixels, append) \
     layout(std430, set = 0, binding = block_binding) buffer Block {                   \
         uint groups[3];                                                               \

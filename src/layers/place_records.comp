@@ -1,5 +1,5 @@
 #version 460
-// Puts every record that the rasteriser has found into its texel.
+// Copies every record that the rasteriser has found to the list of its texel.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
@@ -15,7 +15,8 @@ layout(std430, set = 0, binding = 8) writeonly buffer Ranges { uint ranges[]; };
 layout(std430, set = 0, binding = 9) writeonly buffer Records { SurfaceRecord records[]; };
 layout(std430, set = 0, binding = 10) readonly buffer ShellTraits { uint shell_traits[]; };  // per triangle of meshes
 layout(constant_id = 0) const bool kOneObject = false;
-layout(constant_id = 1) const bool kOfMesh = false;     // records are of no object: whoever walks it knows that one's traits
+// The map of a mesh. Its records belong to no object, and the walk adds the traits of the object.
+layout(constant_id = 1) const bool kOfMesh = false;
 layout(constant_id = 2) const bool kManySlots = false;  // shells of one mesh differ
 layout(push_constant) uniform Push { uint end; };  // of the map's records
 

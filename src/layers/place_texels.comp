@@ -1,5 +1,5 @@
 #version 460
-// Makes room for the records of each texel: blocks of texels lie together, as rays pass through them.
+// Allocates the records of each texel. Blocks of texels lie together, because a ray passes through neighbours.
 #extension GL_GOOGLE_include_directive : require
 #include "layers/surface_map.glsl"
 

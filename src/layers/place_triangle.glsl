@@ -1,11 +1,11 @@
 #ifndef PELLUCID_LAYERS_PLACE_TRIANGLE_GLSL
 #define PELLUCID_LAYERS_PLACE_TRIANGLE_GLSL
 
-// Writes triangles as rays read them (surface_map.glsl). Needs: objects, vertices.glsl.
+// Writes triangles in the format that rays read (surface_map.glsl). Needs: objects, vertices.glsl.
 layout(std430, set = 0, binding = 4) writeonly buffer MapTriangles { vec4 map_triangles[]; };
 layout(std430, set = 0, binding = 10) writeonly buffer MapNormals { vec4 map_normals[]; };
 
-// The corners v are in the triangle's space; counter-clockwise seen from outside, mirrored objects included.
+// Returns the corners `v` in the map's space. They are counter-clockwise seen from outside, also for mirrored objects.
 void place_triangle(uint triangle, uint corner, mat4 space_from_object, mat3 normals_from_object, bool mirrored,
                     out vec3 v[3]) {
     uvec3 corners = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);

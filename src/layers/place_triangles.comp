@@ -1,5 +1,5 @@
 #version 460
-// Places all triangles of the scene in the world, for rays that no map guides.
+// Transforms all triangles of the scene to world space, for rays that use no map.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };

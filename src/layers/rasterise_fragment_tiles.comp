@@ -1,5 +1,5 @@
 #version 460
-// The tiles that rasterise_fragments.comp has cut triangles into.
+// Rasterises the tiles into which rasterise_fragments.comp has cut triangles.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };

@@ -1,7 +1,7 @@
 #version 460
-// Appends the fragments of an object's triangles to the lists of their pixels, as gather_fragments.frag does. Large
-// triangles, and those that cross the near plane, are cut into tiles for rasterise_fragment_tiles.comp, so that no
-// invocation has much more to do than its neighbours.
+// Appends the fragments of an object's triangles to the lists of their pixels, as gather_fragments.frag does. Cuts
+// large triangles, and triangles that cross the near plane, into tiles for rasterise_fragment_tiles.comp. The tiles
+// balance the work of neighbouring invocations.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "layers/triangle_fragments.glsl"
@@ -13,10 +13,10 @@ layout(push_constant) uniform Push {
     PlacedMesh object;
     uint triangle_count;
     uint row;  // invocations in a row of the dispatch
-    uint first_row, row_end;  // of the picture
+    uint first_row, row_end;  // of the image
 };
 
-const int kSmall = 32;  // pixels of a box that one invocation goes through; bits of a word
+const int kSmall = 32;  // most pixels of a box that one invocation processes; bits of a word
 
 void main() {
     uint number = gl_GlobalInvocationID.y * row + gl_GlobalInvocationID.x;
@@ -26,7 +26,8 @@ void main() {
     ivec2 size = t.high - t.low + 1;
     if (size.x <= 0 || size.y <= 0) return;
     if (size.x * size.y <= kSmall && !t.crosses_near) {
-        // First which, then what: some drivers run the whole of a loop at every turn, and most turns find nothing.
+        // First find the covered pixels, then append their fragments. Some drivers run the whole loop body in every
+        // iteration, and most iterations find no covered pixel.
         uint covered = 0u;
         ivec2 pixel = t.low;
         float depth;

@@ -1,6 +1,6 @@
 #version 460
-// Lists every triangle of the scene, or of one mesh in its own frame, in the texels of a map: small ones here; large
-// ones are cut into tiles for rasterise_tiles.comp.
+// Lists every triangle of the scene, or of one mesh in its own frame, in the texels of a map. Cuts large triangles into
+// tiles for rasterise_tiles.comp.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
@@ -22,7 +22,7 @@ layout(push_constant) uniform Push {
     uint row;  // invocations in a row of the dispatch
 };
 
-const int kSmall = 2 * kTile * kTile;  // texels of a box that one invocation goes through
+const int kSmall = 2 * kTile * kTile;  // most texels of a box that one invocation processes
 
 void main() {
     uint number = gl_GlobalInvocationID.y * row + gl_GlobalInvocationID.x;

@@ -1,5 +1,5 @@
 #version 460
-// The tiles that rasterise_surfaces.comp has cut large triangles into.
+// Lists triangles in the texels of the tiles into which rasterise_surfaces.comp has cut them.
 #extension GL_GOOGLE_include_directive : require
 #include "layers/map_triangle_setup.glsl"
 #include "layers/map_records.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// A coarser level of a map's pyramid from the one below it.
+// Reduces a level of a map's pyramid to the next coarser level.
 #extension GL_GOOGLE_include_directive : require
 #include "layers/surface_map.glsl"
 

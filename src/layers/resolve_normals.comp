@@ -1,5 +1,5 @@
 #version 460
-// Normals of layers whose depths and triangles are known.
+// Computes the normals of layers whose depths and triangles are known.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
@@ -12,7 +12,7 @@ layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
 layout(set = 0, binding = 2, r32ui) readonly uniform uimage2DArray layer_triangle;
 layout(set = 0, binding = 3, r32ui) writeonly uniform uimage2DArray layer_normal;
-// With one object its record is the same for all pixels, which some drivers then read only once.
+// With one object all pixels share its record, and some drivers then read the record only once.
 layout(constant_id = 0) const bool kOneObject = false;
 layout(push_constant) uniform Push {
     uint layer_count;

@@ -1,6 +1,6 @@
 #version 460
-// Writes the nearest fragments of each pixel's list in order. Selection reads the list once per
-// layer; it needs no memory of its own, so neither lists nor layers have a maximum length.
+// Writes the nearest fragments of each pixel's list in order. Selection reads the list once per layer and needs no
+// memory of its own, so neither the list length nor the layer count is limited.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
@@ -17,13 +17,13 @@ layout(set = 0, binding = 4, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 5, r32f) writeonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 6, r32ui) writeonly uniform uimage2DArray layer_triangle;
 layout(set = 0, binding = 7, r32ui) writeonly uniform uimage2DArray layer_normal;
-// With one object its record is the same for all pixels, which some drivers then read only once.
+// With one object all pixels share its record, and some drivers then read the record only once.
 layout(constant_id = 0) const bool kOneObject = false;
 layout(push_constant) uniform Push {
     uint layer_count;
     uint hidden_by_opaque;
     uint only_object;
-    float depth_rounding;  // of opaque surfaces' depths, relative to the fragments'
+    float depth_rounding;  // relative difference between opaque depths and fragment depths of one surface
 };
 
 #include "layers/objects.glsl"

@@ -1,6 +1,6 @@
-// One geometry pass for all layers: per-pixel linked lists (Yang et al., "Real-Time Concurrent Linked List
-// Construction on the GPU", EGSR 2010), of which a compute pass selects the nearest. Triangles are drawn, which needs
-// Device::fragment_atomics(), or rasterised in compute shaders.
+// One geometry pass builds per-pixel linked lists of fragments (Yang et al., "Real-Time Concurrent Linked List
+// Construction on the GPU", EGSR 2010). A compute pass selects the nearest fragments of each list. Triangles are drawn,
+// which needs Device::fragment_atomics(), or rasterised in compute shaders.
 #include "layers/layer_images.h"
 #include "layers/map_building.h"
 #include "layers/pixel_list.h"
@@ -12,13 +12,13 @@
 namespace pellucid {
 namespace {
 
-constexpr float kRasterisedDepthRounding = 2e-6f;  ///< of depths, relative
+constexpr float kRasterisedDepthRounding = 2e-6f;  ///< relative rounding of depths
 
 bool mirrors(const glm::mat4& transform) { return glm::determinant(glm::mat3(transform)) < 0.0f; }
 
 }  // namespace
 
-/// Where the fragments of a band go, and its rows.
+/// A band of the image: its fragment lists and its rows.
 struct LayerSource::FragmentBand {
     const GpuImage& heads;
     const Buffer& nodes;
@@ -80,7 +80,7 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
         const std::uint32_t rows = std::min(band_rows, frame.extent.height - first_row);
         if (rows == 0) break;
         ++geometry_passes_;
-        // At first, two surfaces in every pixel.
+        // The initial capacity is two surfaces per pixel.
         const Buffer& nodes = fragments.begin(recorder, workspace, 2ull * frame.extent.width * frame.extent.height);
         if (in_compute) {
             rasterise_fragments(recorder, frame, request, {heads, nodes, first_row, first_row + rows});
@@ -103,7 +103,7 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
                        in_compute ? kRasterisedDepthRounding : 0.0f},
             *listed);
     }
-    // The list of the last band is that of the picture only if there is one band and nothing opaque.
+    // The list of the last band covers the image only if there is one band and no opaque surface hides layers.
     if (bands_ > 1 || (request.hidden_by_opaque && frame.has_opaque())) {
         listed = &list_pixels(recorder, frame, images.triangle, PELLUCID_NO_TRIANGLE, list_name, 0, frame.extent.height,
                               frame.wanted_samples);
@@ -111,7 +111,7 @@ Layers LayerSource::gather(Recorder& recorder, const Frame& frame, const Opaque&
     return {images.depth, images.triangle, images.normal, *listed, request.count, opaque, *this};
 }
 
-// Fragments that are more than a buffer holds are those of several bands.
+// Divides the image into more bands if the fragments of a band exceed the largest buffer.
 void LayerSource::cut_bands(const Frame& frame) {
     CountedBuffer& fragments = counted("fragments", kFragmentNodeSize);
     const std::uint32_t most = fragments.limit(frame.workspace.device());

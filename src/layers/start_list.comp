@@ -1,5 +1,5 @@
 #version 460
-// An empty list of pixels; see pixel_list.glsl.
+// Starts an empty list of pixels; see pixel_list.glsl.
 layout(local_size_x = 1) in;
 
 layout(std430, set = 0, binding = 0) writeonly buffer PixelList {

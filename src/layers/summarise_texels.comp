@@ -1,5 +1,5 @@
 #version 460
-// The finest level of a map's pyramid: the depths of each texel's records.
+// Computes the finest level of a map's pyramid from the depth ranges of each texel's records.
 #extension GL_GOOGLE_include_directive : require
 #include "layers/surface_map.glsl"
 

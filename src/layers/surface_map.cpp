@@ -1,4 +1,4 @@
-// Triangles are rasterised in compute: what a fragment shader sees leaves out what covers no texel's centre.
+// Compute shaders rasterise the triangles, because the hardware skips a triangle that covers no texel centre.
 #include "layers/surface_map.h"
 
 #include "layers/layers.h"
@@ -39,7 +39,7 @@ std::uint64_t texel_count(const MapRecord& record) { return 1ull << (record.log2
 std::uint64_t node_count(const MapRecord& record) { return 4 * texel_count(record) / 3 + 1; }
 
 vk::Extent2D threads_for(const Device& device, std::uint32_t triangles) {
-    constexpr std::uint32_t kGroup = 64;  // of the shaders that go through triangles
+    constexpr std::uint32_t kGroup = 64;  // workgroup size of the shaders that process triangles
     const std::uint32_t row_groups = device.limits().maxComputeWorkGroupCount[0];
     const std::uint32_t groups = (triangles + kGroup - 1) / kGroup, rows = groups / row_groups + 1;
     return {(groups + rows - 1) / rows * kGroup, rows};
@@ -57,7 +57,7 @@ void build_map(Recorder& recorder, const Frame& frame, const SceneTopology& topo
     recorder.fill(*map.texels, record.first_head * kMapTexelSize, texels * kMapTexelSize, 0);
     recorder.fill(*map.ranges, build.first_record * kMapRangeSize, build.records * kMapRangeSize, kNoRange);
     const vk::Extent2D threads = threads_for(workspace.device(), build.triangle_count);
-    // Records of a mesh are of no object: whoever walks it for one knows that object's traits.
+    // Records of a mesh's map belong to no object. The walk adds the traits of the object.
     const bool one_object = build.of_mesh || scene.object_count == 1;
     recorder.compute(
         workspace.compute(shaders::rasterise_surfaces_comp, {{"kOfMesh", build.of_mesh}, {"kOneObject", one_object}}),

@@ -1,39 +1,39 @@
 #ifndef PELLUCID_LAYERS_SURFACE_MAP_GLSL
 #define PELLUCID_LAYERS_SURFACE_MAP_GLSL
 
-// What a surface map is made of (surface_map.h).
+// Records of a surface map (surface_map.h).
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/structs.h"
 
-// Twin of MapRecord in surface_map.cpp.
+// Twin of MapRecord in map_building.h.
 struct MapRecord {
     mat4 map_from_space;   // (X, Y, Q, W)
     float near_w;
     uint width, height;    // texels
     uint log2_width, log2_height;  // of the pyramid's finest level
-    uint first_head, first_node;   // in buffers that several maps share
-    uint first_triangle;           // of its mesh among all meshes'; 0: of all objects
+    uint first_head, first_node;   // first texel and node, in buffers that several maps share
+    uint first_triangle;           // of the map's mesh, over all meshes; 0 for a map of all objects
 };
 
-// A triangle in the space of its map is three vec4: its first corner, and the ways from it to the second and third;
-// its vertices' normals, unit and outward, are three more.
+// A triangle in map_triangles is three vec4: its first corner, and the edges from there to the second and third corner.
+// Its vertex normals in map_normals are three more vec4, outward, in the same space.
 
-// A record says that the surface of a triangle crosses its texel. Its depths there, lowest | highest << 16, lie in a
-// list of their own, which rays read four at a time; kNoRange where there is no record.
+// A record states that a triangle crosses the texel. The depths of all records lie in a separate list, as
+// lowest | highest << 16. Rays read four depth ranges at a time; unused ranges are kNoRange.
 struct SurfaceRecord {
     uint triangle;
-    uint traits;    // of its object and its shell, object_traits.glsl; of a mesh's map: of its shell
+    uint traits;    // of object and shell (object_traits.glsl); in the map of a mesh, of the shell only
 };
-// Where those of a texel lie, one after the other; `first` is a multiple of kRangeBlock.
+// Range of a texel's records. `first` is a multiple of kRangeBlock.
 struct TexelRecords {
     uint first, count;
 };
 const uint kRangeBlock = 4u;
 const uint kNoTexel = 0xffffffffu;
 
-// Depths in 16 bits.
+// Depths are quantised to 16 bits.
 const float kDepthSteps = 65535.0;
-const uint kNoRange = 0x0000ffffu;  // ends before it starts
+const uint kNoRange = 0x0000ffffu;  // an empty range: it ends before it starts
 
 uint pack_range(float low, float high) {
     uint l = uint(clamp(floor(low * kDepthSteps), 0.0, kDepthSteps));
@@ -41,14 +41,15 @@ uint pack_range(float low, float high) {
     return l | h << 16;
 }
 
-// Where the pyramid's levels start: sizes fall by four, so the starts are the digits of 1/3 in base four.
+// Index at which a level of the pyramid starts. Sizes fall by four, so the starts follow the digits of 1/3 in base
+// four.
 int level_start(MapRecord map, int level) {
     int log2_area = int(map.log2_width + map.log2_height);
     int starts = ((log2_area & 1) == 0 ? 0x55555555 : 0x2aaaaaaa) & ((2 << log2_area) - 1);
     return int(map.first_node) + (starts & ~((4 << log2_area >> 2 * level) - 1));
 }
 
-// Texels lie along a Z curve, so that blocks of them are together in memory and the parent of texel or node i is i / 4.
+// Index of a texel along a Z curve. So blocks of texels lie together in memory, and node i / 4 is the parent of node i.
 int texel_order(MapRecord map, ivec2 texel) {
     int side = int(min(map.log2_width, map.log2_height));
     ivec2 block = texel >> side;
@@ -60,12 +61,12 @@ int texel_order(MapRecord map, ivec2 texel) {
     return (block.x | block.y) << 2 * side | spread.y << 1 | spread.x;
 }
 
-// The node of a level over a texel.
+// The node of a level that contains a texel.
 int node_index(MapRecord map, int level, int order) { return level_start(map, level) + (order >> 2 * level); }
 
 uint map_levels(MapRecord map) { return min(map.log2_width, map.log2_height) + 1u; }
 
-// Up to four ranges, by where they start; a fifth makes the two with the smallest gap between them one.
+// Inserts a range into up to four ranges, sorted by their start. A fifth range merges the two with the smallest gap.
 void insert_range(inout uvec4 ranges, uint range) {
     if ((range & 0xffffu) > (range >> 16)) return;
     uint sorted[5] = uint[5](ranges.x, ranges.y, ranges.z, ranges.w, range);

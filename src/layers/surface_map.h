@@ -9,38 +9,36 @@
 
 namespace pellucid {
 
-/// A view of space in which lines stay lines: `map_from_world` times a world position gives (X, Y, Q, W); X / W and
-/// Y / W count texels, Q / W is a depth that grows away from the eye, 0..1 over what the map holds.
+/// A projection that maps lines to lines. `map_from_world` times a world position gives (X, Y, Q, W). X / W and Y / W
+/// count texels. Q / W is a depth that grows away from the eye, 0..1 over the extent of the map.
 struct MapProjection {
     glm::mat4 map_from_world{1.0f};
-    float near_w = 0.0f;  ///< what has a smaller W is not in the map
+    float near_w = 0.0f;  ///< points of smaller W are not in the map
     vk::Extent2D extent;  ///< texels
 };
 
-/// Which triangles of the scene lie in which texel, and how deep: a hierarchy for rays that the rasteriser makes anew
-/// whenever the scene changes.
+/// A hierarchy of the scene's triangles for rays. A rasteriser rebuilds it whenever the scene changes.
 ///
-/// Per texel a list of records, each a triangle and the range of depths at which its surface crosses the texel. A
-/// triangle is in every texel that it touches: what a ray meets in a texel is in its list.
-/// Over the texels a pyramid of depth ranges: up to four per node, in which all of its records lie.
+/// Each texel has a list of records: a triangle, and the range of depths at which it crosses the texel. A triangle is
+/// listed in every texel that it touches, so the list holds every surface that a ray can meet in the texel. A pyramid
+/// over the texels holds up to four depth ranges per node, which cover all of the node's records.
 struct SurfaceMap {
     const Buffer* maps;       ///< MapRecord[]
-    const Buffer* triangles;  ///< see surface_map.glsl; in the world, or in the frames of meshes
-    const Buffer* normals;    ///< of their corners, likewise
-    const Buffer* texels;     ///< TexelRecords[]: per texel, where its records lie
-    const Buffer* ranges;     ///< depths of each record
+    const Buffer* triangles;  ///< see surface_map.glsl; in world space, or in the frames of meshes
+    const Buffer* normals;    ///< normals at the triangles' corners, in the same space
+    const Buffer* texels;     ///< TexelRecords[]: per texel, the range of its records
+    const Buffer* ranges;     ///< depth range of each record
     const Buffer* records;    ///< SurfaceRecord[]
     const Buffer* pyramid;    ///< uvec4[]: levels from the finest on
-    const Buffer*
-        objects;  ///< where there are maps of every mesh: MappedObject[], see object_walk.glsl; otherwise null
+    const Buffer* objects;    ///< MappedObject[] (object_walk.glsl) with maps of every mesh; otherwise null
 };
 
-/// What takes the place of a map where none is walked: triangles alone. Everything else that shaders declare is bound to
-/// them, and not looked at.
+/// A map of triangles alone, for finders that walk no map. The other buffers that shaders declare are bound to
+/// `triangles`, but never read.
 inline SurfaceMap of_triangles(const Buffer& triangles, const Buffer& normals) {
     return {&triangles, &triangles, &normals, &triangles, &triangles, &triangles, &triangles, nullptr};
 }
-/// The triangles of all objects, placed in the world.
+/// Transforms the triangles of all objects to world space.
 SurfaceMap place_triangles(Recorder& recorder, const Frame& frame);
 
 }  // namespace pellucid

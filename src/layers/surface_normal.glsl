@@ -1,12 +1,11 @@
 #ifndef PELLUCID_LAYERS_SURFACE_NORMAL_GLSL
 #define PELLUCID_LAYERS_SURFACE_NORMAL_GLSL
 
-// What layer records leave out, interpolated between the vertices of their triangles: normals, and whatever else is
-// known per vertex.
+// Normals and other vertex attributes of layers, interpolated between the vertices of their triangles.
 // Needs: frame (FrameConstants), objects (ObjectRecord[]), gpu/vertices.glsl.
 #include "layers/corner_weights.glsl"
 
-// A point of a triangle, between its corners.
+// A point of a triangle.
 struct SurfacePoint {
     uvec3 corners;  // vertices
     vec3 weights;   // of the corners; they add up to 1
@@ -22,7 +21,7 @@ Ray object_ray(vec2 pixel, uint object_index) {
                object_from_world * (mat3(frame.world_from_view) * ray.direction));
 }
 
-// Where such a ray meets a triangle of the object.
+// The point where a ray of object_ray() meets a triangle of the object.
 SurfacePoint surface_point(Ray ray, uint triangle, uint object_index) {
     uint corner =
         objects[object_index].first_corner + 3u * (triangle_index(triangle) - objects[object_index].first_triangle);
@@ -32,13 +31,13 @@ SurfacePoint surface_point(Ray ray, uint triangle, uint object_index) {
                                                 vertex_position(corners.z) - a));
 }
 
-// Unit world normal there, octahedral.
+// Unit world normal at that point, octahedral.
 uint surface_normal(Ray ray, uint triangle, uint object_index) {
     SurfacePoint point = surface_point(ray, triangle, object_index);
     vec3 normal = point.weights.x * vertex_normal(point.corners.x) + point.weights.y * vertex_normal(point.corners.y) +
                   point.weights.z * vertex_normal(point.corners.z);
     normal = mat3(objects[object_index].world_from_object_normal) * normal;
-    // Opposite normals cancel out somewhere; any will do there.
+    // Opposite vertex normals can cancel out. Any normal is valid there.
     return pack_direction(dot(normal, normal) > 1e-30 ? normal : vec3(0.0, 1.0, 0.0));
 }
 

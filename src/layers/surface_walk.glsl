@@ -1,52 +1,53 @@
 #ifndef PELLUCID_LAYERS_SURFACE_WALK_GLSL
 #define PELLUCID_LAYERS_SURFACE_WALK_GLSL
 
-// The nearest surface that a ray meets, by a walk over the texels that it passes in a surface map.
+// Finds the nearest surface that a ray meets by a walk over the texels that the ray passes in a surface map.
 //
-// Lines of space are lines of the map, so the ray is a + s (b - a) there, s = 0..1, with the depth q as third
-// coordinate. At a node of the pyramid none of whose depth ranges the ray passes, it skips the node and climbs;
-// otherwise it descends. In a texel the records whose ranges it passes are intersected exactly.
+// A line in space is a line in the map, so the ray is a + s (b - a) there, s = 0..1. The third coordinate is the depth
+// q. If the ray passes none of the depth ranges of a pyramid node, the walk skips the node and climbs. Otherwise it
+// descends. In a texel the walk intersects the triangles of all records whose ranges the ray passes.
 //
-// Needs: maps, map_triangles, texels, ranges, records, pyramid (surface_map.glsl), kCrossing; struct Search (path_walk.glsl),
-// and bool can_meet(Search search, uint traits, bool leaving, uint triangle): whether it may meet a surface in that sense.
+// Needs: maps, map_triangles, texels, ranges, records, pyramid (surface_map.glsl), kCrossing, struct Search
+// (path_walk.glsl), and bool can_meet(Search search, uint traits, bool leaving, uint triangle). can_meet() decides
+// whether the ray may meet a surface in that direction.
 #include "layers/surface_map.glsl"
 #include "gpu/object_traits.glsl"
 
-const float kNudge = 0.002;      // texels, over an edge of a node; less than kTexelMargin
-const float kSlack = 1e-4;       // of a triangle's barycentric weights: rays through edges meet one of both sides
+const float kNudge = 0.002;      // texels past the edge of a node; less than kTexelMargin
+const float kSlack = 1e-4;       // of barycentric weights, so that a ray through an edge meets a triangle there
 const float kFarthest = 1e30;
-// Nodes and records that a ray may look at in one pass: the software driver ends all loops of an invocation, without a
-// word, after 65,535 turns, and eight invocations at a time take the turns of each in step.
+// Limits for the nodes and records that a ray visits in one pass. The software driver silently ends all loops of an
+// invocation after 65,535 iterations, and eight invocations run the iterations of each in lockstep.
 const uint kMostTurns = 65535u, kTogether = 8u, kTurnsPerVisit = 2u;
 const uint kMostVisits = 8000u;
 
 struct MapRay {
-    vec3 a, way;          // map space; from a on all of the way
-    float t_a, t_b;       // distances along the ray of space there
-    float w_a, w_b;       // and W
-    bool to_far;          // it ends at the far side of the map, behind all that there is
+    vec3 a, way;          // map space: the start, and the vector b - a to the end
+    float t_a, t_b;       // distances along the ray in space at a and b
+    float w_a, w_b;       // W at a and b
+    bool to_far;          // the ray ends at the far side of the map, behind all surfaces
 };
 
 struct SurfaceHit {
     float t;         // kFarthest: none
     uint triangle;
     uint traits;
-    bool leaving;    // along the outward normal
+    bool leaving;    // the ray goes along the outward normal
 };
 
 const SurfaceHit kNoHit = SurfaceHit(kFarthest, PELLUCID_NO_TRIANGLE, 0u, false);
 
-// Of two triangles at one place the first counts: records lie in an order that is chance.
+// At equal distances the lower triangle index wins, because the order of records is random.
 bool is_nearer(SurfaceHit a, SurfaceHit b) { return a.t < b.t || (a.t == b.t && a.triangle < b.triangle); }
 
 void take_nearer(inout SurfaceHit hit, SurfaceHit candidate) {
     if (is_nearer(candidate, hit)) hit = candidate;
 }
 
-// Where the line of a ray meets the plane of a triangle.
+// The point where the line of a ray meets the plane of a triangle.
 struct TriangleHit {
     float t;
-    vec3 weights;  // of the corners; inside the triangle none is negative
+    vec3 weights;  // of the corners; none is negative inside the triangle
     bool leaving;
 };
 
@@ -60,7 +61,7 @@ TriangleHit intersect_triangle(uint triangle, vec3 origin, vec3 direction) {
     return TriangleHit(dot(c.xyz, q) / determinant, vec3(1.0 - weights.x - weights.y, weights), determinant < 0.0);
 }
 
-// Keeps [t_low, t_high] where start + t rate >= 0.
+// Clips [t_low, t_high] to the t with start + t rate >= 0.
 void clip(float start, float rate, inout float t_low, inout float t_high) {
     float t = -start / rate;
     if (rate > 0.0) t_low = max(t_low, t);
@@ -68,7 +69,7 @@ void clip(float start, float rate, inout float t_low, inout float t_high) {
     if (rate == 0.0 && start < 0.0) t_high = -1.0;
 }
 
-// As far as `limit`, m. False: the ray does not enter the map.
+// Clips a ray to the map, up to the distance `limit`, m. False if the ray does not enter the map.
 bool map_ray(MapRecord map, vec3 origin, vec3 direction, float limit, out MapRay ray) {
     vec4 p = map.map_from_space * vec4(origin, 1.0), r = map.map_from_space * vec4(direction, 0.0);
     float low = 0.0, high = limit;
@@ -91,14 +92,14 @@ float distance_at(MapRay ray, float s) {
     return mix(ray.t_a, ray.t_b, share / (share + (1.0 - s) * ray.w_b));
 }
 
-// The s of a distance.
+// The parameter s of the point at distance t.
 float way_at(MapRay ray, float t) {
     float share = (t - ray.t_a) / (ray.t_b - ray.t_a);
     return share * ray.w_b / (share * ray.w_b + (1.0 - share) * ray.w_a);
 }
 
-// The nearest surface beyond `t_min`, m; `t_end` is where the map ends on the way, kFarthest if that is at its far side.
-// Nodes and records looked at are counted; a search for which there are too many gives up.
+// The nearest surface beyond `t_min`, m. `t_end`: distance at which the ray leaves the map; kFarthest at its far side.
+// Counts the nodes and records visited. A search that exceeds the limit gives up.
 SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min, inout Search search, out float t_end) {
     SurfaceHit hit = kNoHit;
     MapRay ray;
@@ -147,7 +148,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
         uint block = own.x / kRangeBlock, end = (own.x + own.y + kRangeBlock - 1u) / kRangeBlock;
         search.visits += own.y;
         if (search.visits > search.most_visits) break;
-        uint passed = 0u;  // of a block, those whose ranges the ray passes: a bit each
+        uint passed = 0u;  // records of a block whose ranges the ray passes, a bit each
         for (;;) {
             while (passed == 0u && block < end) {
                 ivec4 depths = ivec4(texelFetch(ranges, int(block++)));
@@ -160,7 +161,7 @@ SurfaceHit find_surface(MapRecord map, vec3 origin, vec3 direction, float t_min,
             uint triangle = record.x + search.first_triangle, own_traits = record.y + search.object_traits;
             TriangleHit at = intersect_triangle(record.x, origin, direction);
             float least = min(at.weights.x, min(at.weights.y, at.weights.z));
-            // A shell that counts what is met may not be met twice at an edge.
+            // A shell that crosses itself counts its crossings, so a ray must not meet it twice at an edge.
             bool inside = least >= (kCrossing && (own_traits & kCrossesItself) != 0u ? 0.0 : -kSlack);
             if (inside && at.t > t_min && at.t <= t_max && can_meet(search, own_traits, at.leaving, triangle))
                 take_nearer(hit, SurfaceHit(at.t, triangle, own_traits, at.leaving));

@@ -1,18 +1,19 @@
 #ifndef PELLUCID_LAYERS_TRACE_SURFACE_GLSL
 #define PELLUCID_LAYERS_TRACE_SURFACE_GLSL
 
-// The nearest surface that a ray meets, found by the device's own ray tracing (VK_KHR_ray_query).
+// Finds the nearest surface that a ray meets with the device's ray tracing (VK_KHR_ray_query).
 //
-// The device names the triangles on the ray. Each is intersected here by the arithmetic of the other finders, so a path goes
-// the same way whoever has found its surfaces.
+// The device reports the triangles on the ray. Each is intersected with the arithmetic of the other finders, so every
+// finder leads to the same path.
 //
-// Needs: what layers/surface_walk.glsl needs; objects, traits (per object), kManySlots.
+// Needs: everything that layers/surface_walk.glsl needs, objects, traits (per object), kManySlots.
 #include "layers/surface_walk.glsl"
 
 layout(std430, set = 0, binding = 38) readonly buffer ShellTraits { uint shell_traits[]; };  // per triangle of meshes
 layout(set = 0, binding = 46) uniform accelerationStructureEXT hierarchy;  // of all objects, by custom index
 
-// Beyond `t_min`, m. Distances of the device and of intersect_triangle() differ by less than `slack`, m.
+// The nearest surface beyond `t_min`, m. Distances of the device and of intersect_triangle() differ by less than
+// `slack`, m.
 SurfaceHit trace_surface(vec3 origin, vec3 direction, float t_min, float slack, Search search) {
     SurfaceHit hit = kNoHit;
     float start = t_min - slack;  // a ray query allows no negative distance
@@ -27,8 +28,8 @@ SurfaceHit trace_surface(vec3 origin, vec3 direction, float t_min, float slack, 
         TriangleHit at = intersect_triangle(triangle, origin, direction);
         if (at.t > t_min && at.t <= search.limit && can_meet(search, own_traits, at.leaving, triangle))
             take_nearer(hit, SurfaceHit(at.t, triangle, own_traits, at.leaving));
-        // A confirmed triangle ends the query there. The nearest is not confirmed: one that the device sees a rounding
-        // farther may be the nearer in truth.
+        // A confirmed triangle ends the query at its distance. The nearest is not confirmed, because a triangle that
+        // the device sees slightly farther away may be nearer by intersect_triangle().
         if (start + rayQueryGetIntersectionTEXT(query, false) > hit.t + slack) rayQueryConfirmIntersectionEXT(query);
     }
     return hit;

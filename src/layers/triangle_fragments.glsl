@@ -1,8 +1,8 @@
 #ifndef PELLUCID_LAYERS_TRIANGLE_FRAGMENTS_GLSL
 #define PELLUCID_LAYERS_TRIANGLE_FRAGMENTS_GLSL
 
-// Which pixel centres a triangle covers, and at what depths: a rasteriser in a compute shader. Neighbours evaluate the
-// edge between them alike, bit for bit, so a centre belongs to one of them.
+// A rasteriser in a compute shader: the pixel centres that a triangle covers, and the depths there. Neighbouring
+// triangles evaluate their common edge with the same bits, so a centre belongs to exactly one of them.
 // Needs: frame (FrameConstants).
 #include "gpu/camera.glsl"
 #include "gpu/vertices.glsl"
@@ -11,22 +11,22 @@
 layout(std430, set = 0, binding = 3) buffer Nodes { uint node_count, nodes_reserved[3]; Node nodes[]; };
 layout(set = 0, binding = 4, r32ui) uniform uimage2DArray heads;
 
-// An object as far as it matters here.
+// The data of an object that the rasteriser needs.
 struct PlacedMesh {
     mat4 world_from_object;
-    uint first_triangle;  // of this object among all objects' triangles
-    uint first_corner;    // of its mesh in the indices
+    uint first_triangle;  // of this object, over all objects
+    uint first_corner;    // of its mesh, in the indices
     uint mirrored;
     uint reserved;
 };
 
 struct ScreenTriangle {
     vec3 view[3];
-    vec2 pixel[3];     // of the whole picture, in an order that makes the area positive
-    vec3 depths;       // of these; of a perspective camera, their inverses
-    ivec2 low, high;   // pixels whose centres may be covered; empty where high < low
-    uint record;       // its number, with PELLUCID_BACK_FACE
-    bool crosses_near; // part of it is nearer than the near plane: pixel and depths are not set
+    vec2 pixel[3];     // corners in pixels of the whole image, in an order that makes the area positive
+    vec3 depths;       // of the corners; their inverses for a perspective camera
+    ivec2 low, high;   // pixels whose centres may be covered; empty if high < low
+    uint record;       // triangle index, with PELLUCID_BACK_FACE
+    bool crosses_near; // the triangle crosses the near plane; pixel and depths must not be used
 };
 
 ScreenTriangle screen_triangle(PlacedMesh object, uint triangle, ivec2 first, ivec2 end) {
@@ -48,7 +48,7 @@ ScreenTriangle screen_triangle(PlacedMesh object, uint triangle, ivec2 first, iv
     t.crosses_near = any_near;
     vec2 b = t.pixel[1] - t.pixel[0], c = t.pixel[2] - t.pixel[0];
     bool turned = b.x * c.y < b.y * c.x;
-    bool back = !turned;  // pixels count downwards: a front runs the other way round than it does in space
+    bool back = !turned;  // pixels count downwards, so a front face has the opposite winding in pixels
     if (any_near) {
         low = vec2(1e30);
         high = vec2(-1e30);
@@ -73,14 +73,15 @@ ScreenTriangle screen_triangle(PlacedMesh object, uint triangle, ivec2 first, iv
     t.record = triangle | (back != (object.mirrored != 0u) ? PELLUCID_BACK_FACE : 0u);
     low -= vec2(first_pixel());
     high -= vec2(first_pixel());
-    // Within what integers hold; a margin of a pixel beyond the part of the picture that is asked for.
+    // Clamp to the requested part of the image plus a pixel, so that the values fit into integers.
     t.low = max(ivec2(ceil(clamp(low - 0.5, vec2(first) - 1.0, vec2(end)))), first);
     t.high = min(ivec2(floor(clamp(high - 0.5, vec2(first) - 1.0, vec2(end)))), end - 1);
     if (all_near) t.high = t.low - 1;
     return t;
 }
 
-// Twice the area that an edge spans with a point, positive on its left side.
+// Twice the signed area of triangle abp; positive if a, b, p turn from x towards y. `turned`: evaluated from b to a, so
+// that both neighbours of an edge compute the same bits.
 float edge(vec2 a, vec2 b, vec2 p, out bool turned) {
     turned = b.x < a.x || (b.x == a.x && b.y < a.y);
     vec2 from = turned ? b : a, to = turned ? a : b;
@@ -88,7 +89,7 @@ float edge(vec2 a, vec2 b, vec2 p, out bool turned) {
     return turned ? -area : area;
 }
 
-// False: the triangle does not cover the pixel's centre.
+// Whether the triangle covers the pixel's centre, and its depth there.
 bool covered_at(ScreenTriangle t, ivec2 pixel, out float depth) {
     vec2 p = vec2(pixel + first_pixel()) + 0.5;
     bvec3 turned;
@@ -101,7 +102,7 @@ bool covered_at(ScreenTriangle t, ivec2 pixel, out float depth) {
     return all(inside) && areas.x + areas.y + areas.z > 0.0;
 }
 
-// The same for one that crosses the near plane, by casting a ray.
+// Like covered_at(), for a triangle that crosses the near plane. Intersects the camera ray with the triangle.
 bool met_at(ScreenTriangle t, ivec2 pixel, out float depth) {
     Ray ray = camera_ray(vec2(pixel) + 0.5);
     vec3 b = t.view[1] - t.view[0], c = t.view[2] - t.view[0];
@@ -114,7 +115,7 @@ bool met_at(ScreenTriangle t, ivec2 pixel, out float depth) {
 
 void append_fragment(ivec2 pixel, Fragment fragment) {
     uint node = atomicAdd(node_count, 1u);
-    if (node >= nodes.length()) return;  // counted all the same: the host enlarges the pool
+    if (node >= nodes.length()) return;  // the fragment is counted, so the host enlarges the pool
     uint next = imageAtomicExchange(heads, ivec3(pixel, 0), node + 1u);
     nodes[node] = Node(fragment, next);
 }

@@ -1,22 +1,23 @@
 #ifndef PELLUCID_LAYERS_TRIANGLE_TILES_GLSL
 #define PELLUCID_LAYERS_TRIANGLE_TILES_GLSL
 
-// The list of tiles that large triangles are cut into, so that no invocation has much more to do than its neighbours.
+// The list of tiles of large triangles. Tiles balance the work of neighbouring invocations.
 const int kTile = 8;  // texels or pixels along a side
 
-// Programs that go through the list, and do not write it, define PELLUCID_READS_TILES.
+// Shaders that only read the list define PELLUCID_READS_TILES.
 #ifdef PELLUCID_READS_TILES
 layout(std430, set = 0, binding = 8) readonly buffer Tiles {
     uint tile_count, tiles_reserved[3];
     uvec2 tiles[];  // triangle, tile's x | y << 16
 };
 
-// Its corner of the lowest coordinates.
+// The corner of the tile with the lowest coordinates.
 ivec2 tile_corner(uint tile) { return kTile * ivec2(tiles[tile].y & 0xffffu, tiles[tile].y >> 16); }
 #else
 layout(std430, set = 0, binding = 8) buffer Tiles { uint tile_count, tiles_reserved[3]; uvec2 tiles[]; };
 
-// Lists the tiles of a triangle's box; those beyond the capacity are counted, and the host makes room.
+// Lists the tiles of a triangle's box. Tiles beyond the capacity are dropped but counted, so the host enlarges the
+// list.
 void cut_into_tiles(uint triangle, ivec2 low, ivec2 high) {
     ivec2 first = low / kTile, count = high / kTile - first + 1;
     uint at = atomicAdd(tile_count, uint(count.x * count.y));

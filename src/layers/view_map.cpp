@@ -8,21 +8,21 @@
 namespace pellucid {
 namespace {
 
-/// Texels are squares of two by two pixels, anything near which is as fast (docs/performance.md), or finer where
-/// triangles are: a ray tests all of those in a texel that it crosses.
+/// A texel covers two by two pixels; similar sizes are as fast. Dense triangles get finer texels, because a ray tests
+/// all triangles of each texel that it crosses.
 constexpr float kCoarsest = 0.5f;  ///< texels per pixel, along a side
 constexpr float kMostTrianglesPerTexel = 16.0f;
 constexpr std::uint32_t kMostTexels = 1u << 22;  ///< 90 MB with the pyramid over them
 
 gpu::FrameConstants view_of(const Frame& frame) {
     gpu::FrameConstants view = frame.view;
-    view.film.x += float(view.first_x) * view.film.z;  // the tile's
+    view.film.x += float(view.first_x) * view.film.z;  // moves the film from the image's corner to the tile's
     view.film.y -= float(view.first_y) * view.film.w;
     return view;
 }
 
-/// The view as a map: depth is q = (z - near) / (far - near) where rays are parallel; otherwise 1 / z takes the place
-/// of z, which keeps lines straight.
+/// The map projection of the view. With parallel rays the depth is q = (z - near) / (far - near). Otherwise 1 / z
+/// replaces z, which keeps lines straight.
 MapProjection view_projection(const gpu::FrameConstants& view, vk::Extent2D pixels, float texels_per_pixel) {
     const bool parallel = view.orthographic != 0;
     // Rows give X, Y, Q, W of a view-space position; depth is -z.
@@ -48,7 +48,7 @@ MapProjection view_projection(const gpu::FrameConstants& view, vk::Extent2D pixe
             {texels(pixels.width), texels(pixels.height)}};
 }
 
-/// The part of the picture in which an object's box lies, pixels; all of it for a box that the eye is in or beside.
+/// The part of the image that an object's box covers, pixels. The whole image if the box crosses the near plane.
 struct PixelBox {
     glm::vec2 low, high;
     float area() const { return high.x > low.x && high.y > low.y ? (high.x - low.x) * (high.y - low.y) : 0.0f; }
@@ -70,7 +70,7 @@ PixelBox pixels_of(const GpuScene& scene, std::uint32_t object, const MapProject
     return common({box.low, glm::max(box.high, box.low + 1.0f)}, all);
 }
 
-/// Texels per pixel so that the glass in the picture has few enough triangles in each.
+/// Texels per pixel that limit the number of triangles per texel over the glass in the image.
 float choose_texels(const Frame& frame, const gpu::FrameConstants& view) {
     const GpuScene& scene = frame.scene;
     const MapProjection pixels = view_projection(view, frame.extent, 1.0f);
@@ -107,7 +107,7 @@ bool LayerSource::view_holds_glass(const Frame& frame) {
     const gpu::FrameConstants view = view_of(frame);
     const MapProjection pixels = view_projection(view, frame.extent, 1.0f);
     const glm::vec2 size(pixels.extent.width, pixels.extent.height);
-    // Planes that are chosen from the scene leave out no vertex, though corners of boxes may lie before or behind them.
+    // Automatic clip planes exclude no vertex, even if corners of boxes lie outside the planes.
     const float nearest = view.orthographic != 0 ? 0.0f : std::max(frame.scene.topology->eye_depth, 1e-30f);
     const std::vector<glm::vec3>& corners = frame.scene.refractive_corners;
     return std::all_of(corners.begin(), corners.end(), [&](const glm::vec3& corner) {
