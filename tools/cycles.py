@@ -59,8 +59,8 @@ def smooth_normals(vertices, triangles):
 # --- Inside Blender --------------------------------------------------------------------------------
 
 def material_in_blender(given):
-    """`ior`: smooth glass, of that index over the one around it, and `absorption` within, per unit of length; or
-    `emission`, which nothing else lights."""
+    """`ior`: smooth glass, of that index over the one around it, and `absorption` within, per unit of length; `emission`,
+    which nothing else lights; or `diffuse`, the albedo of a surface without a coat."""
     import bpy
 
     material = bpy.data.materials.new("material")
@@ -71,6 +71,9 @@ def material_in_blender(given):
     if "emission" in given:
         surface = nodes.new("ShaderNodeEmission")
         surface.inputs["Color"].default_value = (*given["emission"], 1)
+    elif "diffuse" in given:
+        surface = nodes.new("ShaderNodeBsdfDiffuse")
+        surface.inputs["Color"].default_value = (*given["diffuse"], 1)
     else:
         surface = nodes.new("ShaderNodeBsdfGlass")
         surface.distribution = "SHARP"
@@ -84,6 +87,15 @@ def material_in_blender(given):
         volume.inputs["Density"].default_value = density
         links.new(volume.outputs[0], output.inputs["Volume"])
     return material
+
+
+def add_map(world, file):
+    import bpy
+
+    texture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
+    texture.image = bpy.data.images.load(file)
+    texture.image.colorspace_settings.name = "Linear"
+    world.node_tree.links.new(texture.outputs[0], world.node_tree.nodes["Background"].inputs["Color"])
 
 
 def render_in_blender(job):
@@ -108,11 +120,17 @@ def render_in_blender(job):
 
     world = bpy.data.worlds.new("environment")
     world.use_nodes = True
-    texture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
-    texture.image = bpy.data.images.load(job["environment"])
-    texture.image.colorspace_settings.name = "Linear"
-    world.node_tree.links.new(texture.outputs[0], world.node_tree.nodes["Background"].inputs["Color"])
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0, 0, 0, 1)
+    if job["environment"]:
+        add_map(world, job["environment"])
     scene.world = world
+    for given in job.get("suns", []):
+        sun = bpy.data.lights.new("sun", "SUN")
+        sun.energy, sun.angle = given["irradiance"], given["angular_diameter"]
+        thing = bpy.data.objects.new("sun", sun)
+        to_light = -mathutils.Vector(given["direction"])
+        thing.matrix_world = y_up @ to_light.to_track_quat("Z", "Y").to_matrix().to_4x4()
+        scene.collection.objects.link(thing)
 
     camera = bpy.data.cameras.new("camera")
     camera.sensor_fit = "VERTICAL"
@@ -172,8 +190,8 @@ def run(command):
 
 
 def render(blender, job, job_file, threads=None):
-    """Lets Cycles draw `job`: meshes (vertices, normals, triangles, material), environment (a file), world_from_view,
-    fov_deg, size, samples, and the pictures, one for each seed from `first_seed` (1) on."""
+    """Lets Cycles draw `job`: meshes (vertices, normals, triangles, material), environment (a file; None: dark), suns
+    (direction, irradiance in W/m2, angular_diameter in radians; none if left out), world_from_view, fov_deg, size, samples, and the pictures, one for each seed from `first_seed` (1) on."""
     job_file.write_text(json.dumps(job))
     run([blender, "--background", "--factory-startup", "--python-exit-code", "1",
          *(["--threads", str(threads)] if threads else []), "--python", __file__, "--", str(job_file)])

@@ -53,7 +53,8 @@ def unfilter(kind, row, above):
 
 def read_exr(data):
     """One part of float scan lines, ZIP compressed."""
-    assert data[:8] == b"v/1\x01\x02\0\0\0", "no EXR signature, or tiles, parts or long names"
+    # The flag of long names changes nothing here.
+    assert data[:5] == b"v/1\x01\x02" and data[5] in (0, 4) and data[6:8] == b"\0\0", "no EXR signature, or tiles or parts"
     attributes, at = {}, 8
     while data[at]:
         name, at = read_name(data, at)
