@@ -14,7 +14,8 @@ void cross(const Geometry& geometry, const Hit& boundary, MediumStack& inside, M
     beyond.cross(solid, sense);
 }
 
-/// Of the solids whose media meet here the one of the highest precedence displaces the other.
+/// Rank of the solid at a boundary: its precedence if its medium meets another there, else -1. The solid of the
+/// highest rank displaces the others.
 std::int64_t rank(const Geometry& geometry, const Hit& boundary, const MediumStack& inside, const MediumStack& beyond) {
     const std::uint32_t solid = geometry.solid_of(boundary.crossing.shell);
     const bool meets = std::int32_t(solid) == inside.solid() || std::int32_t(solid) == beyond.solid();

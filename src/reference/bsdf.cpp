@@ -28,10 +28,10 @@ glm::dvec3 cosine_weighted(const glm::dvec2& u) {
     return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(1.0 - u.x, 0.0))};
 }
 
-/// Reflection by facets that reflect everything: BRDF times cos theta_i, and the density of wi if normals
-/// are sampled by visibility. Both on one side.
+/// Reflection by fully reflecting facets: BRDF times cos theta_i, and the density of wi under visible-normal sampling.
+/// wo and wi lie on the same side.
 struct FacetReflection {
-    glm::dvec3 m{0.0};  ///< the facets' normal
+    glm::dvec3 m{0.0};  ///< normal of the facets
     double value = 0.0;
     double pdf = 0.0;
 };
@@ -51,7 +51,7 @@ OpaqueBsdf::OpaqueBsdf(const glm::dvec3& base, double metallic, double roughness
 }
 
 glm::dvec3 OpaqueBsdf::reflectance(double cos_theta) const {
-    // Where nothing is reflected head-on there is no boundary to reflect at grazing angles either.
+    // Without reflection at normal incidence there is no boundary, hence none at grazing angles.
     const glm::dvec3 grazing = glm::dvec3(glm::greaterThan(at_normal_, glm::dvec3(0.0)));
     return glm::mix(at_normal_, grazing, schlick_weight(cos_theta));
 }
@@ -60,7 +60,7 @@ double OpaqueBsdf::coat(double cos_theta) const {
     return coat_at_normal_ > 0.0 ? glm::mix(coat_at_normal_, 1.0, schlick_weight(cos_theta)) : 0.0;
 }
 
-/// How often sample() chooses the coat: about its share of the light.
+/// Probability that sample() chooses the coat: approximately its share of the light.
 double OpaqueBsdf::mirror_share(const glm::dvec3& wo) const {
     const glm::dvec3 mirror = reflectance(wo.z), diffuse = diffuse_ * (1.0 - coat(wo.z));
     const double a = std::max({mirror.r, mirror.g, mirror.b}), b = std::max({diffuse.r, diffuse.g, diffuse.b});
@@ -70,7 +70,7 @@ double OpaqueBsdf::mirror_share(const glm::dvec3& wo) const {
 BsdfValue OpaqueBsdf::evaluate(const glm::dvec3& wo, const glm::dvec3& wi, Random&) const {
     if (wo.z <= 0.0 || wi.z <= 0.0) return {};
     const double share = mirror_share(wo);
-    // Mean of the coat's reflectance over diffuse light; what it throws back is scattered once more.
+    // Mean reflectance of the coat for diffuse light. Light that it reflects back is scattered once more.
     const double mean_coat = coat_at_normal_ > 0.0 ? coat_at_normal_ + (1.0 - coat_at_normal_) / 21.0 : 0.0;
     const double passes = (1.0 - coat(wo.z)) * (1.0 - coat(wi.z)) / (1.0 - mean_coat);
     BsdfValue result{diffuse_ * (passes * wi.z / pi), (1.0 - share) * wi.z / pi};
@@ -97,7 +97,7 @@ std::optional<BsdfSample> OpaqueBsdf::sample(const glm::dvec3& wo, Random& rando
         sample.wi = cosine_weighted(random.next2());
     }
     const BsdfValue value = evaluate(wo, sample.wi, random);
-    if (!(value.pdf > 0.0)) return std::nullopt;  // light that the next facet would catch
+    if (!(value.pdf > 0.0)) return std::nullopt;  // the direction would be blocked by another facet
     sample.weight = value.value / value.pdf;
     sample.pdf = value.pdf;
     return sample;
@@ -133,14 +133,14 @@ std::optional<BsdfSample> InterfaceBsdf::sample(const glm::dvec3& wo, Random& ra
 PaneBsdf::PaneBsdf(double ior, double roughness, const glm::dvec3& tint)
     : facets_(facets_of(roughness)), rough_(RoughInterface::mirrors(facets_)), ior_(ior), tint_(tint) {}
 
-/// 2 F / (1 + F): the series over the pane's two faces.
+/// 2 F / (1 + F): series of reflections between the pane's two faces.
 double PaneBsdf::reflectance(double cos_theta_o) const {
     const double f = incidence({0.0, 0.0, -cos_theta_o}, {0.0, 0.0, 1.0}, 1.0, ior_).reflectance;
     return 2.0 * f / (1.0 + f);
 }
 
-/// Share of the light scattered from wo to wi, both on one side, that stays on that side. The same from wi to
-/// wo, so that the pane is reciprocal.
+/// Share of the light scattered from wo to wi, both on one side, that stays on that side. It is symmetric in wo and
+/// wi, so the pane is reciprocal.
 double PaneBsdf::rough_share(const glm::dvec3& wo, const glm::dvec3& wi) const {
     return reflectance(glm::dot(wo, glm::normalize(wo + wi)));
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// View rays of a camera, in double precision, through any point of the picture.
+// View rays of a camera in double precision, through any point of the image.
 
 #include <pellucid/scene.h>
 
@@ -12,9 +12,9 @@
 
 namespace pellucid::reference {
 
-/// A view ray where it enters the camera's view volume.
+/// A view ray, starting at the camera's view volume.
 struct CameraRay {
-    glm::dvec3 origin{0.0};     ///< world, m: on the near plane; the eye itself where none is set
+    glm::dvec3 origin{0.0};     ///< world, m: on the near plane; at the eye if the camera has no near plane
     glm::dvec3 direction{0.0};  ///< unit, world
     double before = 0.0;        ///< m from the eye (orthographic: from the camera's plane) to `origin`
     double t_max = std::numeric_limits<double>::infinity();  ///< m from `origin` to the far plane
@@ -32,8 +32,8 @@ public:
         if (camera.far_plane > 0.0f) far_ = double(camera.far_plane);
     }
 
-    /// Ray through a point of the picture in pixels from its top left corner; (0.5, 0.5) is the centre
-    /// of the first pixel.
+    /// Ray through a point of the image, in pixels from its top left corner. (0.5, 0.5) is the centre of the first
+    /// pixel.
     CameraRay at(glm::dvec2 point_px) const {
         const glm::dvec2 film = (point_px - half_size_) * glm::dvec2(pixel_, -pixel_);
         const glm::dvec3 eye = orthographic_ ? glm::dvec3(film, 0.0) : glm::dvec3(0.0);
@@ -47,7 +47,7 @@ public:
         return ray;
     }
 
-    /// Side of a pixel, m, at a position in the world that the camera sees.
+    /// Side of a pixel, m, at a visible position in world space.
     double pixel_size(const glm::dvec3& position) const {
         const double depth = glm::dot(glm::dvec3(world_from_view_[3]) - position, glm::dvec3(world_from_view_[2]));
         return orthographic_ ? pixel_ : pixel_ * std::abs(depth);

@@ -17,10 +17,10 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-constexpr double kTolerance = 1e-7;      // of a step, relative, and absolute in voxels
-constexpr double kLongestStep = 1.0;     // voxels: surfaces are looked for along its chord
-constexpr double kLeastCrossing = 1e-3;  // voxels; less of a box is not met
-constexpr double kMostSides = 32.0;      // longest ways in a box, in its longest side: what goes farther is caught
+constexpr double kTolerance = 1e-7;      // tolerance per step: relative, and absolute in voxels
+constexpr double kLongestStep = 1.0;     // voxels; surfaces are intersected along the step's chord
+constexpr double kLeastCrossing = 1e-3;  // voxels; shorter segments in a box are skipped
+constexpr double kMostSides = 32.0;      // longest optical path in a box, in its longest sides; longer rays are trapped
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 Hit next_hit(const Geometry& geometry, const Query& query, const SizedLights* lights, const Light*& ball) {
@@ -142,7 +142,7 @@ CurvedVolumes::Flight CurvedVolumes::fly(std::int32_t solid, const Geometry& geo
     }
 }
 
-/// From where a ray is in a box, to a surface (true), or to where it leaves the box.
+/// Follows a ray from a point in a box to a surface (returns true) or to its exit from the box (returns false).
 bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& geometry, Query& query, int channel,
                          Random* random, const SizedLights* lights, Flight& flight) {
     const Placed& placed = *volumes[own];
@@ -161,7 +161,7 @@ bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& g
         odeint::runge_kutta_dopri5<Values>().do_step(system, to, 0.0, step);
         return to;
     };
-    // Of the chord of a step, the share in the box, and before the box of a smaller volume.
+    // Share of a step's chord that lies in the box, and before the box of a smaller volume.
     const auto share_of = [&](const Values& from, const Values& to, bool& leaves) {
         const glm::dvec3 a = position_of(from), way = position_of(to) - a;
         double share = 1.0;
@@ -183,15 +183,15 @@ bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& g
         flight.transmittance *= glm::dvec3(std::exp(-s[6]), std::exp(-s[7]), std::exp(-s[8]));
     };
 
-    // A surface is met where there is most of it between two steps.
+    // A ray meets a surface at the largest boundary value between two steps.
     constexpr double kLeastSurface = 0.5;
     double surface_here = placed.reflects ? placed.surface(start) : 0.0;
-    bool on_surface = surface_here > kLeastSurface;  // that has been met
+    bool on_surface = surface_here > kLeastSurface;  // the surface here was already met
     const auto meet_surface = [&](Values& here) {
         glm::dvec3 normal;
         const std::optional<double> share = placed.reflectance(here, normal, channel);
         if (!share) return;
-        if (random == nullptr) {  // the transmitted path
+        if (random == nullptr) {  // follow the transmitted path
             for (std::size_t k = 6; k < 9; ++k) here[k] -= std::log1p(-*share);
             return;
         }
@@ -214,13 +214,13 @@ bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& g
                 on_surface = true;
                 meet_surface(state);
                 stepper.reset();
-                continue;  // from here again
+                continue;  // continue from here
             }
             surface_here = ahead;
         }
         bool leaves = false;
         double share = share_of(state, next, leaves);
-        for (int refine = 0; leaves && refine < 4; ++refine) {  // the curve's own length, where the chord leaves
+        for (int refine = 0; leaves && refine < 4; ++refine) {  // refine the step's length until it ends at the exit
             taken *= share;
             next = after(state, taken);
             bool further = false;

@@ -1,11 +1,11 @@
 #pragma once
 
-// A smooth boundary between two dielectrics, for the truth: written on its own, apart from the
-// renderer's optics, so that agreement between the two proves something.
+// A smooth boundary between two dielectrics, for the reference tracer. It is independent of the renderer's optics, so
+// that agreement between the two is evidence.
 // Born & Wolf, Principles of Optics, 7th ed. (1999), section 1.5.
 //
-// `d` is the unit direction of travel and `n` the unit normal on the side it comes from. An
-// interpolated normal may face away from that side; the light then grazes.
+// `d` is the unit direction of travel, and `n` the unit normal on the side that the light comes from. An interpolated
+// normal may face away from that side; the incidence is then treated as grazing.
 
 #include <glm/glm.hpp>
 
@@ -14,19 +14,19 @@
 
 namespace pellucid::reference {
 
-/// Light that meets the boundary from a medium of index n_i to one of index n_t.
+/// Light incident on the boundary from a medium of index n_i to one of index n_t.
 struct Incidence {
     double cos_i = 0.0;      ///< 0..1
     double cos_t = 0.0;      ///< 0..1; 0 under total reflection
     bool total = false;      ///< no light is transmitted
-    bool conflict = false;   ///< `n` faced away
-    double reflectance = 1;  ///< share of unpolarised light, 0..1
+    bool conflict = false;   ///< `n` faced away from the light
+    double reflectance = 1;  ///< reflected share of unpolarised light, 0..1
 };
 
-/// Share of unpolarised light that is reflected: mean of the squared amplitudes of the polarisations
-/// across and in the plane of incidence.
+/// Reflected share of unpolarised light: mean of the squared amplitudes of the polarisations across and in the plane
+/// of incidence.
 inline double fresnel_reflectance(double n_i, double cos_i, double n_t, double cos_t) {
-    if (n_i == n_t) return 0.0;  // also at grazing, where both amplitudes are 0 / 0
+    if (n_i == n_t) return 0.0;  // includes grazing incidence, where both amplitudes are 0 / 0
     const double across = (n_i * cos_i - n_t * cos_t) / (n_i * cos_i + n_t * cos_t);
     const double within = (n_i * cos_t - n_t * cos_i) / (n_i * cos_t + n_t * cos_i);
     return 0.5 * (across * across + within * within);
@@ -37,7 +37,7 @@ inline Incidence incidence(const glm::dvec3& d, const glm::dvec3& n, double n_i,
     Incidence in;
     in.conflict = cosine < 0.0;
     in.cos_i = std::clamp(cosine, 0.0, 1.0);
-    // sin_t by the law of sines; equal indices leave the angle as it is, to the last digit.
+    // Snell's law gives sin_t. Equal indices keep the angle bit for bit.
     const double sin_i = std::sqrt((1.0 - in.cos_i) * (1.0 + in.cos_i));
     const double sin_t = sin_i * (n_i / n_t);
     in.total = sin_t > 1.0;
@@ -47,7 +47,7 @@ inline Incidence incidence(const glm::dvec3& d, const glm::dvec3& n, double n_i,
     return in;
 }
 
-/// The part of `d` along the surface shrinks by n_i / n_t, the rest follows from unit length.
+/// The component of `d` along the surface shrinks by n_i / n_t; the other follows from unit length.
 inline glm::dvec3 refracted(const glm::dvec3& d, const glm::dvec3& n, double n_i, double n_t, const Incidence& in) {
     if (n_i == n_t) return d;
     const glm::dvec3 along = (n_i / n_t) * (d + in.cos_i * n);

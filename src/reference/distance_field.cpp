@@ -20,10 +20,10 @@ namespace {
 
 using namespace reference;
 
-constexpr double kTolerance = 1e-9;  // of the solid's radius
+constexpr double kTolerance = 1e-9;  // relative to the solid's radius
 
-/// Distance from `start` at which the ray comes within `tolerance` of the surface, up to `end`. Beyond a surface that
-/// it only grazes it would creep: a step is the tolerance at least.
+/// Distance between `start` and `end` at which the ray comes within `tolerance` of the surface. A step is at least the
+/// tolerance, so that the march does not stall past a grazed surface.
 std::optional<double> march(const DistanceField& field, const glm::dvec3& origin, const glm::dvec3& direction,
                             double start, double end, double tolerance) {
     double t = start;

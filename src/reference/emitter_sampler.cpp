@@ -17,7 +17,7 @@ bool can_be_chosen(const Geometry& geometry, std::uint32_t object) {
 
 double mean_channel(const glm::vec3& c) { return (double(c.r) + double(c.g) + double(c.b)) / 3.0; }
 
-/// Parts along a side of the triangle, such that each part covers about a texel; 64 at most.
+/// Number of parts along a side of the triangle, such that each part covers about one texel; at most 64.
 int parts_along_a_side(const Scene& scene, const Texture& texture, const Mesh& mesh, std::uint32_t triangle) {
     constexpr double kMost = 64.0;
     if (texture.image < 0) return 1;
@@ -32,7 +32,7 @@ int parts_along_a_side(const Scene& scene, const Texture& texture, const Mesh& m
     return longest < kMost ? int(std::ceil(longest)) + 1 : int(kMost);
 }
 
-/// Over the middles of the equal triangles that lines parallel to the sides cut it into.
+/// Mean emission over the centroids of the equal triangles into which lines parallel to the sides divide the triangle.
 double mean_emission(const Scene& scene, const Material& material, const Mesh& mesh, std::uint32_t triangle) {
     const int parts = parts_along_a_side(scene, material.emission_texture, mesh, triangle);
     double sum = 0.0;
@@ -49,13 +49,13 @@ double mean_emission(const Scene& scene, const Material& material, const Mesh& m
     return sum / (double(parts) * double(parts));
 }
 
-/// Barycentric weights of the second and third vertex, of a uniform point.
+/// Barycentric weights of the second and third vertex for a uniform point.
 glm::dvec2 uniform_in_triangle(const glm::dvec2& u) {
     const double root = std::sqrt(u.x);
     return {root * (1.0 - u.y), root * u.y};
 }
 
-/// A density per area as one of directions from `distance` m away, `normal` along the surface's.
+/// Converts a density per area into one per solid angle, seen from `distance` m away. `normal`: unit, of the surface.
 double per_steradian(double per_area, const glm::dvec3& direction, double distance, const glm::dvec3& normal) {
     return per_area * distance * distance / std::abs(glm::dot(direction, normal));
 }
@@ -75,7 +75,7 @@ EmitterSampler::EmitterSampler(const Geometry& geometry, const Scene& scene)
     }
 }
 
-/// Appends the triangles of an object, with their power for share and their emission for density.
+/// Appends the triangles of an object. Until normalisation, `share_up_to` contains power and `density` emission.
 void EmitterSampler::add(const Scene& scene, std::uint32_t object) {
     const Mesh& mesh = geometry_.mesh(object);
     first_[object] = triangles_.size();

@@ -12,14 +12,14 @@ using std::numbers::pi;
 
 double luminance(const glm::vec3& c) { return 0.2126 * double(c.r) + 0.7152 * double(c.g) + 0.0722 * double(c.b); }
 
-/// Luminance that belongs to the cells of an equirectangular grid, rows from the top.
+/// Luminance of the cells of an equirectangular grid, rows from the top.
 struct Grid {
     std::size_t width, height;
     std::vector<double> luminance;
 };
 
-/// A cell per texel, with the mean of what bilinear interpolation shows within it: a texel's neighbours
-/// reach half-way into it, so that 1/8, 6/8 and 1/8 of three texels in a row meet in the middle one.
+/// One cell per texel, with the mean of the bilinear interpolation in it. Neighbours reach half-way into a texel, so
+/// three texels in a row have weights 1/8, 6/8 and 1/8.
 Grid tabulate_map(const Image& map) {
     Grid grid{std::size_t(map.width), std::size_t(map.height), {}};
     grid.luminance.resize(grid.width * grid.height);
@@ -40,14 +40,14 @@ Grid tabulate_map(const Image& map) {
     return grid;
 }
 
-/// World direction; a right-handed turn of the environment about +Y lowers longitudes.
+/// World direction. A right-handed rotation of the environment about +Y reduces longitudes.
 glm::dvec3 direction_from_equirect(double u, double cos_colatitude, double rotation) {
     const double longitude = (u - 0.5) * 2.0 * pi - rotation;
     const double radius = std::sqrt(std::max(1.0 - cos_colatitude * cos_colatitude, 0.0));
     return {radius * std::cos(longitude), cos_colatitude, radius * std::sin(longitude)};
 }
 
-/// Cells of 0.7 degrees, a few of which the sun of the built-in sky fills.
+/// Cells of 0.7 degrees. The sun of the built-in sky covers a few of them.
 Grid tabulate_formula(const Environment& environment) {
     constexpr int kWidth = 512, kHeight = 256, kPerSide = 2;
     Grid grid{kWidth, kHeight, std::vector<double>(std::size_t(kWidth) * kHeight)};
@@ -63,7 +63,7 @@ Grid tabulate_formula(const Environment& environment) {
     return grid;
 }
 
-/// Turns weights into their running share: value i + 1 is that of the first i + 1 weights.
+/// Converts weights into cumulative shares: value i + 1 is the share of the first i + 1 weights.
 template <class Real>
 double accumulate_shares(std::span<const double> weights, std::span<Real> shares) {
     double sum = 0.0;
@@ -78,7 +78,7 @@ double accumulate_shares(std::span<const double> weights, std::span<Real> shares
     return sum;
 }
 
-/// Index of the interval that holds x, and where in it x lies, 0..1. `shares` ascends from 0 to 1.
+/// Index of the interval that contains x, and the position of x in it, 0..1. `shares` ascends from 0 to 1.
 template <class Real>
 std::pair<std::size_t, double> find_interval(std::span<const Real> shares, double x) {
     const auto above = std::upper_bound(shares.begin() + 1, shares.end() - 1, x,
@@ -110,7 +110,7 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment) {
 
 double EnvironmentSampler::row_solid_angle(std::size_t row) const {
     const double step = pi / double(height_);
-    // 2 pi (cos a - cos b), without its cancellation near the poles.
+    // 2 pi (cos a - cos b) without cancellation near the poles.
     return 4.0 * pi * std::sin((double(row) + 0.5) * step) * std::sin(0.5 * step);
 }
 
@@ -145,7 +145,7 @@ double EnvironmentSampler::pdf(const glm::dvec3& direction) const {
     if (u > 1.0) u -= 1.0;
     const double v = std::acos(std::clamp(direction.y, -1.0, 1.0)) / pi;
     const auto index = [](double x, std::size_t count) {
-        return std::min(std::size_t(x * double(count)), count - 1);  // x = 1 belongs to the last
+        return std::min(std::size_t(x * double(count)), count - 1);  // x = 1 belongs to the last interval
     };
     return cell_pdf(index(u, width_), index(v, height_));
 }

@@ -12,19 +12,18 @@
 
 namespace pellucid::reference {
 
-/// Chooses directions about as often as light comes from them: by the mean luminance of the cells of
-/// an equirectangular grid, uniform in solid angle within a cell (Pharr, Jakob & Humphreys, Physically
-/// Based Rendering, 4th ed., 2023, section 12.5, apart from that). A map has one cell per texel; formulas
-/// are tabulated.
+/// Samples directions approximately in proportion to the incident light: by the mean luminance of the cells of an
+/// equirectangular grid, uniform in solid angle within a cell. Apart from that it follows Pharr, Jakob & Humphreys,
+/// Physically Based Rendering, 4th ed., 2023, section 12.5. A map has one cell per texel; formulas are tabulated.
 ///
-/// Where a cell's share of the light is too small for a float, pdf() is 0 though radiance may not be:
-/// combine with directions chosen by the surface (multiple importance sampling).
+/// pdf() is 0 in cells whose share of the light is too small for a float, though radiance may not be. Combine with
+/// BSDF sampling (multiple importance sampling).
 class EnvironmentSampler {
 public:
     /// `environment` must be checked.
     explicit EnvironmentSampler(const Environment& environment);
 
-    /// True if no light comes from anywhere: sample() must not be called.
+    /// True if the environment is black; then do not call sample().
     bool dark() const { return rows_.empty(); }
 
     struct Sample {
@@ -33,7 +32,7 @@ public:
     };
     Sample sample(Random& random) const;
 
-    /// Density with which sample() chooses `direction` (unit), per steradian; 0 where there is no light.
+    /// Density of sample() for `direction` (unit), per steradian; 0 where there is no light.
     double pdf(const glm::dvec3& direction) const;
 
 private:
@@ -42,9 +41,9 @@ private:
     std::span<const float> columns(std::size_t row) const;
 
     std::size_t width_ = 0, height_ = 0;
-    double rotation_ = 0.0;       ///< Environment::rotation within half a turn; the grid's cells are those without it
+    double rotation_ = 0.0;       ///< Environment::rotation, reduced to half a turn; the grid is unrotated
     std::vector<double> rows_;    ///< cumulative share of the rows' light, height_ + 1 values from 0 to 1
-    std::vector<float> columns_;  ///< likewise within each row, width_ + 1 values per row
+    std::vector<float> columns_;  ///< cumulative share within each row, width_ + 1 values per row
 };
 
 }  // namespace pellucid::reference

@@ -74,7 +74,7 @@ bool ExactPath::fly(const CurvedVolumes& volumes) {
     return flight.stuck ? finish(Status::kStepLimit) : advance(flight.hit);
 }
 
-/// Goes straight on to what was met.
+/// Moves the path straight to `hit`.
 void ExactPath::travel(const Hit& hit) {
     length_ += hit.t;
     if (inside_.solid() != kAir && !std::exchange(in_held_volume_, false)) {
@@ -82,14 +82,14 @@ void ExactPath::travel(const Hit& hit) {
         transmittance_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
     }
     ray_.origin = hit.position;
-    ray_.t_max = std::numeric_limits<double>::infinity();  // the camera's planes cut off what it sees first
+    ray_.t_max = std::numeric_limits<double>::infinity();  // the camera's planes clip the first segment only
     geometry_.step_onto(hit, standing_);
     ray_.standing = standing_;
 }
 
-/// Refracts or totally reflects the path at an interface. The interpolated normal may send a reflected
-/// path through the triangle (1 to 4 in 100 reflections in scanned or modelled animals): it leaks out,
-/// and cross() puts it on the far side.
+/// Refracts or totally reflects the path at an interface. The interpolated normal may send a reflected path through
+/// the triangle (1 to 4 in 100 reflections in meshes of animals). The path then leaks out, and cross() puts it on the
+/// far side.
 void ExactPath::bend(const Hit& hit) {
     const double n_i = ior(inside_, hit.position), n_t = ior(beyond_, hit.position);
     const glm::dvec3 outward = geometry_.shading_normal(hit);
@@ -109,7 +109,7 @@ void ExactPath::bend(const Hit& hit) {
     for (Crossing& on : standing_) on.sense = geometry_.sense(on.object, on.triangle, ray_.direction);
 }
 
-/// Meets the boundary of a solid, and those of others that touch it there.
+/// Crosses the boundary of a solid, and those of other solids that touch it there.
 bool ExactPath::cross(const Hit& hit) {
     const Hit interface = cross_boundaries(geometry_, ray_, hit, standing_, inside_, beyond_);
     ray_.standing = standing_;
@@ -128,7 +128,7 @@ bool ExactPath::advance(const Hit& hit) {
     travel(hit);
     if (geometry_.kind(hit.crossing.object) == SurfaceKind::kRefractive) return cross(hit);
     if (inside_.solid() != kAir) {
-        const Hit wall = touching_boundary(geometry_, ray_, hit);  // what a solid stands on is outside of it
+        const Hit wall = touching_boundary(geometry_, ray_, hit);  // an object that supports a solid lies outside of it
         if (wall.found && wall.crossing.sense == Sense::kLeaving) {
             standing_.back() = wall.crossing;
             return cross(wall);

@@ -11,19 +11,20 @@
 
 namespace pellucid::reference {
 
-/// One exact path on its way from surface to surface. Made once per lane and used for many pixels.
+/// One exact path, traced from surface to surface. Construct one per lane and reuse it for many pixels.
 class ExactPath {
 public:
-    /// `channel`: whose indices of refraction it follows, kRed to kBlue.
+    /// `channel`: the colour whose indices of refraction apply, kRed to kBlue.
     ExactPath(const Geometry& geometry, std::uint32_t max_events, int channel);
 
-    /// Starts anew. `inside`: the solids around ray.origin.
+    /// Starts a new path. `inside`: the solids around ray.origin.
     void start(const CameraRay& ray, const MediumStack& inside);
-    /// What the path looks for next; valid until advance().
+    /// The next ray to intersect; valid until advance().
     const Query& query() const { return ray_; }
-    /// Goes on to what was found. Returns false at the end of the path.
+    /// Continues the path at `hit`. Returns false at the end of the path.
     bool advance(const Hit& hit);
-    /// The same, where there are volumes: finds what comes next as well.
+    /// Continues the path in scenes with volumes, where it also finds the next hit. Returns false at the end of the
+    /// path.
     bool fly(const CurvedVolumes& volumes);
     const RefractedPath& result() const { return result_; }
 
@@ -39,13 +40,13 @@ private:
     int channel_;
     Query ray_;
     MediumStack inside_;              ///< the solids around the origin
-    MediumStack beyond_;              ///< those behind the boundaries that are being met
+    MediumStack beyond_;              ///< the solids behind the boundaries at the current hit
     std::vector<Crossing> standing_;  ///< triangles that the origin lies on
     glm::dvec3 transmittance_{1.0};
     double length_ = 0.0, length_inside_ = 0.0;
-    double open_ior_ = 1.0;  ///< of what is around all solids, at the origin
+    double open_ior_ = 1.0;  ///< index outside all solids, at the origin
     bool crossed_volume_ = false;
-    bool in_held_volume_ = false;  ///< the last piece of the way was in the volume of a solid
+    bool in_held_volume_ = false;  ///< the last segment lies in the volume of a solid
     const CurvedVolumes* volumes_ = nullptr;
     RefractedPath result_;
 };

@@ -19,7 +19,7 @@ glm::uvec2 part_size(const ExactSettings& s) {
     return s.part_size == glm::uvec2(0) ? glm::uvec2(s.width, s.height) : s.part_size;
 }
 
-/// Paths of neighbouring pixels, traced in step.
+/// Paths of neighbouring pixels, traced in lockstep.
 class Block {
 public:
     Block(const Geometry& geometry, const CurvedVolumes& volumes, const ExactSettings& settings)
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    /// Takes every path on to its next surface; returns how many ended.
+    /// Advances every path to its next surface. Returns the number of paths that ended.
     std::uint32_t step() {
         if (!volumes_.empty()) return fly();
         if (settings_.packet == 1) return paths_[0].advance(geometry_.intersect(paths_[0].query())) ? 0 : 1;
@@ -66,7 +66,7 @@ private:
         return ended;
     }
 
-    /// The same through volumes, each path by itself.
+    /// Advances every path on its own, in scenes with volumes. Returns the number of paths that ended.
     std::uint32_t fly() {
         std::uint32_t ended = 0;
         for (std::uint32_t i = 0; i < settings_.packet; ++i) {

@@ -13,22 +13,23 @@ namespace pellucid::reference {
 /// Throws Error for settings out of range.
 void check_exact_settings(const ExactSettings& settings);
 
-/// Tracer::exact. One path per pixel: refracted at every interface, reflected where it is totally
-/// reflected; it ends in the environment, on an opaque surface, or at an interface beyond max_events.
+/// Implementation of Tracer::exact. One path per pixel: refracted at every interface, or reflected at total internal
+/// reflection. It ends in the environment, on an opaque surface, or at an interface beyond max_events.
 ///
-/// - Interfaces, and so events, are where one solid's medium ends and another's (or air) begins, also
-///   if their indices of refraction are equal: such an interface has an angle of refraction, it just
-///   is the angle of incidence. A boundary inside a solid that displaces it is none.
-/// - The interpolated normal bends the path; whether the path then is on the far side follows from the
-///   triangle it met. Where the two normals differ, a total reflection can so end up outside.
-/// - A path that starts in glass begins in its medium. One that is in a closed solid and finds no
-///   surface any more has Status::kMissingLayer: a flaw of the search or of the mesh.
+/// - An interface (event) separates the media of two solids, or a solid and air, even if their indices are equal: the
+///   angle of refraction then equals the angle of incidence. A boundary inside a solid that displaces it is no
+/// interface.
+/// - The interpolated normal bends the path. The triangle tells whether the path is then on the far side. Where the
+/// two
+///   normals differ, a total reflection can therefore end up outside.
+/// - A path that starts in glass begins in its medium. A path in a closed solid that finds no further surface has
+///   Status::kMissingLayer: a flaw of the search or of the mesh.
 /// - Thin-walled surfaces do not bend light; their tint is not part of `transmittance`.
-/// - Indices of refraction, and the Fresnel share of all of `transmittance`, are those of settings.channel.
-/// - Without any interface `position` is the eye (orthographic: its point in the camera's plane) and
-///   `length` 0.
-/// - Around all solids a path bends in volumes (curved_volumes.h). One that has crossed some, but no interface, has one
-///   event; its `position` is where it left the last volume. One that a volume has caught has Status::kStepLimit.
+/// - Indices of refraction are those of settings.channel, and so is the Fresnel part of `transmittance`.
+/// - Without any interface, `position` is the eye (orthographic: its point in the camera's plane) and `length` is 0.
+/// - Outside all solids a path bends in volumes (curved_volumes.h). A path through volumes without an interface has
+/// one
+///   event; its `position` is the exit from the last volume. A trapped path has Status::kStepLimit.
 /// Throws Error for settings or a camera out of range. `threads` 0: all cores.
 std::vector<RefractedPath> trace_exact(const Geometry& geometry, const CurvedVolumes& volumes, const Camera& camera,
                                        const ExactSettings& settings, std::uint32_t threads, const Progress& progress);

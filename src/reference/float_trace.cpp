@@ -18,10 +18,10 @@
 namespace pellucid::reference {
 namespace {
 
-/// Where the search begins, in units of the largest coordinate: some 32 roundings of it.
+/// Start offset of a ray, relative to the largest coordinate: about 32 times its rounding error.
 constexpr float kStep = 32.0f * 0x1p-23f;
 
-/// View rays of CameraRays in single precision: what they are made of is linear in the pixel.
+/// View rays of CameraRays in single precision. Origin and unnormalised direction are linear in the pixel.
 class FloatRays {
 public:
     FloatRays(const Camera& camera, const ExactSettings& settings) : near_(camera.near_plane) {
@@ -35,7 +35,8 @@ public:
         direction_ = -world_from_view[2];
         origin_ = glm::vec3(camera.world_from_view[3]) + near_ * direction_;
         depth_ = camera.far_plane > 0.0f ? camera.far_plane - near_ : std::numeric_limits<float>::infinity();
-        // A pixel to the right moves the origin and turns the direction; a perspective one by as much per metre.
+        // A step of one pixel to the right moves the origin and turns the direction; in perspective the origin moves
+        // by that much per metre.
         const float turn = camera.orthographic ? 0.0f : 1.0f, move = camera.orthographic ? 1.0f : near_;
         direction_ += turn * film;
         origin_ += move * film;
@@ -56,11 +57,11 @@ public:
 
 private:
     float near_, depth_ = 0.0f;
-    glm::vec3 origin_{0.0f}, direction_{0.0f};  ///< of the first pixel's centre; per metre of depth
-    std::array<glm::vec3, 2> move_{}, turn_{};  ///< from pixel to pixel, right and down
+    glm::vec3 origin_{0.0f}, direction_{0.0f};  ///< for the centre of the first pixel; per metre of depth
+    std::array<glm::vec3, 2> move_{}, turn_{};  ///< change per pixel, right and down
 };
 
-/// The solids that a path is in, as in MediumStack, for no more than eight at a time: what comes then is not seen.
+/// The solids around a path, as in MediumStack, but eight at most. Further solids are ignored.
 struct Media {
     static constexpr std::uint32_t kMost = 8;
     struct Entry {
@@ -90,7 +91,7 @@ struct Media {
         std::int32_t count = 0;
         for (std::uint32_t i = 0; i < size; ++i)
             if (entries[i].solid == solid) count = entries[i].count;
-        const bool closed = geometry.solids()[std::size_t(solid)].closed;  // else the side alone counts
+        const bool closed = geometry.solids()[std::size_t(solid)].closed;  // for an open solid only the side counts
         set(solid, closed ? count + (entering ? 1 : -1) : (entering ? 1 : 0), geometry);
     }
     const Medium* medium(const Geometry& geometry) const {
@@ -108,7 +109,7 @@ Media media_of(const MediumStack& stack, const Geometry& geometry) {
     return media;
 }
 
-/// Refracts or totally reflects `d` at a boundary with the unit normal `n` on the side it comes from.
+/// Refracts or totally reflects `d` at a boundary. `n`: unit normal on the side that `d` comes from.
 glm::vec3 bend(const glm::vec3& d, const glm::vec3& n, float n_i, float n_t) {
     if (n_i == n_t) return d;
     const float cos_i = std::clamp(-glm::dot(d, n), 0.0f, 1.0f), eta = n_i / n_t;
@@ -131,17 +132,17 @@ void intersect(const int* valid, RTCScene scene, RTCIntersectContext* context, R
     if constexpr (N == 16) rtcIntersect16(valid, scene, context, reinterpret_cast<RTCRayHit16*>(&rays));
 }
 
-/// What all paths of a picture have in common.
+/// Data shared by all paths of an image.
 struct View {
     const Geometry& geometry;
     const ExactSettings& settings;
     FloatRays rays;
     StartMedia start_media;
-    CameraRays exact_rays;  ///< where the media differ from ray to ray
-    Media media;            ///< where they do not
+    CameraRays exact_rays;  ///< for media that differ from ray to ray
+    Media media;            ///< for media common to all rays
 };
 
-/// Paths of neighbouring pixels, traced in step.
+/// Paths of neighbouring pixels, traced in lockstep.
 template <int N>
 class FloatBlock {
 public:
@@ -159,7 +160,7 @@ public:
         }
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // until they are bent
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // until the first refraction
         while (running > 0) {
             intersect<N>(valid_.data(), view_.geometry.hierarchy(), &context, rays_);
             context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
@@ -200,7 +201,7 @@ private:
         rays_.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
 
-    /// Goes on to what was found; false at the end of the path.
+    /// Continues path i at its hit. Returns false at the end of the path.
     bool advance(int i) {
         const RTCHitNt<N>& hit = rays_.hit;
         const std::uint32_t object = hit.geomID[i], triangle = hit.primID[i];
@@ -214,7 +215,7 @@ private:
         const float t = rays_.ray.tfar[i];
         lane.origin += t * lane.direction;
         if (kind == SurfaceKind::kRefractive && !cross(i, lane)) return false;
-        // The origin is off by the rounding of its coordinates and by that of the way to it.
+        // The origin has two rounding errors: of its coordinates and of the distance to it.
         aim(i, std::max(step_, kStep * t), std::numeric_limits<float>::infinity());
         return true;
     }
@@ -241,7 +242,7 @@ private:
         const int channel = int(view_.settings.channel);
         lane.direction = bend(lane.direction, entering ? outward : -outward, lane.media.ior(geometry, channel),
                               beyond.ior(geometry, channel));
-        // The side follows from the triangle, as in exact(): the interpolated normal may mean another.
+        // The triangle decides the side, as in exact(): the interpolated normal may contradict it.
         if ((glm::dot(of_triangle, lane.direction) < 0.0f) == (side < 0.0f)) lane.media = beyond;
         return true;
     }

@@ -11,11 +11,12 @@
 
 namespace pellucid::reference {
 
-/// Tracer::trace_fast. A plain loop over Embree's rays or packets of settings.packet rays in step.
+/// Implementation of Tracer::trace_fast: a plain loop over Embree's rays or packets of settings.packet rays in
+/// lockstep.
 ///
-/// - A path does not meet the surface that it stands on because its search begins a little ahead of it, in
-///   proportion to the coordinates: closer surfaces (the tip of a wedge) are missed.
-/// - It keeps the solid that it is in and the one around that, no more.
+/// - A ray starts a little ahead of its surface, in proportion to the coordinates, so as not to hit it again. Closer
+///   surfaces (the tip of a wedge) are missed.
+/// - A path tracks at most eight solids around it.
 /// Throws Error for settings, a camera or a buffer out of range. `threads` 0: all cores.
 void trace_float(const Geometry& geometry, const Camera& camera, const ExactSettings& settings, std::uint32_t threads,
                  std::span<glm::vec3> directions);

@@ -12,7 +12,7 @@
 namespace pellucid::reference {
 namespace {
 
-constexpr std::uint32_t kMostPoints = 1u << 17;  ///< of an object
+constexpr std::uint32_t kMostPoints = 1u << 17;  ///< points per object
 constexpr std::uint32_t kLeastPoints = 1u << 10;
 constexpr std::uint32_t kAllPoints = 1u << 20;
 
@@ -28,7 +28,7 @@ public:
     }
     double area() const { return area_; }  ///< m2
 
-    /// `place`: 0..1, of all area.
+    /// `place`: 0..1, position in the cumulative area of all triangles.
     Hit at(double place, const glm::dvec2& u) const {
         const auto found = std::upper_bound(area_up_to_.begin(), area_up_to_.end() - 1, place * area_);
         const auto triangle = std::uint32_t(found - area_up_to_.begin());
@@ -43,7 +43,7 @@ private:
     double area_ = 0.0;
 };
 
-/// Flux, W, that shadow rays bring to an opaque object, on both sides of it.
+/// Flux, W, from shadow rays to both sides of an opaque object.
 glm::dvec3 direct_flux(const PathWorld& world, std::uint32_t object, std::uint32_t count, std::uint32_t seed) {
     const SurfacePoints points(world.geometry, object);
     if (!(points.area() > 0.0)) return glm::dvec3(0.0);

@@ -9,7 +9,7 @@
 
 namespace pellucid::reference {
 
-/// See Tracer::light_flux.
+/// Implementation of Tracer::light_flux.
 std::vector<LightFlux> light_flux(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene,
                                   std::uint32_t photons, std::uint32_t seed, std::uint32_t threads);
 

@@ -16,9 +16,9 @@
 namespace pellucid::reference {
 
 struct Microfacets {
-    double alpha = 0.0;  ///< width, 0..1: the square of the perceptual roughness
+    double alpha = 0.0;  ///< width, 0..1: square of the perceptual roughness
 
-    /// Below this a surface counts as a perfect mirror: the lobe is narrower than 0.01 degrees.
+    /// Surfaces with a smaller width count as perfect mirrors: their lobe is narrower than 0.01 degrees.
     static constexpr double kSmooth = 1e-4;
     bool smooth() const { return alpha < kSmooth; }
 
@@ -29,38 +29,38 @@ struct Microfacets {
         return a2 / (std::numbers::pi * d * d);
     }
 
-    /// Smith's auxiliary function of a direction on either side.
+    /// Smith's auxiliary function, for a direction on either side.
     double lambda(const glm::dvec3& w) const {
         const double cos2 = w.z * w.z;
         if (cos2 >= 1.0) return 0.0;
         return 0.5 * (std::sqrt(1.0 + alpha * alpha * (1.0 - cos2) / std::max(cos2, 1e-300)) - 1.0);
     }
-    /// Share of facets that are visible from w.
+    /// Share of facets visible from w.
     double masking(const glm::dvec3& w) const { return 1.0 / (1.0 + lambda(w)); }
-    /// Share visible from both, heights correlated (Heitz 2014, equation 99).
+    /// Share of facets visible from both directions, with correlated heights (Heitz 2014, equation 99).
     double masking_shadowing(const glm::dvec3& wo, const glm::dvec3& wi) const {
         return 1.0 / (1.0 + lambda(wo) + lambda(wi));
     }
 
-    /// Area of the facets that face w, projected along w, per macroscopic area; w may point below the surface.
+    /// Projected area along w of the facets that face w, per macroscopic area. w may point below the surface.
     double projected_area(const glm::dvec3& w) const {
         const double cos2 = w.z * w.z;
         const double slanted = std::sqrt(cos2 + alpha * alpha * std::max(1.0 - cos2, 0.0));
-        // Below the horizon the difference of the two is small: avoid the cancellation.
+        // Below the horizon the sum would cancel; use the equivalent quotient.
         if (w.z < 0.0) return 0.5 * alpha * alpha * std::max(1.0 - cos2, 0.0) / (slanted - w.z);
         return 0.5 * (slanted + w.z);
     }
 
-    /// A normal from two random numbers, with the density of those that w sees:
-    /// max(dot(w, m), 0) density(m) / projected_area(w) per solid angle (Heitz 2018, listing 1). w may point
-    /// below the surface, since the listing samples the part of the hemisphere that w sees from there, too.
+    /// Samples a normal visible from w, with the density max(dot(w, m), 0) density(m) / projected_area(w) per solid
+    /// angle (Heitz 2018, listing 1). w may point below the surface, because the listing also samples the hemisphere
+    /// visible from there.
     glm::dvec3 sample_visible(const glm::dvec3& w, const glm::dvec2& u) const {
         const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * w.x, alpha * w.y, w.z));
         const double length2 = stretched.x * stretched.x + stretched.y * stretched.y;
         const glm::dvec3 across =
             length2 > 0.0 ? glm::dvec3(-stretched.y, stretched.x, 0.0) / std::sqrt(length2) : glm::dvec3(1.0, 0.0, 0.0);
         const glm::dvec3 along = glm::cross(stretched, across);
-        // A point of the disc that the hemisphere of normals projects to, its hidden part squeezed out.
+        // Point on the disc that is the projected hemisphere of normals, with its hidden part compressed to zero.
         const double radius = std::sqrt(u.x), angle = 2.0 * std::numbers::pi * u.y;
         const double x = radius * std::cos(angle);
         const double share = 0.5 * (1.0 + stretched.z);

@@ -1,4 +1,4 @@
-// The part of PathWalk that meets lights, by chance and by aiming at them.
+// The part of PathWalk that gathers light: by hitting emitters, and by next-event estimation.
 #include "reference/boundaries.h"
 #include "reference/path_walk.h"
 
@@ -9,8 +9,8 @@
 namespace pellucid::reference {
 namespace {
 
-/// Weight of a direction chosen with density `pdf` that `other` might have chosen, too (Veach 1997,
-/// section 9.2.4, exponent 2).
+/// MIS weight of a direction sampled with density `pdf`, which the other strategy samples with density `other` (Veach
+/// 1997, section 9.2.4, exponent 2).
 double power_heuristic(double pdf, double other) {
     const double ratio = other / pdf;
     return 1.0 / (1.0 + ratio * ratio);
@@ -18,21 +18,21 @@ double power_heuristic(double pdf, double other) {
 
 }  // namespace
 
-/// Part of the picture that a light belongs to which the path meets now.
+/// Part of the image to which light at the current vertex belongs.
 LightPart PathWalk::part() const {
     if (scatters_ == 0) return LightPart::kEmitted;
     if (scatters_ > 1) return LightPart::kIndirect;
     return bent_ ? LightPart::kCaustic : LightPart::kDirect;
 }
 
-/// Weight of a light with a size that the path meets by chance.
+/// MIS weight of a sized light that the path hits.
 double PathWalk::weight_of_chance(const Light& light) const {
     if (pdf_ > 0.0) return power_heuristic(pdf_, arriving_pdf(light, scattered_at_));
     const bool photons_have_it = world_.photons && scatters_ > 0 && bent_;
     return photons_have_it ? 0.0 : 1.0;
 }
 
-/// Weight of an emissive surface that the path meets by chance.
+/// MIS weight of an emissive surface that the path hits.
 double PathWalk::weight_of_chance(const Hit& emitter) const {
     if (!(pdf_ > 0.0) || !world_.emitters) return 1.0;
     return power_heuristic(pdf_, world_.emitters->pdf(scattered_at_, emitter));
@@ -44,8 +44,8 @@ void PathWalk::emit(const Vertex& vertex) {
     receive(part(), throughput_ * light * (emitted_share() * weight_of_chance(vertex.hit)));
 }
 
-/// The path leaves the scene. In an open mesh it may seem to be inside glass of no end, which then does
-/// not absorb.
+/// Adds environment light when the path leaves the scene. In an open mesh the path may still seem to be inside
+/// infinite glass, whose absorption is ignored.
 void PathWalk::see_sky() {
     const glm::dvec3 light = radiance(world_.environment, glm::vec3(ray_.direction));
     const double weight = pdf_ > 0.0 ? power_heuristic(pdf_, world_.sampler.pdf(ray_.direction)) : 1.0;
@@ -55,7 +55,8 @@ void PathWalk::see_sky() {
     });
 }
 
-/// The path meets a lamp, and ends there. What is seen without a surface that scatters does not fade with its range.
+/// Adds the light of a lamp that the path hits and ends on. Light seen without scattering does not fade with the
+/// lamp's range.
 void PathWalk::see_ball(double distance) {
     cover(distance);
     const double range = scatters_ > 0 ? range_share(*ball_, length_) : 1.0;
@@ -70,7 +71,7 @@ BsdfValue PathWalk::value_towards(const Vertex& vertex, const Bsdf& bsdf, const 
     return std::visit([&](const auto& b) { return b.evaluate(facing.wo, wi, random); }, bsdf);
 }
 
-/// Light of the environment, in a direction that it has chosen.
+/// Next-event estimation of the environment, in a direction sampled by it.
 void PathWalk::add_environment(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random) {
     if (world_.sampler.dark()) return;
     const EnvironmentSampler::Sample chosen = world_.sampler.sample(random);
@@ -83,14 +84,15 @@ void PathWalk::add_environment(const Vertex& vertex, const Bsdf& bsdf, const Fac
                 visibility(vertex.hit, chosen.direction, std::numeric_limits<double>::infinity(), nullptr));
 }
 
-/// Light of one of the scene's lights, in a direction that it has chosen.
+/// Next-event estimation of one of the scene's lights, in a direction sampled by it.
 void PathWalk::add_light(const Light& light, const Vertex& vertex, const Bsdf& bsdf, const Facing& facing,
                          Random& random) {
     const std::optional<ArrivingLight> arriving = arriving_light(light, vertex.hit.position, random);
     if (!arriving) return;
     const BsdfValue bsdf_value = value_towards(vertex, bsdf, facing, arriving->direction, random);
     if (!(bsdf_value.pdf > 0.0)) return;
-    // Light from beyond was emitted there. No volume is there: visibility() is 0 in volumes.
+    // Light from beyond the surface was emitted in the medium there. It crosses no volume: visibility() is 0 in
+    // volumes.
     const double share =
         refracts_towards(vertex.hit, arriving->direction) ? emitted_share(beyond_, 1.0) : emitted_share();
     const double weight = arriving->pdf > 0.0 ? power_heuristic(arriving->pdf, bsdf_value.pdf) : 1.0;
@@ -99,7 +101,7 @@ void PathWalk::add_light(const Light& light, const Vertex& vertex, const Bsdf& b
                 visibility(vertex.hit, arriving->direction, arriving->distance, &light));
 }
 
-/// Light of an emissive surface, from a point that was chosen.
+/// Next-event estimation of an emissive surface, towards a sampled point.
 void PathWalk::add_emission(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random) {
     const std::optional<EmitterSampler::Sample> chosen = world_.emitters->sample(vertex.hit.position, random);
     if (!chosen) return;
@@ -129,7 +131,8 @@ glm::dvec3 PathWalk::irradiance(const Hit& on, Random& random) {
     return sum;
 }
 
-/// Share of the light from a source at `distance` that reaches a surface. `light`: the source, if it is one of the scene's.
+/// Share of the light from a source at `distance` that reaches a surface. `light`: the source, if it is a light of the
+/// scene.
 glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, double distance, const Light* light) {
     const MediumStack& inside = medium_towards(from, direction);
     Query query = shadow_ray(from, direction, distance);
@@ -137,12 +140,12 @@ glm::dvec3 PathWalk::visibility(const Hit& from, const glm::dvec3& direction, do
     if (world_.geometry.occluded(query) || lights_.nearest(query, light).light) return glm::dvec3(0.0);
     if (meets_volume(inside, query)) return glm::dvec3(0.0);
     glm::dvec3 share(1.0);
-    // To infinity there is no glass on the way but that of open meshes; see see_sky().
+    // A ray to infinity crosses glass of open meshes only; see see_sky().
     if (inside.solid() != kAir && std::isfinite(distance)) share = beer_lambert(inside.medium().sigma_a, distance);
     return world_.has_panes ? share * pane_transmittance(query) : share;
 }
 
-/// Radiance that arrives from the chosen point of an emissive surface, if a straight path would meet that triangle first.
+/// Radiance from the sampled point of an emissive surface, if a straight ray hits that triangle first.
 glm::dvec3 PathWalk::visible_emission(const Hit& from, const EmitterSampler::Sample& chosen) {
     const MediumStack& inside = medium_towards(from, chosen.direction);
     Query query = shadow_ray(from, chosen.direction, chosen.distance);
@@ -157,7 +160,7 @@ glm::dvec3 PathWalk::visible_emission(const Hit& from, const EmitterSampler::Sam
         const bool pane = world_.geometry.kind(hit.crossing.object) == SurfaceKind::kThin;
         if (!arrives && !pane) break;
         step_through(hit, query);
-        if (inside.solid() != kAir) {  // what a solid stands on is outside of it; see meet()
+        if (inside.solid() != kAir) {  // an object that supports a solid lies outside of it; see meet()
             const Hit wall = touching_boundary(world_.geometry, query, hit);
             if (wall.found && wall.crossing.sense == Sense::kLeaving) break;
         }
@@ -171,7 +174,7 @@ glm::dvec3 PathWalk::visible_emission(const Hit& from, const EmitterSampler::Sam
     return glm::dvec3(0.0);
 }
 
-/// From a surface on which the path stands, towards a source.
+/// Shadow ray from a surface on which the path stands towards a source.
 Query PathWalk::shadow_ray(const Hit& from, const glm::dvec3& direction, double distance) {
     shadow_standing_ = standing_;
     for (Crossing& on : shadow_standing_) on.sense = world_.geometry.sense(on.object, on.triangle, direction);
@@ -183,13 +186,13 @@ Query PathWalk::shadow_ray(const Hit& from, const glm::dvec3& direction, double 
     return query;
 }
 
-/// True if the shadow ray, in the solids `inside`, is in a volume somewhere, which bends light.
+/// True if the shadow ray, in the solids `inside`, crosses a volume, which bends light.
 bool PathWalk::meets_volume(const MediumStack& inside, const Query& query) const {
     return inside.solid() == kAir ? world_.volumes.meets(query.origin, query.direction, query.t_max)
                                   : world_.volumes.bends_in(inside.solid());
 }
 
-/// Takes a shadow ray on to a pane that it has met.
+/// Moves a shadow ray to a pane that it hit.
 void PathWalk::step_through(const Hit& pane, Query& query) {
     world_.geometry.step_onto(pane, shadow_standing_);
     query.standing = shadow_standing_;
@@ -197,7 +200,7 @@ void PathWalk::step_through(const Hit& pane, Query& query) {
     query.t_max -= pane.t;
 }
 
-/// What a smooth pane leaves of light that comes straight through it; rough ones scatter it.
+/// Transmittance of a smooth pane for straight light. Rough panes scatter it and transmit nothing.
 glm::dvec3 PathWalk::straight_through(const Vertex& pane, const glm::dvec3& direction) const {
     const PaneBsdf bsdf(double(pane.material.ior), roughness_at(pane), glm::dvec3(pane.base));
     const double coverage = pane.material.alpha_is_coverage ? pane.base.a : 1.0;
@@ -208,7 +211,7 @@ glm::dvec3 PathWalk::straight_through(const Vertex& pane, const glm::dvec3& dire
     return (1.0 - coverage) + coverage * through;
 }
 
-/// What all panes leave of it.
+/// Transmittance of all panes along a shadow ray.
 glm::dvec3 PathWalk::pane_transmittance(Query query) {
     query.kinds = only(SurfaceKind::kThin);
     glm::dvec3 share(1.0);

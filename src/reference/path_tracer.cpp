@@ -26,7 +26,7 @@
 namespace pellucid::reference {
 namespace {
 
-constexpr std::uint32_t kTile = 16;  ///< pixels along a side of what one thread takes on
+constexpr std::uint32_t kTile = 16;  ///< side of a thread's tile, pixels
 
 void check(const PathTraceSettings& s) {
     if (s.width == 0 || s.height == 0) throw Error(fmt::format("a picture of {}x{} has no pixels", s.width, s.height));
@@ -38,7 +38,7 @@ void check(const PathTraceSettings& s) {
     if (s.max_vertices == 0) throw Error("a path needs at least 1 vertex");
 }
 
-/// Mean and its standard error, updated value by value (Welford 1962): no cancellation.
+/// Mean and its standard error, updated value by value without cancellation (Welford 1962).
 class RunningMean {
 public:
     void add(const glm::dvec3& value) {
@@ -86,14 +86,14 @@ public:
         if (settings.parts) parts_.resize(pixels);
     }
 
-    /// Rounds that a picture takes: one per sample if each has photons of its own.
+    /// Number of rounds for an image: one per sample if each sample has its own photons, else 1.
     std::uint32_t rounds() const {
         if (!world_.photons) return 1;
         const auto& of_pixels = settings_.samples_of_pixels;
         return of_pixels.empty() ? settings_.samples : *std::max_element(of_pixels.begin(), of_pixels.end());
     }
 
-    /// Traces a round's samples of one pixel; returns how many paths were cut.
+    /// Traces the samples of one pixel and round. Returns the number of cut paths.
     std::uint64_t paint(glm::uvec2 pixel, std::uint32_t round, PathWalk& walk, PathTracedImage& image) {
         const std::uint64_t index = std::uint64_t(pixel.y) * settings_.width + pixel.x;
         RunningMean of_one_round;
@@ -133,11 +133,11 @@ private:
     const CameraRays& rays_;
     const PathTraceSettings& settings_;
     StartMedia media_;
-    std::vector<MeanParts> parts_;    ///< per pixel; empty: not asked for
-    std::vector<RunningMean> means_;  ///< per pixel, over the rounds; empty: there is one round
+    std::vector<MeanParts> parts_;    ///< per pixel; empty: not requested
+    std::vector<RunningMean> means_;  ///< per pixel, over the rounds; empty: one round only
 };
 
-/// One round of photons after another, each for one sample of every pixel.
+/// Successive rounds of photons, each for one sample of every pixel.
 class PhotonRounds {
 public:
     PhotonRounds(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene, const CameraRays& rays,
@@ -145,9 +145,9 @@ public:
         : geometry_(geometry), rays_(rays), settings_(settings) {
         if (!scene.lights.empty()) emitter_.emplace(geometry, volumes, scene);
     }
-    /// Null: none are wanted, or no light shines on anything smooth.
+    /// Null if no photons are requested, or no light reaches a smooth surface.
     const PhotonMap* map() const { return settings_.photons > 0 && emitter_ && !emitter_->dark() ? &map_ : nullptr; }
-    /// What is lost without photons.
+    /// Warnings about light that is lost without photons.
     std::vector<std::string> warnings() const {
         if (settings_.photons > 0 || !emitter_) return {};
         const std::vector<std::string> names = emitter_->without_size();

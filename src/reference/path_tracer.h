@@ -12,8 +12,8 @@
 
 namespace pellucid::reference {
 
-/// See Tracer::path_trace. `scene` is the one that `geometry` was built from; `threads` 0: all cores.
-/// Throws Error for a camera, an environment or settings that do not hold what they promise.
+/// Implementation of Tracer::path_trace. `geometry` must have been built from `scene`; `threads` 0: all cores. Throws
+/// Error for an invalid camera, environment or settings.
 PathTracedImage trace_paths(const Geometry& geometry, const CurvedVolumes& volumes, const Scene& scene,
                             const Camera& camera, const Environment& environment, const PathTraceSettings& settings,
                             std::uint32_t threads, const Progress& progress);

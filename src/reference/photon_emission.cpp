@@ -16,15 +16,15 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::uint32_t kBlock = 4096;  ///< photons that one thread takes on
+constexpr std::uint32_t kBlock = 4096;  ///< photons per task of a thread
 
-/// First radius of look-ups over that of a disc that holds one photon where nothing bends the light. A look-up then finds
-/// 16 of them, and many more in a focus.
+/// First look-up radius over the radius of a disc that contains one photon without any bending. A look-up then finds
+/// 16 photons, and many more at a focus.
 constexpr double kWidening = 4.0;
 
 double brightest(const glm::dvec3& rgb) { return std::max({rgb.r, rgb.g, rgb.b}); }
 
-/// The least that a material's factor and texture allow.
+/// Lower bound of the roughness, from the material's factor and texture.
 double lowest_roughness(const Scene& scene, const Material& material) {
     double lowest = double(material.roughness);
     const int index = material.metallic_roughness_texture.image;
@@ -37,7 +37,7 @@ double lowest_roughness(const Scene& scene, const Material& material) {
     return lowest * texel;
 }
 
-/// True if light that meets it can go on as from a mirror, or refracted without scattering.
+/// True if light can be mirrored by it, or refracted without scattering.
 bool has_smooth_part(const Scene& scene, const Material& material, SurfaceKind kind) {
     if (material.unlit && kind == SurfaceKind::kOpaque) return false;
     if (kind == SurfaceKind::kRefractive && material.ior == 1.0f) return true;
@@ -50,8 +50,8 @@ bool boxes_meet(const Geometry::Box& a, const Geometry::Box& b, double apart) {
     return glm::all(glm::lessThanEqual(a.low - apart, b.high)) && glm::all(glm::lessThanEqual(b.low - apart, a.high));
 }
 
-/// True if some of an object's boundary may part nothing, inside a solid or between equal media: light crosses such a
-/// boundary without scattering, however rough it is. Decided by boxes.
+/// True if part of an object's boundary may be no interface, inside a solid or between equal media. Light crosses such
+/// a boundary unscattered, however rough it is. The test uses bounding boxes.
 bool may_part_nothing(const Geometry& geometry, std::uint32_t object) {
     if (geometry.kind(object) != SurfaceKind::kRefractive) return false;
     const auto body_of = [&](std::uint32_t of) { return geometry.solid_of(geometry.shell(of, 0)) / 2; };
@@ -104,7 +104,7 @@ PhotonEmitter::Sphere PhotonEmitter::smooth_bounds(const Geometry& geometry, con
 PhotonEmitter::Aim PhotonEmitter::aim_of_sun(const Scene& scene, const Light& light) const {
     Aim aim{
         .light = &light, .inside = MediumStack(geometry_.solids()), .center = target_.center, .disc = target_.radius};
-    // Photons start before everything that may stand in their way.
+    // Photons start in front of all possible occluders.
     const Bounds all = scene_bounds(scene);
     aim.before = glm::length(target_.center - glm::dvec3(all.center)) + 2.0 * (all.radius + target_.radius);
     aim.world_from_cone = world_from_local(glm::normalize(glm::dvec3(light.direction)));
@@ -130,8 +130,8 @@ PhotonEmitter::Aim PhotonEmitter::aim_of_lamp(const Light& light) const {
     return aim;
 }
 
-/// What a light's brightest channel is multiplied by to get the flux of its photons: the area of the disc, m2, or the
-/// solid angle of the cone.
+/// Factor from a light's brightest channel to the flux of its photons: area of the disc, m2, or solid angle of the
+/// cone.
 double PhotonEmitter::measure(const Aim& aim) const {
     if (aim.light->kind == Light::Kind::kDirectional) return pi * aim.disc * aim.disc;
     return 2.0 * pi * aim.one_less_cosine;
@@ -150,7 +150,7 @@ PhotonStart PhotonEmitter::start(const Aim& aim, Random& random) const {
     const glm::dvec3 on_disc =
         world_from_local(direction) * glm::dvec3(from_axis * std::cos(angle), from_axis * std::sin(angle), 0.0);
     const bool sun = aim.light->kind == Light::Kind::kDirectional;
-    // A ball's radiance is the same all over: its points lie evenly in the disc that it is seen as.
+    // A ball has uniform radiance, so its points are uniform on the disc that it appears as.
     const double ahead = sun ? -aim.before : aim.disc * std::sqrt(std::max(1.0 - u.x, 0.0));
     photon.ray.origin = aim.center + on_disc + ahead * direction;
     if (aim.light->kind == Light::Kind::kSpot) {
@@ -178,7 +178,7 @@ std::vector<std::string> PhotonEmitter::without_size() const {
 
 std::vector<Photon> shoot_photons(const PathWorld& world, const PhotonEmitter& emitter, std::uint32_t count,
                                   std::uint32_t seed, std::uint32_t round) {
-    constexpr std::uint64_t kPhotons = std::uint64_t(1) << 63;  // random numbers apart from those of pixels
+    constexpr std::uint64_t kPhotons = std::uint64_t(1) << 63;  // keeps random numbers distinct from those of pixels
     std::vector<std::vector<Photon>> blocks((std::size_t(count) + kBlock - 1) / kBlock);
     tbb::parallel_for(std::size_t(0), blocks.size(), [&](std::size_t block) {
         PathWalk walk(world);

@@ -15,12 +15,12 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kRimPoints = 8;    ///< if the receiver is there at all of them, it covers the disc
-constexpr int kDiscPoints = 64;  ///< else it is looked for at as many points of the disc
-constexpr double kBeyond = 1.3;  ///< how far rays look for a curved receiver, over their way to the disc
+constexpr int kRimPoints = 8;    ///< a receiver found at all of these points covers the disc
+constexpr int kDiscPoints = 64;  ///< otherwise the disc is tested at this many points
+constexpr double kBeyond = 1.3;  ///< length of test rays to a curved receiver, relative to their distance from the disc
 constexpr double kLeastPixels = 0.25;
 
-/// The disc around a photon, seen from above, on the side from which the photon came.
+/// The disc around a photon, seen from above, on the photon's incident side.
 class Disc {
 public:
     Disc(const Geometry& geometry, const Photon& photon)
@@ -39,7 +39,7 @@ public:
         above_ = photon.position + (ceiling.found ? 0.5 * ceiling.t : query.t_max) * up;
     }
 
-    /// Whether the receiver is at a point of the disc, in radii and radians.
+    /// True if the receiver covers a point of the disc. `from_center` in radii, `angle` in radians.
     bool covered(double from_center, double angle) const {
         const glm::dvec3 in_disc(from_center * std::cos(angle), from_center * std::sin(angle), 0.0);
         const glm::dvec3 way = photon_.position + double(photon_.radius) * (world_from_disc_ * in_disc) - above_;
@@ -60,14 +60,14 @@ private:
     glm::dvec3 above_{0.0};
 };
 
-/// Share of the disc around a photon that its receiver covers, > 0.
+/// Share of the disc around a photon covered by its receiver, > 0.
 double covered_share(const Geometry& geometry, const Photon& photon, Random& random) {
     const Disc disc(geometry, photon);
     const double turn = 2.0 * pi * random.next();
     int found = 0;
     for (int i = 0; i < kRimPoints; ++i) found += disc.covered(1.0, turn + 2.0 * pi * i / kRimPoints) ? 1 : 0;
     if (found == kRimPoints) return 1.0;
-    // Evenly spread (Vogel, "A better way to construct the sunflower head", 1979).
+    // Uniform points on the disc (Vogel, "A better way to construct the sunflower head", 1979).
     const double golden = pi * (3.0 - std::sqrt(5.0));
     found = 0;
     for (int i = 0; i < kDiscPoints; ++i)

@@ -11,32 +11,33 @@
 
 namespace pellucid::reference {
 
-/// Light of a source where it meets the first surface that is not smooth, after mirrors or refractions.
+/// Light of a source at the first surface that is not smooth, after mirrors or refractions.
 struct Photon {
     glm::dvec3 position{0.0};   ///< world, m
-    glm::vec3 normal{0.0f};     ///< of the triangle, outward, unit
-    glm::vec3 direction{0.0f};  ///< in which it flew, unit
-    glm::vec3 flux{0.0f};       ///< W, RGB, over n^2 of the medium it arrives in (as radiance in bsdf.h)
-    float share = 1.0f;         ///< of its flux that this is: 1 / n^2
-    Crossing crossing{};        ///< of the triangle
-    float radius = 0.0f;        ///< m, of the disc over which look-ups find it
-    float area = 0.0f;          ///< m2, of the receiver, as much as the disc covers
+    glm::vec3 normal{0.0f};     ///< unit, outward, of the triangle
+    glm::vec3 direction{0.0f};  ///< unit, direction of travel
+    glm::vec3 flux{0.0f};       ///< W, RGB, over n^2 of the medium in which it arrives (as radiance in bsdf.h)
+    float share = 1.0f;         ///< 1 / n^2, the factor contained in `flux`
+    Crossing crossing{};        ///< crossing of the triangle
+    float radius = 0.0f;        ///< m, radius of the look-up disc
+    float area = 0.0f;          ///< m2, area of the receiver inside the disc
 };
 
-/// Whether places with these unit normals belong to one receiver.
+/// True if surfaces with these unit normals count as one receiver.
 inline bool of_one_surface(const glm::dvec3& normal, const glm::dvec3& other) { return glm::dot(normal, other) > 0.5; }
 
-/// Photons of one round, and those near a point (Jensen, "Global illumination using photon maps", 1996). They lie in a
-/// sorted grid, so that their order depends on nothing but their positions and the order in which they were given.
+/// Photons of one round, with look-ups around a point (Jensen, "Global illumination using photon maps", 1996). A
+/// sorted grid makes their order depend only on their positions and input order.
 class PhotonMap {
 public:
     PhotonMap() = default;
-    /// The photons have their radii.
+    /// The photons must have their radii.
     explicit PhotonMap(std::vector<Photon> photons);
 
     const std::vector<Photon>& photons() const { return photons_; }
 
-    /// Calls visit(photon) for the photons of a surface with that unit normal that are at most their radius away.
+    /// Calls visit(photon) for each photon within its own radius of `position`, on a surface with a similar unit
+    /// normal.
     template <class Visit>
     void for_each_near(const glm::dvec3& position, const glm::dvec3& normal, const Visit& visit) const {
         const Cell low = cell_of(position - radius_), high = cell_of(position + radius_);
@@ -54,12 +55,12 @@ public:
 
 private:
     using Cell = glm::u64vec3;
-    static constexpr int kBits = 21;  // of a cell's coordinate along each axis
+    static constexpr int kBits = 21;  // bits of a cell's coordinate along each axis
 
     Cell cell_of(const glm::dvec3& position) const {
         return glm::clamp((position - low_) / cell_size_, 0.0, double((1 << kBits) - 1));
     }
-    /// Cells side by side along x have keys side by side.
+    /// Key of a cell. Neighbours along x have consecutive keys.
     static std::uint64_t key_of(const Cell& cell) { return (cell.z << 2 * kBits) | (cell.y << kBits) | cell.x; }
     bool belongs(const Photon& photon, const glm::dvec3& position, const glm::dvec3& normal) const {
         const glm::dvec3 apart = photon.position - position;
@@ -67,16 +68,16 @@ private:
                of_one_surface(glm::dvec3(photon.normal), normal);
     }
 
-    std::vector<Photon> photons_;      ///< by key
-    std::vector<std::uint64_t> keys_;  ///< of the photons' cells, ascending
-    double radius_ = 0.0;              ///< m, the largest of the photons'
+    std::vector<Photon> photons_;      ///< sorted by key
+    std::vector<std::uint64_t> keys_;  ///< keys of the photons' cells, ascending
+    double radius_ = 0.0;              ///< m, largest radius of the photons
     double cell_size_ = 1.0;
     glm::dvec3 low_{0.0};
 };
 
-/// Radius, m, of look-ups in round `round` (from 0): the square shrinks as Knaus & Zwicker, "Progressive photon mapping: a
-/// probabilistic approach", 2011, equation 15, has it, with alpha = 2/3. The mean over the rounds then converges to the
-/// truth, in bias and in variance.
+/// Look-up radius, m, in round `round` (from 0). Its square shrinks by Knaus & Zwicker, "Progressive photon mapping: a
+/// probabilistic approach", 2011, equation 15, with alpha = 2/3. The mean over the rounds then converges in bias and
+/// in variance.
 double photon_radius(double first_radius, std::uint32_t round);
 
 }  // namespace pellucid::reference

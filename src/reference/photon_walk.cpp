@@ -1,4 +1,4 @@
-// The part of PathWalk that follows light from its source (Jensen 1996), and reads at its ends what was stored.
+// The part of PathWalk that follows light from its source (Jensen 1996) and looks up stored photons.
 #include "reference/path_walk.h"
 #include "reference/punctual_lights.h"
 
@@ -13,7 +13,7 @@ void PathWalk::follow(const PhotonStart& photon, const MediumStack& inside, Rand
     if (!(flux > 0.0)) return;
     start(photon.ray, inside);
     throughput_ = photon.flux / flux;  // at most 1, for survives()
-    pdf_ = 1.0;                        // straight from the light
+    pdf_ = 1.0;                        // direct light, which next-event estimation covers
     photon_ = {&stored, photon.light, flux};
     for (std::uint32_t vertices = 0; vertices < world_.max_vertices; ++vertices) {
         bool caught = false;
@@ -26,7 +26,7 @@ void PathWalk::follow(const PhotonStart& photon, const MediumStack& inside, Rand
     photon_ = {};
 }
 
-/// Stores the photon at a surface that is not smooth everywhere, unless next-event estimation has its light.
+/// Stores the photon at a surface that is not smooth everywhere, unless next-event estimation covers its light.
 void PathWalk::deposit(const Vertex& vertex) {
     if (pdf_ > 0.0) return;
     const double share = emitted_share(), flux = photon_.flux * share * range_share(*photon_.light, length_);
@@ -36,8 +36,8 @@ void PathWalk::deposit(const Vertex& vertex) {
     photon_.stored->push_back(photon);
 }
 
-/// Refracts a photon, or reflects it, as the reversed path from the eye would be: the opaque coat and the base colour
-/// count where light leaves the solid.
+/// Refracts or reflects a photon as the reversed eye path would be. Opaque coat and base colour therefore apply where
+/// light leaves the solid.
 bool PathWalk::cross_as_photon(const Vertex& vertex, const InterfaceBsdf& bsdf, Random& random) {
     const double glass = double(transmission(world_.scene, vertex.material, vertex.attributes));
     const bool coated = glass < 1.0 && vertex.hit.crossing.sense == Sense::kEntering;
@@ -55,7 +55,7 @@ bool PathWalk::cross_as_photon(const Vertex& vertex, const InterfaceBsdf& bsdf, 
     return true;
 }
 
-/// Photons meet interpolated normals in the other direction than paths from the eye: Veach 1997, section 5.3.
+/// Correction of interpolated normals for photons, which travel opposite to eye paths (Veach 1997, section 5.3).
 double PathWalk::adjoint_weight(const Vertex& vertex, const glm::dvec3& wi, const glm::dvec3& wo) const {
     const glm::dvec3 flat = world_.geometry.geometric_normal(vertex.hit);
     const double weight = std::abs(glm::dot(wi, vertex.normal) * glm::dot(wo, flat)) /
@@ -63,7 +63,7 @@ double PathWalk::adjoint_weight(const Vertex& vertex, const glm::dvec3& wi, cons
     return std::isfinite(weight) ? weight : 0.0;
 }
 
-/// Light of the photons around a surface that scatters.
+/// Adds the light of the photons around a scattering surface.
 void PathWalk::add_photons(const Vertex& vertex, const Bsdf& bsdf, const Facing& facing, Random& random) {
     const glm::dvec3 normal = world_.geometry.geometric_normal(vertex.hit);
     glm::dvec3 sum(0.0);

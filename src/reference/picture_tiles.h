@@ -1,6 +1,6 @@
 #pragma once
 
-// How the pixels of a picture are shared out among threads and packets.
+// Assignment of an image's pixels to threads and packets.
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -11,7 +11,7 @@
 
 namespace pellucid::reference {
 
-/// Pixels that are traced together: as square as it gets.
+/// Block of pixels traced together, as square as possible.
 inline glm::uvec2 block_size(std::uint32_t packet) {
     switch (packet) {
         case 4:
@@ -25,14 +25,15 @@ inline glm::uvec2 block_size(std::uint32_t packet) {
     }
 }
 
-inline constexpr std::uint32_t kTile = 32;  ///< pixels along a side; a multiple of every block's
+inline constexpr std::uint32_t kTile = 32;  ///< pixels along a side; a multiple of every block size
 
 inline std::uint32_t tile_count(glm::uvec2 size) {
     const glm::uvec2 tiles = (size + kTile - 1u) / kTile;
     return tiles.x * tiles.y;
 }
 
-/// Calls trace_tile(first, end) for the pixels from `first` up to `end` of every tile. `threads` 0: all cores.
+/// Calls trace_tile(first, end) for the pixels of every tile, `first` inclusive, `end` exclusive. `threads` 0: all
+/// cores.
 template <class TraceTile>
 void for_each_tile(glm::uvec2 size, std::uint32_t threads, const TraceTile& trace_tile) {
     const std::uint32_t columns = (size.x + kTile - 1u) / kTile;

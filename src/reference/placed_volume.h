@@ -16,7 +16,7 @@
 
 namespace pellucid::reference {
 
-/// Position (voxels), v = n dx/ds, optical depths, and what was emitted on the way, attenuated.
+/// State of the integration: position (voxels), v = n dx/ds, optical depths, and attenuated emission along the path.
 using Values = std::array<double, 12>;
 
 inline glm::dvec3 position_of(const Values& s) { return {s[0], s[1], s[2]}; }
@@ -27,8 +27,8 @@ struct Index {
     glm::dvec3 gradient{0.0};  ///< per voxel
 };
 
-/// Of a uniform cubic B-spline at f, 0..1, between the second and the third of four values: their weights, and those of its
-/// slope. Before the first value and behind the last a row goes on straight.
+/// Uniform cubic B-spline at f, 0..1, between the second and third of four values: weights of the values and of the
+/// slope. At the first and last value the row is extrapolated linearly.
 struct Cubic {
     std::array<double, 4> weight, slope;
 
@@ -45,19 +45,19 @@ struct Cubic {
     }
 };
 
-/// A volume of a scene where it stands: what is at a place in it, and how a ray goes on from there. Places are in voxels.
+/// A placed volume of a scene: its values at a position, and the derivative of a ray there. Positions are in voxels.
 struct CurvedVolumes::Placed {
     std::shared_ptr<const Volume> volume;
     glm::dmat4 world_from_voxel, voxel_from_world;
-    double voxel = 1.0;     ///< edge, m in the world
+    double voxel = 1.0;     ///< edge, m in world space
     glm::dvec3 size;        ///< voxels
-    bool reflects = false;  ///< has surfaces; none where a solid holds it, whose own are sharp
+    bool reflects = false;  ///< has blurred surfaces; false if assigned to a solid, whose surfaces are sharp
 
-    /// Between the middles of voxels, from that of the first; beyond those at the faces all is as there.
+    /// Interpolation cell between voxel centres. Beyond the outermost centres, values are constant.
     struct Cell {
         glm::ivec3 low;
         glm::dvec3 share;
-        glm::dvec3 within;  ///< 0 along an axis on which the place is beyond
+        glm::dvec3 within;  ///< 0 along axes where the position is beyond the outermost centres
     };
     Cell cell(const glm::dvec3& x) const {
         const glm::dvec3 last = size - 1.0, p = glm::clamp(x - 0.5, glm::dvec3(0.0), last);
@@ -72,8 +72,7 @@ struct CurvedVolumes::Placed {
         return std::size_t(at.x) + volume->size.x * (std::size_t(at.y) + volume->size.y * std::size_t(at.z));
     }
 
-    /// Cells of the grid in cubes of kBrick, as those of `cell()`; whether the index is the same in all of one, and in
-    /// what is next to it.
+    /// Bricks of kBrick^3 cells. `even` is 1 if the index is constant in a brick and its neighbourhood.
     static constexpr int kBrick = 8;
     glm::ivec3 bricks{0};
     std::vector<char> even;
@@ -117,7 +116,7 @@ struct CurvedVolumes::Placed {
             return Cubic(at.share[k], at.low[k] == 0, at.low[k] + 2 == int(volume->size[k]));
         };
         const Cubic cx = cubic_along(0), cy = cubic_along(1), cz = cubic_along(2);
-        std::size_t first[3][4];  // of the values at -1, 0, 1, 2 along each axis
+        std::size_t first[3][4];  // offsets of the values at -1, 0, 1, 2 along each axis
         std::size_t stride = 1;
         for (int k = 0; k < 3; ++k) {
             for (int i = 0; i < 4; ++i)
@@ -143,7 +142,7 @@ struct CurvedVolumes::Placed {
         return sum;
     }
 
-    template <class T>  // numbers become grey
+    template <class T>  // scalars become grey
     glm::dvec3 linear(const std::vector<T>& values, const Cell& at) const {
         if (values.empty()) return glm::dvec3(0.0);
         glm::dvec3 sum(0.0);
@@ -155,9 +154,9 @@ struct CurvedVolumes::Placed {
         return sum;
     }
 
-    /// How much surface there is, 0..1.
+    /// Boundary value, 0..1.
     double surface(const glm::dvec3& x) const { return linear(volume->boundary, cell(x)).x; }
-    /// The index on one side of a surface, from its middle: where it ends, or where the next begins.
+    /// Index on one side of a surface: searched from its middle to where the surface ends, or the next begins.
     double index_beside(const glm::dvec3& middle, const glm::dvec3& way, int channel) const {
         constexpr double kStep = 0.25, kFarthest = 8.0, kEnds = 0.01;
         double before = surface(middle);
@@ -172,8 +171,8 @@ struct CurvedVolumes::Placed {
         }
         return index(x, channel).n;
     }
-    /// What a surface reflects of a ray that crosses it, by Fresnel's equations, from a place near its middle; none if the
-    /// ray turns back there. The part of v along the surface is the same on both sides.
+    /// Fresnel reflectance of a surface for a ray near its middle; empty if the ray turns back there. The component of
+    /// v along the surface is equal on both sides.
     std::optional<double> reflectance(const Values& s, glm::dvec3& normal, int channel) const {
         const glm::dvec3 x = position_of(s), v = velocity_of(s), gradient = index(x, channel).gradient;
         if (!(glm::length(gradient) > 1e-3)) return std::nullopt;
@@ -182,18 +181,18 @@ struct CurvedVolumes::Placed {
         const glm::dvec3 forward = across > 0.0 ? normal : -normal;
         const double n_i = index_beside(x, -forward, channel), n_t = index_beside(x, forward, channel);
         if (along >= n_t * n_t || along >= n_i * n_i) return std::nullopt;
-        const double a = std::sqrt(n_i * n_i - along), b = std::sqrt(n_t * n_t - along);  // n cos of either side
+        const double a = std::sqrt(n_i * n_i - along), b = std::sqrt(n_t * n_t - along);  // n cos theta on either side
         return fresnel_reflectance(n_i, a / n_i, n_t, b / n_t);
     }
 
-    /// By a voxel of length.
+    /// Derivative with respect to length, per voxel.
     void slope(const Values& s, Values& ds, int channel) const {
         const Cell here = cell(position_of(s));
         const Index at = index(here, channel);
         const glm::dvec3 v = velocity_of(s);
         const glm::dvec3 extinction = linear(volume->sigma_a, here) + linear(volume->sigma_s, here);
         const glm::dvec3 emission = linear(volume->emission, here) / (at.n * at.n);
-        const double metres = double(volume->voxel);  // a scaled placement leaves what it absorbs in all
+        const double metres = double(volume->voxel);  // a scaled placement keeps the total absorption
         for (std::size_t k = 0; k < 3; ++k) {
             const int c = int(k);
             ds[k] = v[c] / at.n;

@@ -15,7 +15,7 @@ using std::numbers::pi;
 bool is_sun(const Light& light) { return light.kind == Light::Kind::kDirectional; }
 glm::dvec3 axis_of(const Light& light) { return glm::normalize(glm::dvec3(light.direction)); }
 
-/// Distance, m, to where a ray enters a light's ball; negative if it does not.
+/// Distance, m, at which a ray enters a light's ball; negative if it misses.
 double entry(const Light& light, const glm::dvec3& origin, const glm::dvec3& direction) {
     const glm::dvec3 to_center = glm::dvec3(light.position) - origin;
     const double along = glm::dot(to_center, direction), radius = double(light.radius);
@@ -24,7 +24,7 @@ double entry(const Light& light, const glm::dvec3& origin, const glm::dvec3& dir
     return half_chord2 > 0.0 ? along - std::sqrt(half_chord2) : -1.0;
 }
 
-/// 1 - cos of half the angle that a lamp's ball subtends; nothing from within.
+/// 1 - cos of half the angle that a lamp's ball subtends; empty for a position inside.
 std::optional<double> one_less_cosine_from(const Light& lamp, const glm::dvec3& position) {
     const double sine = double(lamp.radius) / glm::length(glm::dvec3(lamp.position) - position);
     if (!(sine < 1.0)) return std::nullopt;
@@ -46,7 +46,7 @@ ArrivingLight arriving_from_ball(const Light& lamp, double size, const glm::dvec
     arriving.direction =
         glm::normalize(world_from_local(glm::normalize(to_light)) * uniform_in_cone(size, random.next2()));
     arriving.pdf = density_in_cone(size);
-    // Rounding can let a ray to the rim pass it by; the rim is as far as the tangent is long.
+    // By rounding, a ray to the rim can miss the ball. The rim lies at the tangent's length.
     const double radius = double(lamp.radius), distance = entry(lamp, position, arriving.direction);
     arriving.distance = distance > 0.0 ? distance : std::sqrt(glm::dot(to_light, to_light) - radius * radius);
     arriving.irradiance = radiance_of(lamp, arriving.direction) * (range_share(lamp, arriving.distance) / arriving.pdf);
@@ -151,7 +151,7 @@ Hit SizedLights::intersect(const Geometry& geometry, const Query& query, const L
 }
 
 bool SizedLights::shows(const Light& sun, const glm::dvec3& direction) {
-    // |d + axis|^2 = 2 (1 - cos) is exact for small angles.
+    // |d + axis|^2 = 2 (1 - cos) stays exact for small angles.
     const glm::dvec3 apart = direction + axis_of(sun);
     return 0.5 * glm::dot(apart, apart) <= one_less_cosine(sun);
 }

@@ -6,9 +6,9 @@
 
 namespace pellucid::reference {
 
-/// Random numbers of one path. The n-th number is a hash of (seed, pixel, sample, n), so that a picture
-/// does not depend on which thread traces which path. SplitMix64 (Steele, Lea & Flood, "Fast splittable
-/// pseudorandom number generators", 2014, figure 16), begun at a hash of its own for every path.
+/// Random numbers of one path. The n-th number is a hash of (seed, pixel, sample, n), so an image does not depend on
+/// the assignment of paths to threads. SplitMix64 (Steele, Lea & Flood, "Fast splittable pseudorandom number
+/// generators", 2014, figure 16), seeded by a separate hash for every path.
 class Random {
 public:
     Random(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample)

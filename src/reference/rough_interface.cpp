@@ -7,10 +7,10 @@
 namespace pellucid::reference {
 namespace {
 
-/// Bound on the facets of one walk, against endless loops by rounding. The longest of 3.6e7 walks met 22, over
-/// indices of 1.2 to 2.42 and roughnesses of 0.2 to 1.
+/// Bound on the facets of one walk, against endless loops by rounding. The longest of 3.6e7 walks visited 22 facets,
+/// for indices of 1.2 to 2.42 and roughnesses of 0.2 to 1.
 constexpr int kMaxFacets = 100000;
-/// Lowest level, about the distance from 1 to the double below. No walk could come back from a level of 0.
+/// Lowest level, about one rounding unit of 1. No walk could return from level 0.
 constexpr double kLowest = 1e-16;
 
 glm::dvec3 to_other_side(const glm::dvec3& w) { return {w.x, w.y, -w.z}; }
@@ -34,10 +34,10 @@ Incidence RoughInterface::at_facet(const Ray& ray, const glm::dvec3& m) const {
 
 /// Moves the ray to the next facet. Returns false if the ray leaves the microsurface instead.
 ///
-/// Smith's probability that nothing lies between the level c and a higher one d, in direction w, is
-/// (c / d)^lambda(w), and going down from c to d it is (d / c)^(1 + lambda(w)).
+/// Smith's probability of a free path in direction w: (c / d)^lambda(w) up from level c to d, and (d / c)^(1 +
+/// lambda(w)) down from c to d.
 bool RoughInterface::reaches_facet(Ray& ray, Random& random) const {
-    const double clear = 1.0 - random.next();  // probability that nothing is on the way, 0 < clear <= 1
+    const double clear = 1.0 - random.next();  // probability of a free path, 0 < clear <= 1
     const double lambda = facets_.lambda(ray.direction);
     if (ray.direction.z > 0.0) {
         if (clear <= std::pow(ray.level, lambda)) return false;
@@ -49,7 +49,7 @@ bool RoughInterface::reaches_facet(Ray& ray, Random& random) const {
     return true;
 }
 
-/// Reflects or refracts the ray at one of the facets that it sees.
+/// Reflects or refracts the ray at a facet visible to it.
 void RoughInterface::scatter(Ray& ray, Random& random) const {
     const glm::dvec3 m = facets_.sample_visible(-ray.direction, random.next2());
     const Incidence in = at_facet(ray, m);
@@ -66,7 +66,7 @@ void RoughInterface::scatter(Ray& ray, Random& random) const {
 glm::dvec3 RoughInterface::sample(const glm::dvec3& wo, Random& random) const {
     Ray ray{-wo};
     for (int facet = 0; facet < kMaxFacets && reaches_facet(ray, random); ++facet) scatter(ray, random);
-    ray.direction.z = std::abs(ray.direction.z);  // A walk that reached the bound can point at the surface.
+    ray.direction.z = std::abs(ray.direction.z);  // a walk cut by the bound can point at the surface
     return ray.outside ? ray.direction : to_other_side(ray.direction);
 }
 

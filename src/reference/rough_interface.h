@@ -3,11 +3,10 @@
 // Scattering by a rough surface with all reflections and refractions between its microfacets: Heitz,
 // Hanika, d'Eon & Dachsbacher, "Multiple-scattering microfacet BSDFs with the Smith model", 2016.
 //
-// Light takes a random walk on the microsurface, above and below it, until it leaves on one side. In the
-// Smith model the height and the normal of a facet are independent of each other and of all other facets.
-// The walk hence keeps one height. It depends on the distribution of heights only through the cumulative
-// distribution C(h), so `level` = C(h), in 0..1, stands for the height. A facet that is seen from the other
-// side lies at 1 - level.
+// Light takes a random walk on the microsurface, above and below it, until it leaves on one side. In the Smith model
+// the height and the normal of a facet are independent of each other and of all other facets. The walk therefore
+// stores one height. Only the cumulative distribution C(h) of heights matters, so `level` = C(h), in 0..1, replaces
+// the height. Seen from the other side, a facet lies at 1 - level.
 //
 // Directions are as in bsdf.h. Densities are per steradian and belong to basic radiance.
 
@@ -30,23 +29,23 @@ public:
     /// |cos theta_i|, so that a sample weighs 1.
     glm::dvec3 sample(const glm::dvec3& wo, Random& random) const;
 
-    /// Part of that density that is due to one facet.
+    /// Part of that density from walks of one facet.
     double single(const glm::dvec3& wo, const glm::dvec3& wi) const;
-    /// Part that is due to two or more facets: an unbiased estimate, from a random walk at either end.
+    /// Part of that density from walks of two or more facets: an unbiased estimate by random walks from both ends.
     double multiple(const glm::dvec3& wo, const glm::dvec3& wi, Random& random) const;
 
-    /// A stand-in for the density of sample() in the weights of multiple importance sampling, which may be any
-    /// positive function. It is larger than the density of multiple() on purpose. The estimate of multiple()
-    /// varies more the narrower the lobe is, so a light should choose a direction outside the lobe of single()
-    /// only where its own density is above 1 / (pi alpha).
+    /// Substitute for the density of sample() in weights of multiple importance sampling, which may be any positive
+    /// function. It is deliberately larger than the density of multiple(). The estimate of multiple() varies more for
+    /// narrower lobes. Light sampling should therefore choose a direction outside the lobe of single() only if its own
+    /// density is above 1 / (pi alpha).
     double mis_density(double single) const;
 
 private:
     /// A ray on the microsurface, in a frame whose z axis is the macroscopic normal on the ray's side.
     struct Ray {
-        glm::dvec3 direction{0.0};  ///< of travel
+        glm::dvec3 direction{0.0};  ///< direction of travel
         double level = 1.0;         ///< 0..1; 1 is above all facets
-        bool outside = true;        ///< on the viewer's side
+        bool outside = true;        ///< true on the viewer's side
     };
     Incidence at_facet(const Ray& ray, const glm::dvec3& m) const;
     bool reaches_facet(Ray& ray, Random& random) const;

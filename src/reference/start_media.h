@@ -9,7 +9,7 @@
 
 namespace pellucid::reference {
 
-/// The solids around the start of any view ray.
+/// The solids around the start of each view ray.
 class StartMedia {
 public:
     StartMedia(const Geometry& geometry, const CameraRays& rays, glm::dvec2 size_px)

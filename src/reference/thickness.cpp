@@ -1,4 +1,4 @@
-// How much solid lies between a light and what is seen, by rays of Embree; see ThicknessTracer.
+// Thickness of solid between a light and the visible point, by Embree rays; see ThicknessTracer.
 #include "reference/camera_rays.h"
 #include "reference/geometry.h"
 #include "reference/picture_tiles.h"
@@ -20,13 +20,13 @@ namespace {
 
 using namespace reference;
 
-/// A surface on the way from the visible point to the light.
+/// A surface between the visible point and the light.
 struct OnTheWay {
     double distance;  ///< m from the point
-    bool entering;    ///< the light enters a solid there
+    bool entering;    ///< the light enters a solid at this surface
 };
 
-/// Length of solid in front of a point at distance 0; `leaving`: the light leaves a solid at the point itself.
+/// Length of solid in front of a point at distance 0. `leaving`: the light leaves a solid at the point itself.
 double solid_before(const std::vector<OnTheWay>& towards_light, bool leaving) {
     double solid = 0.0, entry = 0.0;
     int entered = 0;
@@ -37,7 +37,7 @@ double solid_before(const std::vector<OnTheWay>& towards_light, bool leaving) {
             solid += entry - surface->distance;
         }
     }
-    // An entry that the light does not come out of before the point is the point's own surface or that of an open mesh.
+    // An entry without an exit before the point belongs to the point's own surface or to an open mesh.
     return leaving && entered > 0 ? solid + entry : solid;
 }
 

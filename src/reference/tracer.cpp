@@ -22,7 +22,7 @@ struct Tracer::Impl {
 
 namespace {
 
-/// TBB has no more threads than cores, and says so on the terminal if it is asked for more.
+/// Limits threads to cores: TBB has no more, and prints a warning if asked for more.
 TracerOptions within_cores(TracerOptions options) {
     const std::uint32_t cores = std::uint32_t(tbb::info::default_concurrency());
     options.threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
