@@ -267,6 +267,7 @@ Mesh with_split_edges(const Mesh& mesh, std::size_t count) {
         }
         return found->second;
     };
+    split.tangents.clear();
     for (const glm::uvec3 t : mesh.triangles) {
         // The corners and the middles of split edges, around; then an ear at a time.
         std::vector<std::uint32_t> around;

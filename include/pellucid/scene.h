@@ -31,7 +31,48 @@ struct Texture {
     glm::mat3 uv_from_texcoord{1.0f};  ///< KHR_texture_transform; applied to (u, v, 1)
 };
 
-/// glTF metallic-roughness material with the extensions that matter to glass.
+/// What extensions of glTF add to an opaque surface, outermost first: a clear coat, the fibres of cloth, and what the
+/// boundary below them reflects. KHR_materials_clearcoat, _sheen, _specular, _iridescence and _anisotropy.
+struct Finish {
+    float clearcoat = 0.0f;               ///< 0..1; share of the surface that has the coat, of index 1.5
+    Texture clearcoat_texture;            ///< red multiplies clearcoat (linear)
+    float clearcoat_roughness = 0.0f;     ///< perceptual, 0..1
+    Texture clearcoat_roughness_texture;  ///< green multiplies clearcoat_roughness (linear)
+    Texture clearcoat_normal_texture;     ///< as Material::normal_texture, which does not tilt the coat
+    float clearcoat_normal_scale = 1.0f;
+
+    glm::vec3 sheen_color{0.0f};      ///< linear RGB, 0..1
+    Texture sheen_color_texture;      ///< multiplies sheen_color; its image is sRGB-encoded
+    float sheen_roughness = 0.0f;     ///< perceptual, 0..1
+    Texture sheen_roughness_texture;  ///< alpha multiplies sheen_roughness
+
+    float specular = 1.0f;           ///< 0..1; strength of what a dielectric reflects
+    Texture specular_texture;        ///< alpha multiplies specular
+    glm::vec3 specular_color{1.0f};  ///< linear RGB, >= 0; multiplies what it reflects head-on, which stays below 1
+    Texture specular_color_texture;  ///< multiplies specular_color; its image is sRGB-encoded
+
+    float iridescence = 0.0f;         ///< 0..1; share of the surface under a thin film
+    Texture iridescence_texture;      ///< red multiplies iridescence (linear)
+    float film_ior = 1.3f;            ///< >= 1
+    float film_thinnest_nm = 100.0f;  ///< >= 0; where the texture is 0
+    float film_thickest_nm = 400.0f;  ///< >= 0; where it is 1, or there is none
+    Texture film_thickness_texture;   ///< green, linear
+
+    float anisotropy = 0.0f;           ///< 0..1; the GGX lobe is wider along the direction of anisotropy
+    float anisotropy_rotation = 0.0f;  ///< radians, counter-clockwise from the tangent
+    Texture anisotropy_texture;        ///< red, green: direction from -1..1; blue multiplies anisotropy (linear)
+
+    bool coated() const { return clearcoat > 0.0f; }
+    bool has_sheen() const { return sheen_color != glm::vec3(0.0f); }
+    /// The surface is as if there were no extension.
+    bool plain() const {
+        return !coated() && !has_sheen() && specular == 1.0f && specular_texture.image < 0 &&
+               specular_color == glm::vec3(1.0f) && specular_color_texture.image < 0 && iridescence == 0.0f &&
+               anisotropy == 0.0f;
+    }
+};
+
+/// glTF metallic-roughness material with extensions.
 struct Material {
     std::string name;
 
@@ -43,9 +84,11 @@ struct Material {
     glm::vec3 emission{0.0f};            ///< linear radiance, emissive strength included
     Texture emission_texture;            ///< multiplies emission; its image is sRGB-encoded
     float alpha_cutoff = 0.0f;           ///< fragments with less alpha are left out; 0 keeps all
-    bool alpha_is_coverage = false;      ///< of thin-walled glass: it covers only that share of what lies behind
-    bool unlit = false;                  ///< shows base_color itself
-    bool double_sided = true;            ///< opaque surfaces that are not are seen from the front only; glTF says which
+    /// Of thin-walled glass and opaque surfaces: they cover only the share `alpha` of what lies behind. Opaque ones do so
+    /// ray by ray, at random, so that the mean over samples is right.
+    bool alpha_is_coverage = false;
+    bool unlit = false;        ///< shows base_color itself
+    bool double_sided = true;  ///< opaque surfaces that are not are seen from the front only; glTF says which
 
     float transmission = 0.0f;          ///< 0..1; share of the light that enters instead of scattering at the surface
     Texture transmission_texture;       ///< red channel multiplies transmission (linear)
@@ -60,11 +103,27 @@ struct Material {
     float diffuse_transmission = 0.0f;
     glm::vec3 diffuse_transmission_color{1.0f};  ///< linear RGB, 0..1; tints that light
 
+    Texture
+        normal_texture;  ///< red, green, blue 0..1: direction from -1..1 in the frame of Mesh::tangents; 128/255 is 0
+    float normal_scale = 1.0f;  ///< of the direction's first two components
+    /// Red: share of the environment's light that reaches the surface. Frames that follow what hides it, and path tracing,
+    /// leave it out.
+    Texture occlusion_texture;
+    float occlusion_strength = 1.0f;  ///< 0..1; 0: the texture has no effect
+    Finish finish;                    ///< of opaque surfaces
+
     bool transmissive() const { return transmission > 0.0f; }
     /// An opaque surface that lets light of lights through, scattered.
     bool translucent() const { return diffuse_transmission > 0.0f && !transmissive() && !unlit && metallic < 1.0f; }
     /// Opaque, and not there for rays that come from behind. Light goes through solids that are translucent.
     bool single_sided() const { return !double_sided && !transmissive() && !translucent(); }
+    /// Opaque, and there for some rays only.
+    bool has_holes() const { return alpha_cutoff > 0.0f || (alpha_is_coverage && !transmissive()); }
+    /// What is seen of it depends on the directions of its texture coordinates.
+    bool uses_tangents() const {
+        return normal_texture.image >= 0 || finish.anisotropy > 0.0f ||
+               (finish.coated() && finish.clearcoat_normal_texture.image >= 0);
+    }
     /// Bounds a solid of glass, as opposed to an opaque or a thin-walled surface.
     bool refractive() const { return transmissive() && thickness > 0.0f; }
     /// Absorption (translucent: extinction) coefficient per metre, `-ln(attenuation_color) / attenuation_distance`.
@@ -78,7 +137,10 @@ struct Mesh {
     std::vector<glm::vec3> normals;       ///< unit, one per position
     std::vector<glm::vec2> texcoords[2];  ///< empty, or one per position; v runs downwards (glTF)
     std::vector<glm::vec4> colors;        ///< empty, or one linear RGBA per position
-    std::vector<glm::uvec3> triangles;    ///< counter-clockwise seen from outside
+    /// Empty, or one per position: unit, the direction in which u of the texture coordinates grows; w, 1 or -1, times
+    /// normal x tangent is the direction of -v. A zero vector, or none: the triangle's own texture coordinates say it.
+    std::vector<glm::vec4> tangents;
+    std::vector<glm::uvec3> triangles;  ///< counter-clockwise seen from outside
 };
 
 /// New vertices of one mesh of a scene.

@@ -58,6 +58,8 @@ struct Frame {
     std::vector<Binding> group = {reads("Frame", constants),
                                   reads("Objects", scene.objects),
                                   reads("Materials", scene.materials),
+                                  reads("Finishes", scene.finishes),
+                                  reads("Tangents", scene.tangents),
                                   reads("Indices", scene.indices),
                                   reads("Vertices", scene.vertices),
                                   reads("Appearance", scene.appearance),

@@ -1,6 +1,7 @@
 #include "gpu/gpu_scene.h"
 
 #include "gpu/emitters.h"
+#include "gpu/material_records.h"
 #include "gpu/punctual_light.h"
 
 #include "gpu/texture_pages.h"
@@ -109,39 +110,6 @@ Geometry join_meshes(const Scene& scene) {
     return geometry;
 }
 
-/// All of it but textures.
-void fill_record(const Material& material, gpu::MaterialRecord& record) {
-    record = {};
-    record.base_color = material.base_color;
-    record.emission = glm::vec4(material.emission, 0.0f);
-    record.sigma_a = glm::vec4(material.sigma_a(), material.thickness);
-    record.ior = material.ior;
-    record.transmission = material.transmission;
-    record.alpha_cutoff = material.alpha_cutoff;
-    record.flags = (material.unlit ? PELLUCID_MATERIAL_UNLIT : 0u) |
-                   (material.alpha_is_coverage ? PELLUCID_MATERIAL_COVERAGE : 0u) |
-                   (material.single_sided() ? PELLUCID_MATERIAL_SINGLE_SIDED : 0u);
-    record.metallic = material.metallic;
-    record.roughness = material.roughness;
-    record.dispersion = material.dispersion;
-    if (material.translucent()) {
-        const float share = material.diffuse_transmission;
-        record.translucent = 1;
-        record.diffuse_transmission = glm::vec4(share * material.diffuse_transmission_color, 0.0f);
-        record.base_color = glm::vec4((1.0f - share) * glm::vec3(material.base_color), material.base_color.a);
-    }
-}
-
-gpu::MaterialRecord material_record(const Material& material, TextureTable& textures) {
-    gpu::MaterialRecord record;
-    fill_record(material, record);
-    record.base_color_texture = textures.add(material.base_color_texture, true);
-    record.emission_texture = textures.add(material.emission_texture, true);
-    record.transmission_texture = textures.add(material.transmission_texture, false);
-    record.metallic_roughness_texture = textures.add(material.metallic_roughness_texture, false);
-    return record;
-}
-
 std::vector<glm::vec3> box_corners(const Scene& scene, bool (Material::*which)() const) {
     std::vector<glm::vec3> corners;
     for (const Object& object : scene.objects) {
@@ -164,8 +132,13 @@ void append_box_corners(const Mesh& mesh, const glm::mat4& world_from_object, st
 GpuScene::GpuScene(const Device& device, const Scene& scene) {
     const Geometry geometry = join_meshes(scene);
     TextureTable texture_table(scene);
-    for (const Material& material : scene.materials)
-        material_records.push_back(material_record(material, texture_table));
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        const Material& material = scene.materials[m];
+        material_records.push_back(textured_record(material, texture_table));
+        finish_records.push_back(textured_finish(material.finish, texture_table));
+        update_records(material, m, material_records.back(), finish_records.back());
+    }
+    if (finish_records.empty()) finish_records.emplace_back();  // something has to be bound
 
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const auto [low, high] = box_of(scene.meshes[m]);
@@ -185,6 +158,8 @@ GpuScene::GpuScene(const Device& device, const Scene& scene) {
     appearance = upload_buffer(device, "the scene's texture coordinates", geometry.appearance, Usage::eStorageBuffer);
     objects = upload_buffer(device, "the scene's objects", object_records, Usage::eStorageBuffer);
     materials = upload_buffer(device, "the scene's materials", material_records, Usage::eStorageBuffer);
+    finishes = upload_buffer(device, "the scene's finishes", finish_records, Usage::eStorageBuffer);
+    tangents = upload_buffer(device, "the scene's tangents", packed_tangents(scene), Usage::eStorageBuffer);
     texture_pages = texture_table.upload_pages(device);
     textures = upload_buffer(device, "the scene's textures", texture_table.records(), Usage::eStorageBuffer);
     set_lights(device, scene.lights);
@@ -199,7 +174,7 @@ std::vector<gpu::ObjectRecord> GpuScene::list_objects(const Scene& scene) {
     first_triangles.clear();
     mesh_of_object.clear();
     world_from_object.clear();
-    rough_glass = textured_glass = dispersive = rough = false;
+    rough_glass = textured_glass = dispersive = rough = finished = false;
     triangle_count = 0;
     std::vector<gpu::ObjectRecord> object_records;
     for (const Object& object : scene.objects) {
@@ -221,11 +196,13 @@ std::vector<gpu::ObjectRecord> GpuScene::list_objects(const Scene& scene) {
         auto& list = material.refractive() ? refractive : material.transmissive() ? thin_walled : opaque;
         list.push_back(call);
         if (material.translucent()) translucent.push_back(call);
+        finished = finished || (!material.transmissive() && has_finish(material));
         rough = rough || (material.transmissive() ? material.roughness > 0.0f : !material.unlit);
         textured_glass =
             textured_glass || (material.transmissive() &&
                                (material.base_color_texture.image >= 0 || material.transmission_texture.image >= 0 ||
-                                material.metallic_roughness_texture.image >= 0 || !mesh.colors.empty()));
+                                material.metallic_roughness_texture.image >= 0 || material.normal_texture.image >= 0 ||
+                                !mesh.colors.empty()));
         if (material.refractive()) {
             rough_glass = rough_glass || material.roughness > 0.0f;
             dispersive = dispersive || material.dispersion > 0.0f;
@@ -284,6 +261,10 @@ void GpuScene::move_vertices(const Device& device, const Scene& scene, std::span
         for (int m = 0; m < mesh; ++m) first += scene.meshes[std::size_t(m)].positions.size();
         const std::vector<Vertex> data = vertices_of(scene.meshes[std::size_t(mesh)]);
         upload_later(device, vertices, std::as_bytes(std::span(data)), first * sizeof(Vertex));
+        if (tangents.size() == vertex_count * sizeof(std::uint32_t)) {
+            const std::vector<std::uint32_t> none(data.size(), 0);  // the triangles' texture coordinates say them
+            upload_later(device, tangents, std::as_bytes(std::span(none)), first * sizeof(std::uint32_t));
+        }
     }
     if (emitter_count > 0) list_emitters(device, scene);
 }
@@ -311,12 +292,9 @@ void GpuScene::set_material(const Device& device, const Scene& scene, std::size_
     if (was_refractive != scene.materials[material].refractive()) prepared.clear();
     topology.reset();
     gpu::MaterialRecord& record = material_records[material];
-    const gpu::MaterialRecord before = record;
-    fill_record(scene.materials[material], record);
-    record.base_color_texture = before.base_color_texture;
-    record.emission_texture = before.emission_texture;
-    record.transmission_texture = before.transmission_texture;
-    record.metallic_roughness_texture = before.metallic_roughness_texture;
+    gpu::FinishRecord& finish = finish_records[material];
+    update_records(scene.materials[material], material, record, finish);
+    upload_later(device, finishes, std::as_bytes(std::span(&finish, 1)), material * sizeof(finish));
     upload_later(device, materials, std::as_bytes(std::span(&record, 1)), material * sizeof(record));
     const std::vector<gpu::ObjectRecord> records = list_objects(scene);
     upload_later(device, objects, std::as_bytes(std::span(records)));

@@ -60,6 +60,8 @@ struct GpuScene {
     Buffer appearance;  ///< per vertex: texcoord 0, texcoord 1 (4 floats), colour (RGBA8)
     Buffer objects;     ///< ObjectRecord[]
     Buffer materials;   ///< MaterialRecord[]
+    Buffer finishes;    ///< FinishRecord[]
+    Buffer tangents;    ///< per vertex, of scenes that have some: see tangents.glsl
     Buffer textures;    ///< TextureRecord[]
     GpuImage texture_pages;
     Buffer lights;  ///< PunctualLight[] (punctual_light.glsl)
@@ -82,6 +84,7 @@ struct GpuScene {
     bool rough_glass = false;                  ///< some refracting object is rough
     bool textured_glass = false;               ///< glass of any kind varies along its surface
     bool dispersive = false;                   ///< some refracting object disperses
+    bool finished = false;  ///< some opaque object has a Finish, a normal texture or an occlusion texture
     std::vector<DrawCall> opaque;
     std::vector<DrawCall> translucent;  ///< those of them that let light of lights through
     bool rough = false;                 ///< something reflects or refracts a blurred environment
@@ -98,6 +101,7 @@ private:
     /// Fills all that follows from the scene's objects and materials.
     std::vector<gpu::ObjectRecord> list_objects(const Scene& scene);
     std::vector<gpu::MaterialRecord> material_records;
+    std::vector<gpu::FinishRecord> finish_records;
 };
 
 /// Appends the eight corners of a mesh's box, world, m.

@@ -280,7 +280,7 @@ void SceneTopology::update(const Device& device, const Scene& scene, std::uint64
             touches = meet(boxes_[i], boxes_[k], std::max({rounding, uploaded[i].contact, uploaded[k].contact}));
         }
         std::uint32_t word = material.refractive() ? 2u : material.transmissive() ? 1u : 0u;
-        if (material.alpha_cutoff > 0.0f) word |= kCutOut;
+        if (material.has_holes()) word |= kCutOut;
         if (material.single_sided()) word |= kSingleSided;
         if (body != kNoBody) {
             const BodySlots& own = body_slots_[body];

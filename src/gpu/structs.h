@@ -16,6 +16,7 @@ using uint = std::uint32_t;
 
 #define PELLUCID_NO_TEXTURE 0xffffffffu
 #define PELLUCID_NO_TRIANGLE 0xffffffffu
+#define PELLUCID_NO_FINISH 0xffffffffu
 #define PELLUCID_BACK_FACE 0x80000000u  // top bit of a layer record's triangle word
 #define PELLUCID_EMPTY_DEPTH 1e30       // metres; farther than anything
 #define PELLUCID_MATERIAL_UNLIT 1u
@@ -63,7 +64,7 @@ struct FrameConstants {
     float environment_sine;
     float environment_intensity;
     uint light_part;  // PELLUCID_ALL_LIGHT, or the part of the picture that is drawn alone (light_parts.glsl)
-    uint unused_0;
+    uint occlusion;   // 1: occlusion textures weaken the environment's light; 0: rays find what hides it
     uint unused_1;
     uint unused_2;
     vec4 environment_uniform;
@@ -96,6 +97,40 @@ struct MaterialRecord {
     float dispersion;
     uint translucent;  // 1: diffuse_transmission is not 0
     vec4 diffuse_transmission;  // rgb, colour times factor; base_color is without that factor's share
+    uint normal_texture;
+    float normal_scale;
+    uint occlusion_texture;
+    float occlusion_strength;
+    uint finish;  // FinishRecord, or PELLUCID_NO_FINISH
+    uint unused_0;
+    uint unused_1;
+    uint unused_2;
+};
+
+// pellucid::Finish.
+struct FinishRecord {
+    vec4 sheen;     // rgb, colour; a: roughness
+    vec4 specular;  // rgb, colour; a: strength
+    float clearcoat;
+    float clearcoat_roughness;
+    float clearcoat_normal_scale;
+    float iridescence;
+    float film_ior;
+    float film_thinnest_nm;
+    float film_thickest_nm;
+    float anisotropy;
+    float anisotropy_cosine;  // of its rotation
+    float anisotropy_sine;
+    uint clearcoat_texture;
+    uint clearcoat_roughness_texture;
+    uint clearcoat_normal_texture;
+    uint sheen_color_texture;
+    uint sheen_roughness_texture;
+    uint specular_texture;
+    uint specular_color_texture;
+    uint iridescence_texture;
+    uint film_thickness_texture;
+    uint anisotropy_texture;
 };
 
 // Part of a texture page, and how to sample it.
@@ -115,7 +150,8 @@ struct TextureRecord {
 #ifdef __cplusplus
 static_assert(sizeof(FrameConstants) == 3 * 64 + 16 + 5 * 16 + 16 + 9 * 16);
 static_assert(sizeof(ObjectRecord) == 144);
-static_assert(sizeof(MaterialRecord) == 112);
+static_assert(sizeof(MaterialRecord) == 144);
+static_assert(sizeof(FinishRecord) == 112);
 static_assert(sizeof(TextureRecord) == 64);
 }  // namespace pellucid::gpu
 #endif

@@ -2,10 +2,11 @@
 // What GGX facets reflect of even light, for Karis, "Real shading in Unreal Engine 4", 2013: with Schlick's Fresnel term
 // the share is r * (reflectance head-on) + g * (reflectance at grazing angles); and whereto the middle of the light lies:
 // b = 1 in the mirrored direction, 0 along the normal, linear in between. Smith's shadowing, heights correlated, as
-// src/reference/microfacet.h has it.
+// src/reference/microfacet.h has it. And a: what white fibres (gpu/sheen.glsl) reflect of even light.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/structs.h"
 #include "gpu/filter_levels.glsl"
+#include "gpu/sheen.glsl"
 #include "gpu/spread_points.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -31,6 +32,20 @@ vec3 visible_facet(vec3 wo, float alpha, vec2 u) {
     return normalize(vec3(alpha * m.x, alpha * m.y, max(m.z, 1e-6)));
 }
 
+float sheen_albedo(vec3 wo, float roughness) {
+    const int kSteps = 32;
+    float sum = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        float z = (float(i) + 0.5) / float(kSteps), radius = sqrt(1.0 - z * z);
+        for (int j = 0; j < kSteps; ++j) {
+            float angle = (float(j) + 0.5) / float(kSteps) * 3.14159265;
+            vec3 wi = vec3(radius * cos(angle), radius * sin(angle), z);
+            sum += z * sheen_reflection(wo.z, z, normalize(wo + wi).z, roughness);
+        }
+    }
+    return 6.283185307 * sum / float(kSteps * kSteps);
+}
+
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, ivec2(kFacetTableSize)))) return;
@@ -53,5 +68,5 @@ void main() {
     }
     // mix(normal, mirrored, b) is to be parallel to `middle`; its mirrored direction is (-sin, cos).
     float b = -middle.x / (middle.z * wo.x - middle.x * (1.0 - wo.z));
-    imageStore(filtered_environment, ivec3(kFacetTableCorner + texel, 0), vec4(share / float(kSamples), b, 0.0));
+    imageStore(filtered_environment, ivec3(kFacetTableCorner + texel, 0), vec4(share / float(kSamples), b, sheen_albedo(wo, place.y)));
 }

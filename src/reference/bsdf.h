@@ -10,6 +10,8 @@
 // out, is hence understood as what is seen of it from outside, less the losses on the way: the light
 // in the glass itself is n^2 times as strong.
 
+#include "reference/bsdf_sample.h"
+#include "reference/finished_bsdf.h"
 #include "reference/microfacet.h"
 #include "reference/random.h"
 #include "reference/rough_interface.h"
@@ -20,24 +22,6 @@
 #include <variant>
 
 namespace pellucid::reference {
-
-/// BSDF times |cos theta_i|, without the share of perfect mirrors. Rough glass gives an unbiased estimate,
-/// so that two calls may differ.
-///
-/// `pdf` is for the weights of multiple importance sampling. It is the density, per steradian, with which an
-/// opaque surface chooses wi. Rough glass has no closed form of that density and gives a stand-in. Any positive
-/// function will do, as long as sample() and evaluate() give the same (Veach 1997, section 9.2.2).
-struct BsdfValue {
-    glm::dvec3 value{0.0};
-    double pdf = 0.0;
-};
-
-struct BsdfSample {
-    glm::dvec3 wi{0.0};
-    glm::dvec3 weight{0.0};  ///< BSDF times |cos theta_i| over the density that chose wi
-    double pdf = 0.0;        ///< as that of BsdfValue; 0 for a perfect mirror
-    bool mirror = false;     ///< one of the directions that evaluate() knows nothing of
-};
 
 /// An opaque surface: the metallic-roughness material of glTF 2.0 (appendix B) with GGX reflection. The
 /// appendix adds its two layers such that white at grazing angles reflects nearly twice what it gets;
@@ -104,6 +88,6 @@ private:
     glm::dvec3 tint_{1.0};
 };
 
-using Bsdf = std::variant<OpaqueBsdf, InterfaceBsdf, PaneBsdf>;
+using Bsdf = std::variant<OpaqueBsdf, FinishedBsdf, InterfaceBsdf, PaneBsdf>;
 
 }  // namespace pellucid::reference

@@ -59,7 +59,7 @@ Geometry::Geometry(const Scene& scene, const TracerOptions& options)
     for (std::uint32_t i = 0; i < object_count(); ++i) {
         const Material& m = material(i);
         objects_[i].kind = kind_of(m);
-        objects_[i].has_holes = objects_[i].kind != SurfaceKind::kRefractive && m.alpha_cutoff > 0.0f;
+        objects_[i].has_holes = objects_[i].kind != SurfaceKind::kRefractive && m.has_holes();
         objects_[i].single_sided = m.single_sided();
         objects_[i].mirrored = glm::determinant(glm::dmat3(scene.objects[i].world_from_object)) < 0.0;
         objects_[i].facets.resize(mesh(i).triangles.size());
@@ -261,6 +261,7 @@ void Geometry::update(std::span<const MovedMesh> moved, Tracer::Update update) {
         for (std::uint32_t i = 0; i < object_count(); ++i) {
             if (scene_.objects[i].mesh != each.mesh) continue;
             place(i, each.positions, each.normals);
+            objects_[i].has_moved = true;
             const RTCGeometry geometry = rtcGetGeometry(embree_.get(), i);
             rtcSetGeometryBuildQuality(geometry, refit ? RTC_BUILD_QUALITY_REFIT : embree_quality(options_.quality));
             rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);

@@ -124,11 +124,19 @@ public:
     RTCScene hierarchy() const { return embree_.get(); }
     double scale() const { return scale_; }
     bool mirrored(std::uint32_t object) const { return objects_[object].mirrored; }
+    /// update() has moved its vertices.
+    bool has_moved(std::uint32_t object) const { return objects_[object].has_moved; }
+    const std::array<glm::vec3, 3>& corner_positions(std::uint32_t object, std::uint32_t triangle) const {
+        return objects_[object].facets[triangle].corners;
+    }
+    /// Takes a direction of the object's mesh to the world.
+    glm::dmat3 to_world(std::uint32_t object) const { return glm::dmat3(scene_.objects[object].world_from_object); }
     glm::vec3 unnormalized_normal(std::uint32_t object, std::uint32_t triangle, float u, float v) const {
         const auto& [n0, n1, n2] = objects_[object].facets[triangle].normals;
         return (1.0f - u - v) * n0 + u * n1 + v * n2;
     }
-    /// True where the surface has a hole by its alpha.
+    /// True where the surface has a hole by its alpha. Of one that is half there, every ray with weights of its own sees
+    /// a hole or not, by chance.
     bool cut_out(std::uint32_t object, std::uint32_t triangle, double u, double v) const;
 
     /// Distance, m, to which surfaces anywhere in the scene can be told apart: the rounding of their world coordinates
@@ -177,7 +185,8 @@ private:
         SurfaceKind kind = SurfaceKind::kOpaque;
         bool mirrored = false;             ///< world_from_object mirrors, so winding is reversed
         bool single_sided = false;         ///< opaque, and not there for rays that come from behind
-        bool has_holes = false;            ///< alpha_cutoff leaves some fragments out
+        bool has_holes = false;            ///< alpha leaves some points out
+        bool has_moved = false;            ///< see has_moved()
         std::vector<glm::vec3> positions;  ///< world; one more than there are, which Embree may read
         std::vector<Facet> facets;         ///< per triangle
         glm::dvec3 low{0.0}, high{0.0};    ///< box, world

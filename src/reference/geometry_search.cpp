@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -73,6 +74,18 @@ struct Packet<16> {
     static constexpr auto kIntersect = rtcIntersect16;
 };
 
+std::uint64_t mixed(std::uint64_t h) {
+    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ull;
+    h = (h ^ (h >> 27)) * 0x94d049bb133111ebull;
+    return h ^ (h >> 31);
+}
+
+/// A number 0..1 without 1 of a point of a triangle, without a relation to those of its neighbours.
+double number_of(std::uint32_t triangle, double u, double v) {
+    const std::uint64_t point = mixed(std::bit_cast<std::uint64_t>(u) + 0x9e3779b97f4a7c15ull * triangle);
+    return double(mixed(point ^ std::bit_cast<std::uint64_t>(v)) >> 11) * 0x1p-53;
+}
+
 }  // namespace
 
 Sense Geometry::sense(std::uint32_t object, std::uint32_t triangle, const glm::dvec3& direction) const {
@@ -102,7 +115,11 @@ double Geometry::contact(std::uint32_t shell_a, std::uint32_t shell_b, const glm
 bool Geometry::cut_out(std::uint32_t object, std::uint32_t triangle, double u, double v) const {
     if (!objects_[object].has_holes) return false;
     const SurfaceAttributes attributes = interpolate_attributes(mesh(object), triangle, {float(u), float(v)});
-    return reference::cut_out(material(object), base_color(scene_, material(object), attributes));
+    const Material& m = material(object);
+    const float alpha = base_color(scene_, m, attributes).a;
+    if (m.alpha_is_coverage && objects_[object].kind == SurfaceKind::kOpaque)
+        return double(alpha) <= number_of(triangle, u, v);
+    return alpha < m.alpha_cutoff;
 }
 
 /// Barycentric weights of the second and third vertex where the line of the ray meets the plane.

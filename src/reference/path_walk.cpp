@@ -2,6 +2,7 @@
 
 #include "reference/boundaries.h"
 #include "reference/local_frame.h"
+#include "reference/surface_frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,14 +115,25 @@ PathWalk::Vertex PathWalk::vertex_at(const Hit& hit, const glm::dvec3& direction
     const Geometry& geometry = world_.geometry;
     const auto [object, triangle, sense, shell] = hit.crossing;
     const Mesh& mesh = world_.scene.meshes[std::size_t(world_.scene.objects[object].mesh)];
-    Vertex vertex{hit, geometry.material(object),
-                  interpolate_attributes(mesh, triangle, glm::vec2(float(hit.u), float(hit.v))), glm::dvec4(1.0),
+    Vertex vertex{hit,
+                  geometry.material(object),
+                  interpolate_attributes(mesh, triangle, glm::vec2(float(hit.u), float(hit.v))),
+                  glm::dvec4(1.0),
+                  glm::dvec3(0.0),
                   glm::dvec3(0.0)};
     vertex.base = base_color(world_.scene, vertex.material, vertex.attributes);
     const double side = sense == Sense::kEntering ? 1.0 : -1.0;
     vertex.normal = side * geometry.shading_normal(hit);
     // An interpolated normal can face away from where the path comes from: nothing is seen of such a side.
     if (!(glm::dot(vertex.normal, direction) < 0.0)) vertex.normal = side * geometry.geometric_normal(hit);
+    vertex.smooth = vertex.normal;
+    const Texture& texture = vertex.material.normal_texture;
+    if (texture.image < 0) return vertex;
+    const glm::dvec3 outward = side * vertex.smooth;
+    const glm::dvec3 tilted = tilted_normal(world_.scene, geometry, hit, outward, texture,
+                                            double(vertex.material.normal_scale), vertex.attributes);
+    if (tilted != outward)
+        vertex.normal = mirroring_above(side * tilted, side * geometry.geometric_normal(hit), -direction);
     return vertex;
 }
 
@@ -151,8 +163,8 @@ bool PathWalk::meet_opaque(const Vertex& vertex, Random& random) {
         return false;
     }
     emit(vertex);
-    const OpaqueBsdf bsdf = opaque_bsdf(vertex);
-    if (photon_.stored && !bsdf.only_mirrors()) deposit(vertex);
+    const Bsdf bsdf = opaque_bsdf(vertex);
+    if (photon_.stored && !std::visit([](const auto& b) { return b.only_mirrors(); }, bsdf)) deposit(vertex);
     return scatter(vertex, bsdf, random);
 }
 
@@ -175,12 +187,55 @@ bool PathWalk::refracts_towards(const Hit& from, const glm::dvec3& direction) co
     return crosses(from, direction) && world_.geometry.kind(from.crossing.object) == SurfaceKind::kRefractive;
 }
 
-OpaqueBsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
+Bsdf PathWalk::opaque_bsdf(const Vertex& vertex) const {
     const auto [metallic, roughness] = metallic_roughness(world_.scene, vertex.material, vertex.attributes);
     // What a translucent surface sends to the other side it does not reflect. (That light is not followed.)
     const double reflected = vertex.material.translucent() ? 1.0 - double(vertex.material.diffuse_transmission) : 1.0;
-    return OpaqueBsdf(reflected * glm::dvec3(vertex.base), double(metallic), double(roughness),
-                      double(vertex.material.ior));
+    const glm::dvec3 base = reflected * glm::dvec3(vertex.base);
+    if (!vertex.material.finish.plain()) return finished_bsdf(vertex, base);
+    return OpaqueBsdf(base, double(metallic), double(roughness), double(vertex.material.ior));
+}
+
+FinishedBsdf PathWalk::finished_bsdf(const Vertex& vertex, const glm::dvec3& base) const {
+    const Finish& f = vertex.material.finish;
+    const FinishTexels texels = finish_texels(world_.scene, f, vertex.attributes);
+    const auto [metallic, roughness] = metallic_roughness(world_.scene, vertex.material, vertex.attributes);
+    FinishedPoint point{.base = base,
+                        .metallic = double(metallic),
+                        .roughness = double(roughness),
+                        .ior = double(vertex.material.ior),
+                        .coat = texels.clearcoat,
+                        .coat_roughness = texels.clearcoat_roughness,
+                        .sheen = texels.sheen_color,
+                        .sheen_roughness = texels.sheen_roughness,
+                        .specular = texels.specular,
+                        .specular_color = texels.specular_color,
+                        .film = texels.iridescence,
+                        .film_ior = double(f.film_ior),
+                        .film_thickness_nm = texels.film_thickness_nm,
+                        .anisotropy = texels.anisotropy};
+    const glm::dmat3 to_local = glm::transpose(world_from_local(vertex.normal));
+    const double side = vertex.hit.crossing.sense == Sense::kEntering ? 1.0 : -1.0;
+    if (f.coated()) {
+        const glm::dvec3 outward = side * vertex.smooth;
+        const glm::dvec3 tilted =
+            tilted_normal(world_.scene, world_.geometry, vertex.hit, outward, f.clearcoat_normal_texture,
+                          double(f.clearcoat_normal_scale), vertex.attributes);
+        const glm::dvec3 normal =
+            tilted != outward
+                ? mirroring_above(side * tilted, side * world_.geometry.geometric_normal(vertex.hit), -ray_.direction)
+                : vertex.smooth;
+        point.coat_normal = normal == vertex.normal ? glm::dvec3(0.0, 0.0, 1.0) : to_local * normal;
+    }
+    if (point.anisotropy > 0.0) {
+        const int set = f.anisotropy_texture.image >= 0 ? f.anisotropy_texture.texcoord_set : 0;
+        const std::optional<glm::dmat3> frame = tangent_frame(world_.geometry, vertex.hit, side * vertex.normal, set);
+        const glm::dvec3 along =
+            frame ? to_local * (*frame * glm::dvec3(texels.anisotropy_direction, 0.0)) : glm::dvec3(0.0);
+        const double length = glm::length(glm::dvec2(along));
+        if (length > 0.0) point.along = glm::dvec2(along) / length;
+    }
+    return FinishedBsdf(point);
 }
 
 double PathWalk::roughness_at(const Vertex& vertex) const {
@@ -248,7 +303,7 @@ bool PathWalk::scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random) {
     // an opaque one nothing comes; at glass, the path then is where it is.
     const bool through = crosses(vertex.hit, direction);
     const bool means_to = sample->wi.z < 0.0;
-    const bool opaque = std::holds_alternative<OpaqueBsdf>(bsdf);
+    const bool opaque = std::holds_alternative<OpaqueBsdf>(bsdf) || std::holds_alternative<FinishedBsdf>(bsdf);
     if (opaque && through) return false;
     if (through && std::holds_alternative<InterfaceBsdf>(bsdf)) std::swap(inside_, beyond_);
 

@@ -103,7 +103,8 @@ private:
         const Material& material;
         SurfaceAttributes attributes;
         glm::dvec4 base;    ///< base colour, 0..1
-        glm::dvec3 normal;  ///< unit, on the side that the path comes from
+        glm::dvec3 normal;  ///< unit, on the side that the path comes from, tilted by its texture
+        glm::dvec3 smooth;  ///< likewise, without its texture
     };
     /// The surface's own frame, and the way back in it.
     struct Facing {
@@ -138,7 +139,8 @@ private:
     bool refracts_towards(const Hit& from, const glm::dvec3& direction) const;
     double ior(const MediumStack& at, int channel) const;
     bool transmits(const Vertex& vertex, Random& random) const;
-    OpaqueBsdf opaque_bsdf(const Vertex& vertex) const;
+    Bsdf opaque_bsdf(const Vertex& vertex) const;
+    FinishedBsdf finished_bsdf(const Vertex& vertex, const glm::dvec3& base) const;
     double roughness_at(const Vertex& vertex) const;
     bool scatter(const Vertex& vertex, const Bsdf& bsdf, Random& random);
     void scatter_from(const glm::dvec3& position, double pdf);

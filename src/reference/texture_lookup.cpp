@@ -116,4 +116,35 @@ MetallicRoughness metallic_roughness(const Scene& scene, const Material& materia
     return {to_unit_range(material.metallic * texel.b), to_unit_range(material.roughness * texel.g)};
 }
 
+FinishTexels finish_texels(const Scene& scene, const Finish& f, const SurfaceAttributes& attributes) {
+    const auto linear = [&](const Texture& texture) {
+        return glm::dvec4(sample_texture(scene, texture, Encoding::kLinear, attributes));
+    };
+    const auto color = [&](const Texture& texture) {
+        return glm::dvec3(sample_texture(scene, texture, Encoding::kSrgb, attributes));
+    };
+    FinishTexels texels{};
+    texels.clearcoat = double(f.clearcoat) * linear(f.clearcoat_texture).r;
+    texels.clearcoat_roughness = double(f.clearcoat_roughness) * linear(f.clearcoat_roughness_texture).g;
+    texels.sheen_color = glm::dvec3(f.sheen_color) * color(f.sheen_color_texture);
+    texels.sheen_roughness = double(f.sheen_roughness) * linear(f.sheen_roughness_texture).a;
+    texels.specular = double(f.specular) * linear(f.specular_texture).a;
+    texels.specular_color = glm::dvec3(f.specular_color) * color(f.specular_color_texture);
+    texels.iridescence = double(f.iridescence) * linear(f.iridescence_texture).r;
+    texels.film_thickness_nm =
+        glm::mix(double(f.film_thinnest_nm), double(f.film_thickest_nm), linear(f.film_thickness_texture).g);
+    texels.anisotropy = double(f.anisotropy);
+    glm::dvec2 direction(1.0, 0.0);
+    if (f.anisotropy_texture.image >= 0) {
+        const glm::dvec4 texel = linear(f.anisotropy_texture);
+        texels.anisotropy *= texel.b;
+        direction = glm::dvec2(texel) * 2.0 - 1.0;
+        const double length = glm::length(direction);
+        direction = length > 0.0 ? direction / length : glm::dvec2(1.0, 0.0);
+    }
+    const double c = std::cos(double(f.anisotropy_rotation)), s = std::sin(double(f.anisotropy_rotation));
+    texels.anisotropy_direction = {c * direction.x - s * direction.y, s * direction.x + c * direction.y};
+    return texels;
+}
+
 }  // namespace pellucid::reference

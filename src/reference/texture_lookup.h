@@ -42,7 +42,17 @@ struct MetallicRoughness {
 /// Both with their texture.
 MetallicRoughness metallic_roughness(const Scene& scene, const Material& material, const SurfaceAttributes& attributes);
 
-/// Whether the alpha test leaves this point of the surface out.
-inline bool cut_out(const Material& material, const glm::vec4& base) { return base.a < material.alpha_cutoff; }
+/// What a finish is at a point, with its textures; all 0..1 unless said otherwise.
+struct FinishTexels {
+    double clearcoat, clearcoat_roughness;
+    glm::dvec3 sheen_color;
+    double sheen_roughness;
+    double specular;
+    glm::dvec3 specular_color;  ///< >= 0
+    double iridescence, film_thickness_nm;
+    double anisotropy;
+    glm::dvec2 anisotropy_direction;  ///< unit, in the frame of tangents
+};
+FinishTexels finish_texels(const Scene& scene, const Finish& finish, const SurfaceAttributes& attributes);
 
 }  // namespace pellucid::reference

@@ -96,6 +96,12 @@ std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo&
         if (material.transmissive() && material.roughness > 0.0f && !(technique.whole_scene && material.refractive())) {
             lines.push_back(fmt::format("material {}: rough glass is drawn smooth", name));
         }
+        if (material.transmissive() && material.normal_texture.image >= 0 &&
+            !(technique.whole_scene && material.refractive()))
+            lines.push_back(fmt::format("material {}: the normal texture of glass is not drawn", name));
+        if (material.translucent() && (!material.finish.plain() || material.normal_texture.image >= 0))
+            lines.push_back(
+                fmt::format("material {}: light of lights meets it without its normal texture and finish", name));
         if (material.transmissive() && material.emission != glm::vec3(0.0f)) {
             lines.push_back(fmt::format("material {}: the emission of glass is not drawn", name));
         }

@@ -1,6 +1,7 @@
 #include "render/cpu_tracing.h"
 
 #include "scene/check_scene.h"
+#include "scene/material_textures.h"
 
 #include <pellucid/error.h>
 
@@ -48,6 +49,7 @@ void CpuTracing::set_positions(const std::vector<MovedMesh>& moved) {
         Mesh& mesh = scene_.meshes[std::size_t(each.mesh)];
         std::copy(each.positions.begin(), each.positions.end(), mesh.positions.begin());
         std::copy(each.normals.begin(), each.normals.end(), mesh.normals.begin());
+        mesh.tangents.clear();  // the triangles' texture coordinates say them
     }
 }
 
@@ -73,11 +75,9 @@ void CpuTracing::set_material(int index, const Material& material) {
     if (index < 0 || std::size_t(index) >= scene_.materials.size())
         throw Error(fmt::format("there is no material {}; the scene has {}", index, scene_.materials.size()));
     Material& own = scene_.materials[std::size_t(index)];
-    const auto same = [](const Texture& a, const Texture& b) { return a.image == b.image; };
-    if (!same(own.base_color_texture, material.base_color_texture) ||
-        !same(own.emission_texture, material.emission_texture) ||
-        !same(own.transmission_texture, material.transmission_texture) ||
-        !same(own.metallic_roughness_texture, material.metallic_roughness_texture))
+    const auto before_it = textures_of(own), given = textures_of(material);
+    if (!std::equal(given.begin(), given.end(), before_it.begin(),
+                    [](const Texture* a, const Texture* b) { return a->image == b->image; }))
         throw Error(fmt::format("material {} '{}': its textures cannot be replaced", index, own.name));
     const Material before = std::exchange(own, material);
     try {

@@ -152,6 +152,7 @@ gpu::FrameConstants Renderer::Impl::constants_of(const Frame& frame, const Rende
     values.object_count = scene->object_count;
     values.sample_index = settings.first_sample + sample.value_or(0);
     values.light_part = part;
+    values.occlusion = frame.light.bounces == 0 ? 1 : 0;
     return values;
 }
 

@@ -1,6 +1,7 @@
 #include "scene/check_scene.h"
 
 #include "core/math.h"
+#include "scene/material_textures.h"
 
 #include <pellucid/error.h>
 
@@ -48,14 +49,33 @@ void check_mesh(const Mesh& mesh, const std::string& what) {
     }
     require(mesh.colors.empty() || (mesh.colors.size() == count && all_finite(mesh.colors)), what,
             "colours must be none, or one per position and finite");
+    require(mesh.tangents.empty() || (mesh.tangents.size() == count && all_finite(mesh.tangents)), what,
+            "tangents must be none, or one per position and finite");
     for (const glm::uvec3& t : mesh.triangles) {
         require(t.x < count && t.y < count && t.z < count, what, "a triangle refers to a vertex that is not there");
     }
 }
 
+bool unit_range(float value) { return value >= 0.0f && value <= 1.0f; }
+
+void check_finish(const Finish& f, const std::string& what) {
+    for (const float share : {f.clearcoat, f.clearcoat_roughness, f.sheen_roughness, f.specular, f.iridescence,
+                              f.anisotropy, f.sheen_color.r, f.sheen_color.g, f.sheen_color.b})
+        require(unit_range(share), what, "the factors of its finish must be within 0..1");
+    require(finite(f.specular_color) && glm::all(glm::greaterThanEqual(f.specular_color, glm::vec3(0.0f))), what,
+            "the specular colour must be finite and not negative");
+    require(f.film_ior >= 1.0f && std::isfinite(f.film_ior) && f.film_thinnest_nm >= 0.0f &&
+                std::isfinite(f.film_thinnest_nm) && f.film_thickest_nm >= 0.0f && std::isfinite(f.film_thickest_nm),
+            what, "the index of its film must be at least 1, its thickness finite and not negative");
+    require(std::isfinite(f.anisotropy_rotation) && std::isfinite(f.clearcoat_normal_scale), what,
+            "a factor of its finish is not finite");
+}
+
 void check_material(const Material& m, const std::string& what, std::size_t images) {
-    for (const Texture* texture :
-         {&m.base_color_texture, &m.emission_texture, &m.transmission_texture, &m.metallic_roughness_texture}) {
+    check_finish(m.finish, what);
+    require(std::isfinite(m.normal_scale) && unit_range(m.occlusion_strength), what,
+            "the scale of normals must be finite, the strength of occlusion within 0..1");
+    for (const Texture* texture : textures_of(m)) {
         require(texture->image < int(images), what, "a texture refers to an image that is not there");
         require(texture->texcoord_set == 0 || texture->texcoord_set == 1, what, "texture coordinate sets are 0 and 1");
     }

@@ -21,12 +21,15 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 10> kSupportedExtensions = {
+constexpr std::array<std::string_view, 15> kSupportedExtensions = {
     "KHR_materials_transmission", "KHR_materials_volume",
     "KHR_materials_ior",          "KHR_materials_dispersion",
     "KHR_materials_unlit",        "KHR_materials_emissive_strength",
     "KHR_texture_transform",      "KHR_mesh_quantization",
-    "KHR_lights_punctual",        "KHR_materials_diffuse_transmission"};
+    "KHR_lights_punctual",        "KHR_materials_diffuse_transmission",
+    "KHR_materials_clearcoat",    "KHR_materials_sheen",
+    "KHR_materials_specular",     "KHR_materials_iridescence",
+    "KHR_materials_anisotropy"};
 
 std::string_view text_of(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -50,6 +50,12 @@ public:
                 info.extensions[name] = value->Get("extensions").Get(name);
         return info;
     }
+    /// A number of a textureInfo object.
+    double texture_number(const char* key, const char* name, double otherwise) const {
+        const tinygltf::Value* value = get(key);
+        if (!value || !value->IsObject() || !value->Has(name) || !value->Get(name).IsNumber()) return otherwise;
+        return value->Get(name).GetNumberAsDouble();
+    }
 
 private:
     const tinygltf::Value* get(const char* key) const {
@@ -73,7 +79,8 @@ public:
         read_glass(from.extensions, material);
         read_alpha(from, material);
         read_diffuse_transmission(from.extensions, material);
-        warn_about_unused_textures(from);
+        read_directions(from, material);
+        read_finish(from.extensions, material);
         return material;
     }
 
@@ -118,8 +125,7 @@ private:
             if (material.base_color.a < 1.0f || material.base_color_texture.image >= 0)
                 warnings_.add(fmt::format("{}: alpha is left out, solid glass is drawn at full coverage", user_));
         } else if (from.alphaMode == "BLEND") {
-            material.alpha_cutoff = 0.5f;
-            warnings_.add(fmt::format("{}: alpha blending is drawn cut out at 0.5", user_));
+            material.alpha_is_coverage = true;
         }
     }
 
@@ -220,20 +226,113 @@ private:
         return translation * rotation * scale;
     }
 
-    void warn_about_unused_textures(const tinygltf::Material& from) {
-        std::vector<const char*> unused;
-        const auto note = [&](int texture_index, const char* what) {
-            if (texture_index < 0) return;
+    /// Textures of normals and occlusion.
+    void read_directions(const tinygltf::Material& from, Material& material) {
+        constexpr double kFar = 1e6;
+        const auto read = [&](const auto& given, const char* what) {
             tinygltf::TextureInfo info;
-            info.index = texture_index;
-            images_.expect(image_of(info), user_);
-            unused.push_back(what);
+            info.index = given.index;
+            info.texCoord = given.texCoord;
+            info.extensions = given.extensions;
+            return texture(info, what);
         };
-        note(from.normalTexture.index, "normal");
-        note(from.occlusionTexture.index, "occlusion");
-        if (!unused.empty())
-            warnings_.add(fmt::format("{}: {} texture{} not used", user_, fmt::join(unused, " and "),
-                                      unused.size() == 1 ? "" : "s"));
+        if (material.unlit) return;
+        material.normal_texture = read(from.normalTexture, "normal");
+        material.normal_scale = in_range(from.normalTexture.scale, -kFar, kFar, "scale of the normal texture");
+        if (material.transmissive()) return;
+        material.occlusion_texture = read(from.occlusionTexture, "occlusion");
+        material.occlusion_strength =
+            in_range(from.occlusionTexture.strength, 0.0, 1.0, "strength of the occlusion texture");
+    }
+
+    /// What extensions add to opaque surfaces.
+    void read_finish(const tinygltf::ExtensionMap& extensions, Material& material) {
+        if (material.unlit) return;
+        const Properties coat(extensions, "KHR_materials_clearcoat"), sheen(extensions, "KHR_materials_sheen");
+        const Properties specular(extensions, "KHR_materials_specular"), film(extensions, "KHR_materials_iridescence");
+        const Properties along(extensions, "KHR_materials_anisotropy");
+        if (material.transmissive()) {
+            // Thin-walled and solid glass have smooth boundaries of their index alone.
+            std::vector<const char*> left_out;
+            if (coat.number("clearcoatFactor", 0.0) > 0.0) left_out.push_back("clearcoat");
+            if (changes(specular)) left_out.push_back("specular");
+            for (int k = 0; k < 3; ++k)
+                if (sheen.number("sheenColorFactor", k, 0.0) > 0.0) {
+                    left_out.push_back("sheen");
+                    break;
+                }
+            if (film.number("iridescenceFactor", 0.0) > 0.0) left_out.push_back("iridescence");
+            if (along.number("anisotropyStrength", 0.0) > 0.0) left_out.push_back("anisotropy");
+            if (!left_out.empty())
+                warnings_.add(fmt::format("{}: {} of glass left out", user_, fmt::join(left_out, " and ")));
+            return;
+        }
+        Finish& finish = material.finish;
+        read_coat(coat, finish);
+        read_sheen(sheen, finish);
+        read_specular(specular, finish);
+        read_film(film, finish);
+        finish.anisotropy = factor(along, "anisotropyStrength", 0.0);
+        if (finish.anisotropy > 0.0f) {
+            finish.anisotropy_rotation =
+                in_range(along.number("anisotropyRotation", 0.0), -1e6, 1e6, "anisotropyRotation");
+            finish.anisotropy_texture = texture(along.texture("anisotropyTexture"), "anisotropy");
+        }
+    }
+
+    static bool changes(const Properties& specular) {
+        bool changes = specular.number("specularFactor", 1.0) != 1.0 ||
+                       specular.texture("specularTexture").index >= 0 ||
+                       specular.texture("specularColorTexture").index >= 0;
+        for (int k = 0; k < 3; ++k) changes = changes || specular.number("specularColorFactor", k, 1.0) != 1.0;
+        return changes;
+    }
+
+    float factor(const Properties& from, const char* key, double otherwise) {
+        return in_range(from.number(key, otherwise), 0.0, 1.0, key);
+    }
+
+    void read_coat(const Properties& coat, Finish& finish) {
+        finish.clearcoat = factor(coat, "clearcoatFactor", 0.0);
+        if (!finish.coated()) return;
+        finish.clearcoat_texture = texture(coat.texture("clearcoatTexture"), "clearcoat");
+        finish.clearcoat_roughness = factor(coat, "clearcoatRoughnessFactor", 0.0);
+        finish.clearcoat_roughness_texture = texture(coat.texture("clearcoatRoughnessTexture"), "clearcoat roughness");
+        finish.clearcoat_normal_texture = texture(coat.texture("clearcoatNormalTexture"), "clearcoat normal");
+        finish.clearcoat_normal_scale = in_range(coat.texture_number("clearcoatNormalTexture", "scale", 1.0), -1e6, 1e6,
+                                                 "scale of the clearcoat normal texture");
+    }
+
+    void read_sheen(const Properties& sheen, Finish& finish) {
+        for (int k = 0; k < 3; ++k)
+            finish.sheen_color[k] = in_range(sheen.number("sheenColorFactor", k, 0.0), 0.0, 1.0, "sheenColorFactor");
+        if (!finish.has_sheen()) return;
+        finish.sheen_color_texture = texture(sheen.texture("sheenColorTexture"), "sheen colour");
+        finish.sheen_roughness = factor(sheen, "sheenRoughnessFactor", 0.0);
+        finish.sheen_roughness_texture = texture(sheen.texture("sheenRoughnessTexture"), "sheen roughness");
+    }
+
+    void read_specular(const Properties& specular, Finish& finish) {
+        finish.specular = factor(specular, "specularFactor", 1.0);
+        finish.specular_texture = texture(specular.texture("specularTexture"), "specular");
+        for (int k = 0; k < 3; ++k)
+            finish.specular_color[k] =
+                in_range(specular.number("specularColorFactor", k, 1.0), 0.0, 1e6, "specularColorFactor");
+        finish.specular_color_texture = texture(specular.texture("specularColorTexture"), "specular colour");
+    }
+
+    void read_film(const Properties& film, Finish& finish) {
+        finish.iridescence = factor(film, "iridescenceFactor", 0.0);
+        if (finish.iridescence == 0.0f) return;
+        constexpr double kThickest = 1e6;  // nm
+        const auto thickness = [&](const char* key, double otherwise) {
+            return in_range(film.number(key, otherwise), 0.0, kThickest, key);
+        };
+        finish.iridescence_texture = texture(film.texture("iridescenceTexture"), "iridescence");
+        finish.film_ior = in_range(film.number("iridescenceIor", 1.3), 1.0, 100.0, "iridescenceIor");
+        finish.film_thinnest_nm = thickness("iridescenceThicknessMinimum", 100.0);
+        finish.film_thickest_nm = thickness("iridescenceThicknessMaximum", 400.0);
+        finish.film_thickness_texture = texture(film.texture("iridescenceThicknessTexture"), "iridescence thickness");
     }
 
     const GltfFile& gltf_;

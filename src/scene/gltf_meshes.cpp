@@ -152,6 +152,7 @@ int GltfMeshes::deformed_mesh(const Deformation& how, const NodePose& pose) {
     Mesh mesh = shape.base;
     mesh.positions = std::move(vertices.positions);
     mesh.normals = std::move(vertices.normals);
+    mesh.tangents = {};
     if (deformed.mirrored)
         for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
     scene_.meshes.push_back(std::move(mesh));
@@ -275,6 +276,15 @@ void GltfMeshes::read_attributes(const tinygltf::Primitive& from, const std::str
     if (const int normal = accessor_of(from, "NORMAL"); normal >= 0) {
         mesh.normals = read_vectors<3>(gltf_, normal, user + " NORMAL");
         fits(mesh.normals, "NORMAL");
+    }
+    const int tangent = accessor_of(from, "TANGENT");
+    if (tangent >= 0 && !mesh.normals.empty()) {
+        mesh.tangents = read_vectors<4>(gltf_, tangent, user + " TANGENT");
+        fits(mesh.tangents, "TANGENT");
+        if (!finite(mesh.tangents)) {
+            warnings_.add(fmt::format("{}: TANGENT left out: not finite", user));
+            mesh.tangents.clear();
+        }
     }
     for (int set = 0; set < 2; ++set) {
         const char* const attribute = set == 0 ? "TEXCOORD_0" : "TEXCOORD_1";

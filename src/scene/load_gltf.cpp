@@ -221,6 +221,7 @@ private:
             if (!used[i]) shape = {};
             shape.base.texcoords[0] = shape.base.texcoords[1] = {};
             shape.base.colors = {};
+            shape.base.tangents = {};
         }
         scene_.rig = std::make_shared<const Rig>(std::move(rig_));
     }

@@ -9,6 +9,8 @@
 #include "scene/load_gltf.h"
 #include "scene/load_mesh_file.h"
 #include "scene/mesh_repair.h"
+#include "scene/mesh_tangents.h"
+#include "scene/rig.h"
 #include "scene/shapes.h"
 #include "scene/translucency.h"
 #include "scene/volumes/volume_source.h"
@@ -131,6 +133,14 @@ void apply_priorities(const std::string& source, Scene& scene, const LoadOptions
     }
 }
 
+/// One per mesh: the scene's animations deform it.
+std::vector<char> deforming_meshes(const Scene& scene) {
+    std::vector<char> deforming(scene.meshes.size(), 0);
+    if (scene.rig)
+        for (const DeformedMesh& mesh : scene.rig->meshes) deforming[std::size_t(mesh.mesh)] = 1;
+    return deforming;
+}
+
 }  // namespace
 
 Scene load_scene(const std::string& source, const LoadOptions& options) {
@@ -141,6 +151,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     apply_overrides(scene, options);
     apply_priorities(source, scene, options);
     if (options.translucent) make_translucent(scene, *options.translucent);
+    add_tangents(scene, deforming_meshes(scene), warnings);
     if (scene.triangle_count() == 0 && scene.volume_objects.empty()) fail(source, "contains no triangles");
     const Bounds bounds = scene_bounds(scene);
     // Squares and products of positions must stay finite on the GPU, in 32 bits.

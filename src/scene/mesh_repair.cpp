@@ -54,7 +54,7 @@ void gather(std::vector<T>& values, const std::vector<std::uint32_t>& source) {
 std::vector<float> vertex_rows(const Mesh& mesh, std::size_t& width) {
     std::vector<float> rows;
     width = 3 + (mesh.normals.empty() ? 0u : 3u) + (mesh.texcoords[0].empty() ? 0u : 2u) +
-            (mesh.texcoords[1].empty() ? 0u : 2u) + (mesh.colors.empty() ? 0u : 4u);
+            (mesh.texcoords[1].empty() ? 0u : 2u) + (mesh.colors.empty() ? 0u : 4u) + (mesh.tangents.empty() ? 0u : 4u);
     rows.reserve(width * mesh.positions.size());
     const auto put = [&](const auto& v) {
         for (int k = 0; k < v.length(); ++k) rows.push_back(v[k]);
@@ -65,6 +65,7 @@ std::vector<float> vertex_rows(const Mesh& mesh, std::size_t& width) {
         for (const auto& texcoords : mesh.texcoords)
             if (!texcoords.empty()) put(texcoords[i]);
         if (!mesh.colors.empty()) put(mesh.colors[i]);
+        if (!mesh.tangents.empty()) put(mesh.tangents[i]);
     }
     return rows;
 }
@@ -98,6 +99,7 @@ void gather_vertices(Mesh& mesh, const std::vector<std::uint32_t>& source) {
     gather(mesh.texcoords[0], source);
     gather(mesh.texcoords[1], source);
     gather(mesh.colors, source);
+    gather(mesh.tangents, source);
 }
 
 void join_identical_vertices(Mesh& mesh) {
@@ -178,6 +180,7 @@ SignedVolume signed_volume(std::span<const glm::vec3> positions, std::span<const
 void turn_inside_out(Mesh& mesh) {
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
     for (glm::vec3& n : mesh.normals) n = -n;
+    for (glm::vec4& t : mesh.tangents) t.w = -t.w;
 }
 
 bool normals_oppose_winding(const Mesh& mesh) {
@@ -192,7 +195,10 @@ bool normals_oppose_winding(const Mesh& mesh) {
 
 MeshRepair repair_mesh(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings) {
     MeshRepair repair;
-    if (origin.make_normals) mesh.normals.clear();
+    if (origin.make_normals) {
+        mesh.normals.clear();
+        mesh.tangents.clear();
+    }
     if (origin.refractive && !origin.part_of_solid)
         repair.normals_turned = repair_solid(mesh, origin.deforms, warnings).inside_out;
     std::vector<std::uint32_t> split;  // none of them, unless normals are made
@@ -204,6 +210,7 @@ MeshRepair repair_mesh(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings)
             warnings.add(fmt::format("{}: {} normals were zero or not finite, made anew", mesh.name, bad));
         if (origin.refractive && normals_oppose_winding(mesh)) {
             for (glm::vec3& n : mesh.normals) n = -n;
+            for (glm::vec4& t : mesh.tangents) t.w = -t.w;
             repair.normals_turned = !repair.normals_turned;
             warnings.add(fmt::format("{}: normals pointed inwards, turned", mesh.name));
         }

@@ -42,8 +42,8 @@ const GpuImage& import_depth(Recorder& recorder, const Frame& frame, const Buffe
 Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
     Workspace& workspace = frame.workspace;
     const Program& program = workspace.graphics(surface_program(
-        shaders::opaque_frag, {kRadianceFormat, vk::Format::eR32Sfloat, vk::Format::eR32Uint, vk::Format::eR32Uint},
-        Blend::kReplace, true));
+        frame.scene.finished ? shaders::finished_opaque_frag : shaders::opaque_frag,
+        {kRadianceFormat, vk::Format::eR32Sfloat, vk::Format::eR32Uint, vk::Format::eR32Uint}, Blend::kReplace, true));
     const GpuImage& radiance = workspace.image("opaque radiance", kRadianceFormat, frame.extent);
     const GpuImage& depth = workspace.image("opaque depth", vk::Format::eR32Sfloat, frame.extent);
     const GpuImage& object = workspace.image("opaque object", vk::Format::eR32Uint, frame.extent);

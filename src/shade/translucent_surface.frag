@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shade/surface_fragment.glsl"
 #include "gpu/coat.glsl"
+#include "gpu/coverage.glsl"
 #include "gpu/octahedral.glsl"
 
 #include "shade/exact_depth.glsl"
@@ -20,7 +21,8 @@ void main() {
     vec4 base = base_color(material);
     bool behind;
     float depth = exact_depth(find_object(triangle), behind), nearest = imageLoad(opaque_depth, ivec3(gl_FragCoord.xy, 0)).r;
-    if (depth > nearest + kDepthRounding * nearest || base.a < material.alpha_cutoff) discard;
+    if (depth > nearest + kDepthRounding * nearest) discard;
+    if (alpha_margin(material, base.a, ivec2(gl_FragCoord.xy) + first_pixel(), triangle, 0u) < 0.0) discard;
     vec2 factors = sample_texture(material.metallic_roughness_texture, texcoords.xy, texcoords.zw).bg;
     vec3 view_direction = world_view_direction(), normal = facing_normal(view_direction);
     // Both come out through the coat, as the environment's light does (opaque_surface.glsl).

@@ -10,6 +10,7 @@ layout(set = 0, binding = 4) uniform texture2DArray texture_pages;
 layout(std430, set = 0, binding = 17) readonly buffer Appearance { float appearance[]; };
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 #include "gpu/appearance.glsl"
+#include "gpu/coverage.glsl"
 #include "gpu/octahedral.glsl"
 #include "gpu/texture.glsl"
 #include "gpu/vertices.glsl"
@@ -105,7 +106,7 @@ void main() {
     }
     Landing landing = landing_of(state);
     MaterialRecord material = materials[objects[landing.object].material];
-    bool goes_on = landing.base.a < material.alpha_cutoff;  // a hole
+    bool goes_on = alpha_margin(material, landing.base.a, texel, state.standing, 1u + state.path.events) < 0.0;  // a hole
     if (!goes_on && reflects_photons(material)) {
         bool reflects = random_number(state.seed ^ 0x68bc21ebu, state.path.events) < material.metallic;
         if (reflects && (state.path.events >= max_events || !reflect_photon(state, landing, material))) return;

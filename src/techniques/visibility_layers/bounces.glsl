@@ -9,8 +9,6 @@
 // light from above a horizon to surfaces that see only what is below it.
 const float kBounceRoughness = 1.0 / float(PELLUCID_FILTER_LEVELS);
 
-uint bounces(PathState state) { return (state.mark & kBounceMask) >> kBounceShift; }
-
 // A direction in which a surface looks to what is around it.
 struct Bounce {
     vec3 direction;  // unit
@@ -26,14 +24,34 @@ Bounce diffuse_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
 }
 
 // By a facet that is visible from the path's side (Heitz 2018). The weight is 0 where the facet sends light into the surface.
-Bounce facet_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
-    float alpha = point.surface.roughness * point.surface.roughness;
+Bounce facet_bounce(vec3 normal, float roughness, vec3 at_normal, vec3 at_grazing, vec3 to_viewer, vec2 u) {
+    float alpha = roughness * roughness;
     if (alpha < kSmoothAlpha) alpha = 0.0;
-    FacetReflection reflected = reflect_by_facet(point.normal, to_viewer, alpha, u);
-    float root = (point.surface.ior - 1.0) / (point.surface.ior + 1.0);
-    vec3 at_normal = mix(vec3(root * root), point.surface.base_color, point.surface.metallic);
-    vec3 fresnel = mix(at_normal, vec3(greaterThan(at_normal, vec3(0.0))), schlick_weight(clamp(reflected.cosine, 0.0, 1.0)));
+    FacetReflection reflected = reflect_by_facet(normal, to_viewer, alpha, u);
+    vec3 fresnel = mix(at_normal, at_grazing, schlick_weight(clamp(reflected.cosine, 0.0, 1.0)));
     return Bounce(reflected.direction, fresnel * reflected.visible, alpha, false);
+}
+
+// One of the base's facets, or of the clear coat's, at random by their weights. Facets of two widths count as round ones
+// of the width between.
+Bounce outer_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, inout float choice) {
+    OpaqueSurface surface = point.surface;
+    if (!kFinishes) return facet_bounce(point.normal, surface.roughness, surface.at_normal, surface.at_grazing, to_viewer, u);
+    Layers layers = surface.layers;
+    float roughness = layers.stretch > 0.0 ? pow(max(surface.roughness * surface.roughness, kLeastStretched) * layers.stretch, 0.25)
+                                           : surface.roughness;
+    Bounce base = facet_bounce(point.normal, roughness, surface.at_normal, surface.at_grazing, to_viewer, u);
+    base.weight *= under_layers(surface, point.normal, to_viewer);
+    if (layers.coat == 0.0) return base;
+    Bounce coat = facet_bounce(layers.coat_normal, layers.coat_roughness, vec3(layers.coat * kCoatAtNormal), vec3(layers.coat), to_viewer, u);
+    // A tilted coat may reflect to below the surface.
+    if (dot(coat.direction, point.normal) <= 0.0) coat.weight = vec3(0.0);
+    float share = largest(coat.weight) / max(largest(coat.weight) + largest(base.weight), 1e-20);
+    bool by_coat = choice < share;
+    choice = by_coat ? choice / share : (choice - share) / max(1.0 - share, 1e-20);
+    if (by_coat) base = coat;
+    base.weight /= by_coat ? share : 1.0 - share;
+    return base;
 }
 
 // One of the two, at random by their weights; facets only where all light is followed, and then with a chance of `least`, where
@@ -41,9 +59,9 @@ Bounce facet_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
 Bounce choose_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, float choice, float least) {
     Bounce diffuse = diffuse_bounce(point, to_viewer, u);
     if (!kFullLight || point.unlit) return diffuse;
-    Bounce facet = facet_bounce(point, to_viewer, u);
+    Bounce facet = outer_bounce(point, to_viewer, u, choice);
     float share = largest(facet.weight) / max(largest(facet.weight) + largest(diffuse.weight), 1e-20);
-    if (point.surface.ior != 1.0 && share < 1.0) share = max(share, least);
+    if (point.surface.boundary.y > 0.0 && share < 1.0) share = max(share, least);
     bool by_facet = choice < share;
     if (by_facet) diffuse = facet;
     diffuse.weight /= by_facet ? share : 1.0 - share;

@@ -15,8 +15,10 @@ layout(std430, set = 0, binding = 40) readonly buffer Indices { uint indices[]; 
 layout(std430, set = 0, binding = 41) readonly buffer Appearance { float appearance[]; };
 layout(std430, set = 0, binding = 42) readonly buffer Textures { TextureRecord textures[]; };
 layout(set = 0, binding = 43) uniform texture2DArray texture_pages;
+layout(std430, set = 0, binding = 66) readonly buffer Tangents { uint tangents[]; };
 #include "gpu/appearance.glsl"
 #include "gpu/texture.glsl"
+#include "gpu/tangents.glsl"
 
 // A point of a triangle, in the world.
 struct Surface {
@@ -30,6 +32,20 @@ struct Surface {
 };
 
 vec3 map_vector(utextureBuffer vectors, int number) { return uintBitsToFloat(texelFetch(vectors, number)).xyz; }
+
+// The normal with the material's texture, bent as little as the ray needs to be mirrored above the triangle.
+vec3 textured_normal(Surface surface, ObjectRecord object, vec3 edge_b, vec3 edge_c, vec3 direction) {
+    MaterialRecord material = materials[surface.material];
+    if (material.normal_texture == PELLUCID_NO_TEXTURE) return surface.normal;
+    uvec3 v = uvec3(indices[surface.corner], indices[surface.corner + 1u], indices[surface.corner + 2u]);
+    vec4 texcoords = vec4(0.0);
+    for (int k = 0; k < 3; ++k) texcoords += surface.weights[k] * vertex_texcoords(v[k]);
+    TexturedPoint point = TexturedPoint(v, surface.weights, edge_b, edge_c, texcoords);
+    vec3 tilted = tilted_normal(point, object, surface.normal, material.normal_texture, material.normal_scale);
+    if (tilted == surface.normal) return tilted;
+    float side = dot(surface.geometric, direction) < 0.0 ? 1.0 : -1.0;
+    return side * mirroring_above(side * tilted, point, -direction);
+}
 
 Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
     ObjectRecord o = objects[object];
@@ -55,9 +71,11 @@ Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
         normal = mat3(o.world_from_object_normal) * normal;
         geometric *= o.mirrored != 0u ? -1.0 : 1.0;
     }
-    return Surface(a + weights.y * edge_b + weights.z * edge_c,
-                   normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material,
-                   o.first_corner + 3u * (triangle - o.first_triangle), weights, curvature);
+    Surface surface = Surface(a + weights.y * edge_b + weights.z * edge_c,
+                              normalize(dot(normal, normal) > 1e-30 ? normal : geometric), geometric, o.material,
+                              o.first_corner + 3u * (triangle - o.first_triangle), weights, curvature);
+    if (kTexturedGlass) surface.normal = textured_normal(surface, o, edge_b, edge_c, direction);
+    return surface;
 }
 
 // Texture coordinates, both sets.

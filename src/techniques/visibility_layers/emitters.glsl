@@ -45,12 +45,19 @@ EmitterPoint emitter_point(vec2 u, float choice) {
     vec3 a = (o.world_from_object * vec4(vertex_position(v.x), 1.0)).xyz;
     vec3 b = (o.world_from_object * vec4(vertex_position(v.y), 1.0)).xyz;
     vec3 c = (o.world_from_object * vec4(vertex_position(v.z), 1.0)).xyz;
-    vec4 texcoords = vec4(0.0);
-    for (int k = 0; k < 3; ++k) texcoords += w[k] * vertex_texcoords(v[k]);
+    vec4 texcoords = vec4(0.0), color = vec4(0.0);
+    for (int k = 0; k < 3; ++k) {
+        texcoords += w[k] * vertex_texcoords(v[k]);
+        color += w[k] * vertex_color_of(v[k]);
+    }
     MaterialRecord material = materials[o.material];
+    vec3 emission = emitted_radiance(material, texcoords.xy, texcoords.zw);
+    if ((material.flags & PELLUCID_MATERIAL_COVERAGE) != 0u || material.alpha_cutoff > 0.0) {
+        float alpha = material.base_color.a * color.a * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw).a;
+        emission *= material.alpha_cutoff > 0.0 ? step(material.alpha_cutoff, alpha) : min(alpha, 1.0);
+    }
     vec3 outward = normalize(cross(b - a, c - a)) * (o.mirrored != 0u ? -1.0 : 1.0);
-    return EmitterPoint(w.x * a + w.y * b + w.z * c, outward, emitted_radiance(material, texcoords.xy, texcoords.zw),
-                        emitter.density, (material.flags & PELLUCID_MATERIAL_SINGLE_SIDED) == 0u, emitter.triangle);
+    return EmitterPoint(w.x * a + w.y * b + w.z * c, outward, emission, emitter.density, (material.flags & PELLUCID_MATERIAL_SINGLE_SIDED) == 0u, emitter.triangle);
 }
 
 // Cosine of emission in a unit direction; 0: the face that looks there is dark.

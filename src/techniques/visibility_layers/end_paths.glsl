@@ -7,6 +7,7 @@
 
 layout(constant_id = 6) const uint kEnvironmentKind = 0u;
 layout(constant_id = 7) const bool kOpaqueObjects = false;  // there are some
+layout(constant_id = 61) const bool kFinishes = false;      // see gpu/opaque_surface.glsl
 #define PELLUCID_ENVIRONMENT_KIND kEnvironmentKind
 
 layout(std430, set = 0, binding = 3) readonly buffer Textures { TextureRecord textures[]; };
@@ -19,9 +20,12 @@ layout(set = 0, binding = 15) uniform texture2D environment_map;
 layout(set = 0, binding = 16) uniform texture2D filtered_environment;
 #include "gpu/object_traits.glsl"
 layout(std430, set = 0, binding = 17) readonly buffer Appearance { float appearance[]; };
+layout(std430, set = 0, binding = 64) readonly buffer Finishes { FinishRecord finishes[]; };
+layout(std430, set = 0, binding = 65) readonly buffer Tangents { uint tangents[]; };
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 
 #include "gpu/appearance.glsl"
+#include "gpu/coverage.glsl"
 #include "gpu/vertices.glsl"
 #include "techniques/visibility_layers/path_state.glsl"
 layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]; };
@@ -35,56 +39,7 @@ layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]
 #include "techniques/ihrke_2007/lights_on_surfaces.glsl"
 #endif
 
-// The opaque surface at which a path has ended.
-struct OpaquePoint {
-    OpaqueSurface surface;
-    vec3 normal;    // unit, on the path's side
-    vec3 emission;  // radiance; of an unlit surface its base colour, which is all that is seen of it
-    bool unlit;
-    bool translucent;
-    bool reflects_photons;
-    float alpha;    // less the cutoff: below 0 where there is a hole
-    float ior;      // of the medium on the path's side
-};
-
-OpaquePoint opaque_point(PathState state) {
-    Path path = state.path;
-    uint standing = state.standing, object = object_of(standing);
-    ObjectRecord o = objects[object];
-    uint corner = o.first_corner + 3u * (standing - o.first_triangle);
-    uvec3 v = uvec3(indices[corner], indices[corner + 1u], indices[corner + 2u]);
-    vec3 a = (o.world_from_object * vec4(vertex_position(v.x), 1.0)).xyz;
-    vec3 edge_b = (o.world_from_object * vec4(vertex_position(v.y), 1.0)).xyz - a;
-    vec3 edge_c = (o.world_from_object * vec4(vertex_position(v.z), 1.0)).xyz - a;
-    vec3 w = corner_weights(path.direction, a - path.position, edge_b, edge_c);
-    vec3 normal = mat3(o.world_from_object_normal) *
-                  (w.x * vertex_normal(v.x) + w.y * vertex_normal(v.y) + w.z * vertex_normal(v.z));
-    if (!(dot(normal, normal) > 1e-30)) normal = cross(edge_b, edge_c);
-    normal = normalize(normal);
-    vec4 texcoords = vec4(0.0), color = vec4(0.0);
-    for (int k = 0; k < 3; ++k) {
-        texcoords += w[k] * vertex_texcoords(v[k]);
-        color += w[k] * vertex_color_of(v[k]);
-    }
-    MaterialRecord material = materials[o.material];
-    vec4 base = material.base_color * color * sample_texture(material.base_color_texture, texcoords.xy, texcoords.zw);
-    OpaquePoint point;
-    point.surface = opaque_surface(material, base.rgb, texcoords.xy, texcoords.zw);
-    point.normal = faceforward(normal, path.direction, normal);
-    point.unlit = (material.flags & PELLUCID_MATERIAL_UNLIT) != 0u;
-    point.emission = point.unlit ? base.rgb : emitted_radiance(material, texcoords.xy, texcoords.zw);
-    point.translucent = material.translucent != 0u;
-    point.reflects_photons = reflects_photons(material);
-    point.alpha = base.a - material.alpha_cutoff;
-    point.ior = filling_iors(filling_body(state.media)).g;
-    return point;
-}
-
-// As opaque_radiance() has it.
-vec3 diffuse_albedo(OpaquePoint point, vec3 to_viewer) {
-    float coat = coat_reflectance(point.surface.ior, clamp(dot(point.normal, to_viewer), 1e-4, 1.0));
-    return point.unlit ? vec3(0.0) : (1.0 - point.surface.metallic) * (1.0 - coat) * point.surface.base_color;
-}
+#include "techniques/visibility_layers/opaque_point.glsl"
 
 // Whether photons have brought the light of emissive surfaces and the environment that such a path meets by chance.
 bool photons_have(PathState state) { return has_mark(state, kFromDiffuse) && !has_mark(state, kUnbent); }
@@ -101,8 +56,7 @@ vec3 light_of(PathState state, OpaquePoint point) {
     bool emits = emitter_count == 0u || !(has_mark(state, kUnbent) || (kPhotonsOfEmitters && has_mark(state, kFromDiffuse)));
     vec3 emission = emits ? drawn(met, point.emission / (point.ior * point.ior)) : vec3(0.0);
     if (kPhotonsOfEnvironment && mirrors_photons(state, point)) {
-        float cos_theta = clamp(-dot(point.normal, state.path.direction), 1e-4, 1.0);
-        return drawn(scattered, opaque_diffuse_radiance(point.surface, point.normal, cos_theta)) + emission;
+        return drawn(scattered, opaque_diffuse_radiance(point.surface, point.normal, -state.path.direction)) + emission;
     }
     return opaque_radiance(point.surface, point.normal, -state.path.direction, scattered, part_met(after_surface(state.mark, false))) + emission;
 }

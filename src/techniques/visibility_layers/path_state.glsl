@@ -69,6 +69,8 @@ float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
 
 bool has_mark(PathState state, uint bits) { return (state.mark & bits) != 0u; }
 
+uint bounces(PathState state) { return (state.mark & kBounceMask) >> kBounceShift; }
+
 const uint kSpreadShift = 20u, kSpreadUnits = 4095u;
 
 // Alpha of the lobe that a mark stands for, 0..1.

@@ -128,6 +128,7 @@ private:
                 {"kRough", scene.rough_glass},
                 {"kEnvironmentKind", frame_.environment_kind},
                 {"kOpaqueObjects", !scene.opaque.empty()},
+                {"kFinishes", scene.finished},
                 {"kBackground", frame_.background_depth != nullptr},
                 {"kMapPerMesh", map_.objects != nullptr},
                 {"kFinished", lost_ == Lost::kSetAside},
@@ -308,7 +309,8 @@ private:
 }  // namespace
 
 SurfaceFinder SurfaceFinder::of_device(Recorder& recorder, const Frame& frame, LayerSource& source) {
-    if (frame.workspace.device().is_cpu() && !frame.recorded) return on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
+    if (frame.workspace.device().is_cpu() && !frame.recorded)
+        return on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
     return {.map = source.map_meshes(recorder, frame, kMeshMapResolution)};
 }
 
