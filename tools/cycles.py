@@ -56,6 +56,37 @@ def smooth_normals(vertices, triangles):
     return [tuple(x / length for x in s) for s, length in zip(sums, lengths)]
 
 
+# --- Light -----------------------------------------------------------------------------------------
+
+def environment_radiance(x, y, z):
+    """A room with two soft lamps and a bright patch: smooth, so that both interpolate it alike."""
+    up = 0.5 + 0.5 * math.tanh(4 * y)
+    colour = [0.16 + 0.14 * up, 0.15 + 0.20 * up, 0.13 + 0.34 * up]
+    for direction, sharpness, light in (((0.6, 0.6, 0.53), 30, (6.0, 5.5, 5.0)), ((-0.8, 0.3, -0.52), 12, (1.0, 2.0, 3.0)),
+                                        ((0.1, -0.2, -0.97), 40, (4.0, 1.0, 0.5))):
+        length = math.hypot(*direction)
+        cosine = (x * direction[0] + y * direction[1] + z * direction[2]) / length
+        lobe = math.exp(sharpness * (cosine - 1))
+        colour = [c + l * lobe for c, l in zip(colour, light)]
+    return colour
+
+
+def write_environment(path, width=512):
+    """Radiance .hdr without compression: (x, y, z) at u = 1/2 + atan2(z, x) / 2 pi, v = acos(y) / pi."""
+    height = width // 2
+    texels = bytearray()
+    for row in range(height):
+        theta = (row + 0.5) / height * math.pi
+        for column in range(width):
+            phi = ((column + 0.5) / width - 0.5) * 2 * math.pi
+            colour = environment_radiance(math.sin(theta) * math.cos(phi), math.cos(theta),
+                                          math.sin(theta) * math.sin(phi))
+            _, exponent = math.frexp(max(colour))
+            texels += bytes(int(c * 256 / 2.0 ** exponent) for c in colour) + bytes([exponent + 128])
+    head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width)
+    path.write_bytes(head.encode() + texels)
+
+
 # --- Inside Blender --------------------------------------------------------------------------------
 
 def material_in_blender(given):
@@ -68,6 +99,11 @@ def material_in_blender(given):
     nodes, links = material.node_tree.nodes, material.node_tree.links
     nodes.clear()
     output = nodes.new("ShaderNodeOutputMaterial")
+    if "gltf" in given:
+        import gltf_in_blender
+
+        gltf_in_blender.build(nodes, links, output, given["gltf"])
+        return material
     if "emission" in given:
         surface = nodes.new("ShaderNodeEmission")
         surface.inputs["Color"].default_value = (*given["emission"], 1)
@@ -113,6 +149,9 @@ def render_in_blender(job):
         mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
         mesh.use_auto_smooth = True  # makes the normals that are set count
         mesh.normals_split_custom_set_from_vertices(given["normals"])
+        if given.get("uv"):
+            layer = mesh.uv_layers.new()
+            layer.data.foreach_set("uv", [value for loop in mesh.loops for value in given["uv"][loop.vertex_index]])
         mesh.materials.append(material_in_blender(given["material"]))
         thing = bpy.data.objects.new(mesh.name, mesh)
         thing.matrix_world = y_up
@@ -205,4 +244,5 @@ def version(blender):
 
 
 if "bpy" in sys.modules:
+    sys.path.append(str(Path(__file__).resolve().parent))
     render_in_blender(json.loads(Path(sys.argv[-1]).read_text()))
