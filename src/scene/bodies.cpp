@@ -10,8 +10,8 @@
 namespace pellucid {
 namespace {
 
-constexpr double kVolumeTie = 1e-4;  // relative
-constexpr int kLines = 256;          // across, along which the volume of overlapping shells is measured
+constexpr double kVolumeTie = 1e-4;  // relative; closer volumes count as equal
+constexpr int kLines = 256;          // lines per side of the grid that measures the volume of overlapping shells
 
 struct ShellBox {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -26,7 +26,7 @@ struct ShellBox {
     }
 };
 
-/// Whether no two outward shells come near each other. Where cavities lie does not matter then.
+/// True if the boxes of all outward shells are disjoint. Positions of cavities then do not matter.
 bool apart(const std::vector<ShellBox>& boxes) {
     std::vector<const ShellBox*> order;
     for (const ShellBox& box : boxes)
@@ -38,7 +38,7 @@ bool apart(const std::vector<ShellBox>& boxes) {
     return true;
 }
 
-/// Along lines parallel to z through the middles of a grid's cells.
+/// Volume by integration along z, through the cell centres of a grid.
 double volume_along_lines(const BodySurface& surface, const ShellBox& all) {
     struct Crossing {
         double z;
@@ -77,7 +77,7 @@ double volume_along_lines(const BodySurface& surface, const ShellBox& all) {
     return length * cell.x * cell.y;
 }
 
-/// The material of most of the body's surface.
+/// The material with the largest share of the body's surface.
 std::uint32_t material_by_area(const Scene& scene, const Body& body) {
     if (body.objects.size() == 1) return std::uint32_t(scene.objects[body.objects.front()].material);
     std::map<std::uint32_t, double> areas;
@@ -113,7 +113,7 @@ void rank_bodies(const Scene& scene, std::vector<Body>& bodies) {
         if (a.priority != b.priority) return a.priority < b.priority;
         return a.volume != b.volume ? a.volume > b.volume : a.body < b.body;
     });
-    // Volumes that are equal but for rounding follow the order of the file.
+    // Volumes that are equal but for rounding keep the order of the file.
     for (std::size_t begin = 0, end; begin < claims.size(); begin = end) {
         for (end = begin + 1; end < claims.size() && claims[end].priority == claims[begin].priority &&
                               claims[end].volume >= (1.0 - kVolumeTie) * claims[begin].volume;)
@@ -169,7 +169,7 @@ double material_volume(const BodySurface& surface) {
 Bodies find_bodies(const Scene& scene) {
     Bodies bodies;
     bodies.of_object.assign(scene.objects.size(), kNoBody);
-    std::map<int, std::uint32_t> numbered;  // by Object::body
+    std::map<int, std::uint32_t> numbered;  // keyed by Object::body
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         if (!scene.materials[std::size_t(object.material)].refractive()) continue;
@@ -179,7 +179,7 @@ Bodies find_bodies(const Scene& scene) {
         bodies.all[body].objects.push_back(i);
         bodies.of_object[i] = body;
     }
-    std::map<std::vector<int>, std::shared_ptr<const BodySurface>> known;  // by meshes
+    std::map<std::vector<int>, std::shared_ptr<const BodySurface>> known;  // keyed by meshes
     for (Body& body : bodies.all) {
         std::vector<int> meshes;
         for (const std::uint32_t i : body.objects) meshes.push_back(scene.objects[i].mesh);

@@ -29,8 +29,7 @@ Camera orbit_camera(const Bounds& bounds, float azimuth_deg, float elevation_deg
 
     const double azimuth = glm::radians(double(azimuth_deg));
     const double elevation = glm::radians(double(elevation_deg));
-    // From the angles rather than from a look-at vector, so that looking straight down is no
-    // special case.
+    // Angles instead of a look-at vector, so that looking straight down is no special case.
     const glm::dvec3 right(std::cos(azimuth), 0.0, -std::sin(azimuth));
     const glm::dvec3 back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                           std::cos(azimuth) * std::cos(elevation));
@@ -49,8 +48,8 @@ float framing_distance(float vertical_fov, float share) {
     check_fov(vertical_fov);
     if (!(share > 0.0f && share < 1.0f))
         throw Error(fmt::format("share {} of the image height: must be between 0 and 1", share));
-    // The sphere's silhouette is a cone that touches it: its half angle h has sin h = radius /
-    // distance, and on the image plane it reaches up to tan h of the half height tan(fov / 2).
+    // The sphere's silhouette is a tangent cone of half angle h, with sin h = radius / distance. On the image plane it
+    // covers tan h of the half height tan(fov / 2).
     const double half_angle = std::atan(double(share) * std::tan(0.5 * double(vertical_fov)));
     return static_cast<float>(1.0 / std::sin(half_angle));
 }

@@ -7,8 +7,8 @@
 
 namespace pellucid {
 
-/// Throw Error naming what does not hold of the promises that the public headers state. Loaders keep
-/// them; a caller may build these by hand.
+/// Each check throws Error naming the violated promise of the public headers. Loaders keep these promises; a caller
+/// may build scenes by hand.
 void check_scene(const Scene& scene);
 void check_materials(const Scene& scene);
 void check_objects(const Scene& scene);
@@ -16,8 +16,7 @@ void check_lights(std::span<const Light> lights);
 void check_camera(const Camera& camera);
 void check_environment(const Environment& environment);
 
-/// True for finite transforms that scale alike in all directions: angles stay what they are, and so do the laws of
-/// refraction.
+/// True for finite transforms with a uniform scale. They preserve angles and hence the laws of refraction.
 bool is_similarity(const glm::mat4& transform);
 
 }  // namespace pellucid

@@ -10,10 +10,10 @@ namespace pellucid {
 namespace {
 
 constexpr float kLowestGap = 25.0f, kGapWidth = 15.0f, kHighestGapEnd = 90.0f;  // degrees
-constexpr float kFold = 150.0f;  // degrees; sheets folded back to back are no sign of creases
+constexpr float kFold = 150.0f;  // degrees; larger angles are folds of double sheets, not creases
 constexpr std::size_t kAboveByInside = 10;
 
-/// For each welded vertex a vertex that stands for its shell.
+/// Shell of each welded vertex, named by one of its vertices.
 std::vector<std::uint32_t> shells(const Mesh& mesh, const std::vector<std::uint32_t>& weld) {
     DisjointSets sets(weld.size());
     for (const glm::uvec3 t : mesh.triangles)
@@ -28,7 +28,7 @@ struct Bend {
     float degrees;
 };
 
-/// One for each edge between two triangles, ordered by shell and size.
+/// Bends of all edges between two triangles, ordered by shell and size.
 std::vector<Bend> bends(const Mesh& mesh, const std::vector<std::uint32_t>& weld,
                         const std::vector<std::uint32_t>& shell) {
     const std::vector<HalfEdge> sides = sorted_half_edges(mesh.triangles, weld);
@@ -53,7 +53,7 @@ std::vector<Bend> bends(const Mesh& mesh, const std::vector<std::uint32_t>& weld
     return result;
 }
 
-/// Degrees; 180 where there is no gap.
+/// Crease angle in degrees; 180 without a gap.
 float crease_angle(const Bend* begin, const Bend* end) {
     const auto first_from = [&](float degrees) {
         return std::lower_bound(begin, end, degrees, [](const Bend& bend, float d) { return bend.degrees < d; });

@@ -7,13 +7,13 @@
 
 namespace pellucid {
 
-/// For each welded vertex the angle (radians) from which on edges of its shell are creases; pi: none is.
+/// Crease angle of each welded vertex, radians: edges of its shell with at least this angle are creases. pi: no
+/// creases.
 ///
-/// The bends of a shell's edges say which. Shapes with creases have gentle bends and sharp ones, with a gap between
-/// them; the bends of scans and of organic models thin out without one. A gap is an interval of 15 degrees, between 25
-/// and 90 degrees, which holds at most a tenth as many edges as lie above it. The edges above must be at least the
-/// square root of all edges: as many as one line across the shell has. The crease angle is the middle of the lowest
-/// gap.
+/// The distribution of a shell's edge angles determines the crease angle. Shapes with creases have gentle and sharp
+/// edges with a gap between them. Scans and organic models have no gap. A gap is an interval of 15 degrees, between 25
+/// and 90 degrees, with at most a tenth as many edges as above it. The edges above it must number at least the square
+/// root of all edges, about as many as one line across the shell. The crease angle is the middle of the lowest gap.
 std::vector<float> crease_angles(const Mesh& mesh, const std::vector<std::uint32_t>& weld);
 
 }  // namespace pellucid

@@ -15,7 +15,7 @@ std::span<const float> weights_of(const DeformedMesh& mesh, const NodePose& pose
     return animated != pose.weights.end() ? animated->second : mesh.weights;
 }
 
-/// Adds the displacements, each with its weight, of either positions or normals.
+/// Adds the weighted displacements of `list`, either positions or normals.
 void morph(const std::vector<MorphTarget>& targets, std::span<const float> weights,
            std::vector<glm::vec3> MorphTarget::*list, std::vector<glm::vec3>& vectors) {
     for (std::size_t t = 0; t < targets.size() && t < weights.size(); ++t) {
@@ -42,7 +42,8 @@ glm::mat4x3 blended(const Influences& influences, const std::vector<glm::mat4x3>
 
 double determinant(const glm::mat4x3& m) { return glm::determinant(glm::dmat3(m[0], m[1], m[2])); }
 
-/// A normal goes with the inverse transpose: up to length the cofactors, turned back where `m` mirrors.
+/// Transforms a normal by the inverse transpose: up to length the cofactor matrix, with its sign reversed if `m`
+/// mirrors.
 glm::vec3 transformed_normal(const glm::mat4x3& m, const glm::vec3& normal) {
     const glm::dvec3 x(m[0]), y(m[1]), z(m[2]);
     const glm::dvec3 yz = glm::cross(y, z);
@@ -53,7 +54,7 @@ glm::vec3 transformed_normal(const glm::mat4x3& m, const glm::vec3& normal) {
     return glm::vec3(n / (glm::dot(x, yz) < 0.0 ? -length : length));
 }
 
-/// Normals of the triangles around each group of vertices, weighted by area.
+/// Normals per group of vertices: mean of the surrounding triangles' normals, weighted by area.
 void make_group_normals(const Shape& shape, bool mirrored, DeformedVertices& vertices) {
     std::vector<glm::dvec3> sums(vertices.positions.size(), glm::dvec3(0.0));
     for (const glm::uvec3 t : shape.base.triangles) {
@@ -93,7 +94,7 @@ DeformedVertices deform(const Rig& rig, const DeformedMesh& mesh, const NodePose
     }
     if (!shape.normal_group.empty()) make_group_normals(shape, mesh.mirrored, result);
     for (std::size_t v = 0; v < result.normals.size(); ++v) {
-        // Where the surface has shrunk to nothing any direction will do.
+        // If the surface has shrunk to zero area, keep the direction at rest.
         const float length = glm::length(result.normals[v]);
         result.normals[v] = usable(length) ? result.normals[v] / length : shape.base.normals[v];
     }

@@ -9,17 +9,17 @@
 
 namespace pellucid {
 
-/// Vertices of one mesh in a pose: normals unit.
+/// Vertices of one mesh in a pose, with unit normals.
 struct DeformedVertices {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
-    bool finite() const;  ///< false if numbers of the file became too large
+    bool finite() const;  ///< false if positions overflowed
 };
 
-/// Morphs, then skins. Positions are in the shape's own frame, or in the world's with a skin.
+/// Applies morph targets, then the skin. Positions are in the shape's own frame, or with a skin in world space.
 DeformedVertices deform(const Rig& rig, const DeformedMesh& mesh, const NodePose& pose);
 
-/// True if the skin, in this pose, mirrors most of the vertices.
+/// True if the skin in this pose mirrors most of the vertices.
 bool skin_mirrors(const Rig& rig, const DeformedMesh& mesh, const NodePose& pose);
 
 }  // namespace pellucid

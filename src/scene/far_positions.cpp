@@ -8,7 +8,7 @@
 namespace pellucid {
 namespace {
 
-/// A float keeps 24 bits. Beyond 8 radii its spacing exceeds a quarter of the contact tolerance, 1e-6 of the extent.
+/// A float has 24 bits. Beyond 8 radii its spacing exceeds a quarter of the contact tolerance, 1e-6 of the extent.
 constexpr double kFarInRadii = 8.0;
 
 double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }

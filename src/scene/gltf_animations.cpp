@@ -82,7 +82,7 @@ private:
         if (k.times.empty()) fail(gltf_.path, user_ + ": has no keyframes");
         check_times(k.times);
 
-        // Only rotations and weights may be stored as integers; weights are rows of scalars.
+        // Only rotations and weights may be stored as integers. Weights are stored as scalars.
         const bool weights = part == AnimatedPart::kWeights;
         const auto read = weights || part == AnimatedPart::kRotation ? read_fractions : read_floats;
         k.values = read(gltf_, from.output, weights ? 1 : int(width), user_ + " values");
@@ -117,7 +117,7 @@ private:
     const GltfFile& gltf_;
     const NodeTree& tree_;
     Warnings& warnings_;
-    std::string user_;  ///< the channel at hand, for messages
+    std::string user_;  ///< the current channel, for messages
 };
 
 }  // namespace

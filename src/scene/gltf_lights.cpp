@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kExtension = "KHR_lights_punctual";
 constexpr double kBrightest = 1e12, kFarthest = 1e15;
 
-/// Number of the light that a node carries; nothing if it carries none.
+/// Index of a node's light; empty if it has none.
 std::optional<int> light_of(const GltfFile& gltf, const tinygltf::Node& node, const std::string& node_name) {
     const auto extension = node.extensions.find(kExtension);
     if (extension == node.extensions.end()) return std::nullopt;
@@ -30,7 +30,7 @@ public:
     LightReader(const tinygltf::Light& from, Light& light, Warnings& warnings)
         : from_(from), light_(light), warnings_(warnings) {}
 
-    /// Everything but the placement. Returns false, with a warning, for a light of unknown type.
+    /// Reads everything but the placement. Returns false, with a warning, for a light of unknown type.
     bool read() {
         if (from_.type == "directional") {
             light_.kind = Light::Kind::kDirectional;
@@ -61,7 +61,7 @@ private:
         return used;
     }
 
-    /// 0 is what tinygltf gives where there is none: no end.
+    /// Reads the range. tinygltf returns 0 for a missing range, which is infinite.
     void read_range() {
         if (from_.range > 0.0) {
             light_.range = static_cast<float>(in_range(from_.range, 1e-15, kFarthest, "range"));
@@ -70,7 +70,8 @@ private:
         }
     }
 
-    /// The extension knows no sizes: `extras.radius`, m, and `extras.angular_diameter`, radians, have them.
+    /// Reads the size from `extras.radius`, m, or `extras.angular_diameter`, radians, because the extension has no
+    /// sizes.
     void read_size() {
         constexpr double kWidest = 3.14;
         const bool sun = light_.kind == Light::Kind::kDirectional;
@@ -85,7 +86,7 @@ private:
         const double outer = in_range(from_.spot.outerConeAngle, kNarrowest, kRightAngle, "outerConeAngle");
         light_.outer_cone_angle = static_cast<float>(outer);
         light_.inner_cone_angle = static_cast<float>(in_range(from_.spot.innerConeAngle, 0.0, outer, "innerConeAngle"));
-        // A cone without any falloff gets the narrowest that there is.
+        // A cone without falloff gets the narrowest representable one.
         if (light_.inner_cone_angle >= light_.outer_cone_angle)
             light_.inner_cone_angle = std::nextafter(light_.outer_cone_angle, 0.0f);
     }

@@ -10,12 +10,11 @@
 
 namespace pellucid {
 
-/// Adds the light that a node carries, if any, to scene.lights (KHR_lights_punctual). `node_name` stands
-/// for the node in messages and for a light without a name. The node's scale has no effect on a light.
-/// The extension is photometric (candela, lux); its numbers are taken as radiometric ones (W/sr, W/m2),
-/// which differ from them by one factor for a whole scene.
-/// Throws Error if the node names a light that is not there. Numbers out of range are brought into it
-/// with a warning.
+/// Adds the light of a node, if any, to scene.lights (KHR_lights_punctual). `node_name` names the node in messages,
+/// and a light without a name. The node's scale does not affect the light.
+/// The extension is photometric (candela, lux). Its numbers are read as radiometric (W/sr, W/m2), which changes a
+/// scene by a constant factor.
+/// Throws Error if the node's light does not exist. Numbers out of range are clamped with a warning.
 void add_gltf_light(const GltfFile& gltf, const tinygltf::Node& node, const std::string& node_name,
                     const glm::dmat4& world_from_node, Scene& scene, Warnings& warnings);
 

@@ -13,10 +13,10 @@
 namespace pellucid {
 namespace {
 
-/// Weights in 8 bits may miss the sum 1 by half a step each.
+/// Tolerance on the sum of weights: 8-bit weights are off by up to half a step each.
 constexpr float kWeightTolerance = 0.01f;
 
-/// One of the sets JOINTS_n, WEIGHTS_n.
+/// A pair of the attributes JOINTS_n and WEIGHTS_n.
 struct InfluenceSet {
     std::vector<glm::uvec4> joints;
     std::vector<glm::vec4> weights;
@@ -44,7 +44,7 @@ std::vector<InfluenceSet> read_sets(const GltfFile& gltf, const tinygltf::Primit
     }
 }
 
-/// Joint matrices are affine; rounding by exporters aside.
+/// True if a joint matrix is affine, up to an exporter's rounding.
 bool affine(const glm::dmat4& m) {
     constexpr double kRounding = 1e-3;
     return std::abs(m[0][3]) < kRounding && std::abs(m[1][3]) < kRounding && std::abs(m[2][3]) < kRounding &&
@@ -82,7 +82,7 @@ Skin read_gltf_skin(const GltfFile& gltf, int index, const NodeTree& tree) {
 
     Skin skin{.joints = from.joints, .joint_from_bind = {}};
     skin.joint_from_bind.assign(from.joints.size(), glm::dmat4(1.0));
-    if (from.inverseBindMatrices < 0) return skin;  // identities
+    if (from.inverseBindMatrices < 0) return skin;  // identity matrices
     const std::vector<float> numbers = read_floats(gltf, from.inverseBindMatrices, 16, user + " inverseBindMatrices");
     if (numbers.size() / 16 < from.joints.size())
         fail(gltf.path,
@@ -143,7 +143,7 @@ std::vector<MorphTarget> read_gltf_targets(const GltfFile& gltf, const tinygltf:
     for (std::size_t t = 0; t < targets.size(); ++t) {
         for (const auto& [attribute, accessor] : primitive.targets[t]) {
             const std::string what = fmt::format("{} target {} {}", user, t, attribute);
-            if (attribute == "TANGENT") continue;  // no tangents are read at all
+            if (attribute == "TANGENT") continue;  // tangents are not read
             if (attribute != "POSITION" && attribute != "NORMAL") {
                 warnings.add(fmt::format("{}: left out: only positions and normals are morphed", what));
                 continue;

@@ -9,22 +9,22 @@
 
 namespace pellucid {
 
-/// A skin of the file. Throws Error if a joint is no node of a tree, or a matrix is not affine and finite.
+/// Reads a skin of the file. Throws Error if a joint is no node of a tree, or a matrix is not affine and finite.
 Skin read_gltf_skin(const GltfFile& gltf, int skin, const NodeTree& tree);
 
-/// Joints and weights of `vertices` vertices, in all their sets; empty if the primitive has none. Weights are
-/// brought to the sum 1, with a warning if they were far from it. Throws Error for weights that are not finite.
+/// Joints and weights of `vertices` vertices, from all sets; empty if the primitive has none. Weights are normalised
+/// to the sum 1, with a warning if they were far from it. Throws Error for weights that are not finite.
 Influences read_gltf_influences(const GltfFile& gltf, const tinygltf::Primitive& primitive, std::size_t vertices,
                                 const std::string& user, Warnings& warnings);
 
-/// Throws Error if a vertex follows a joint that the skin does not have.
+/// Throws Error if a vertex uses a joint that the skin does not have.
 void check_influences(const GltfFile& gltf, const Influences& influences, std::size_t joints, const std::string& user);
 
-/// Morph targets of `vertices` vertices. Displacements that do not fit are left out with a warning.
+/// Morph targets of `vertices` vertices. Unusable displacements are ignored with a warning.
 std::vector<MorphTarget> read_gltf_targets(const GltfFile& gltf, const tinygltf::Primitive& primitive,
                                            std::size_t vertices, const std::string& user, Warnings& warnings);
 
-/// Vertex i becomes the old vertex source[i].
+/// Reorders vertices: vertex i becomes the old vertex source[i].
 void gather_influences(Influences& influences, const std::vector<std::uint32_t>& source);
 void gather_targets(std::vector<MorphTarget>& targets, const std::vector<std::uint32_t>& source);
 

@@ -12,21 +12,21 @@
 
 namespace pellucid {
 
-/// Volumes that nodes of a glTF file name in `extras`: `"pellucid_volume": "volume:NAME[,...]"`, or a .vdb file by its
-/// path from the file's folder. Nodes with the same one share it.
+/// Volumes named in `extras` of a glTF file's nodes: `"pellucid_volume": "volume:NAME[,...]"`, or the path of a .vdb
+/// file relative to the file's folder. Nodes with the same name share a volume.
 class GltfVolumes {
 public:
     GltfVolumes(const GltfFile& gltf, Scene& scene) : gltf_(gltf), scene_(scene) {}
 
-    /// Places the node's volume, if it has one, in the node's frame. It stands for the refracting ones among the
-    /// scene's objects from `first_object` on, those of the node. Throws Error naming the node.
+    /// Places the node's volume, if any, in the node's frame. It is assigned to the node's refracting objects, which
+    /// are those from `first_object` on. Throws Error naming the node.
     void add(const tinygltf::Node& node, const std::string& node_name, const glm::dmat4& world_from_node,
              std::size_t first_object);
 
 private:
     const GltfFile& gltf_;
     Scene& scene_;
-    std::map<std::string, int> volumes_;  ///< indices into Scene::volumes
+    std::map<std::string, int> volumes_;  ///< indices into Scene::volumes, keyed by name
 };
 
 }  // namespace pellucid

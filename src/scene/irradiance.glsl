@@ -1,7 +1,7 @@
 #ifndef PELLUCID_SCENE_IRRADIANCE_GLSL
 #define PELLUCID_SCENE_IRRADIANCE_GLSL
 
-// Irradiance on a surface with unit normal n, from irradiance_coefficients() of
+// Irradiance on a surface with unit normal n, from the coefficients of irradiance_coefficients() in
 // pellucid/environment.h (Ramamoorthi & Hanrahan 2001). Never negative.
 vec3 irradiance_from_coefficients(vec3 c[9], vec3 n) {
     vec3 irradiance = 0.282095 * c[0];

@@ -18,7 +18,7 @@
 namespace pellucid {
 namespace {
 
-/// A mesh in the frame of `target`, as it lies in the world.
+/// The object's mesh, transformed into the frame of `target`.
 Mesh in_frame(const Scene& scene, const Object& object, const Object& target) {
     Mesh mesh = scene.meshes[std::size_t(object.mesh)];
     const glm::dmat4 to_target =
@@ -31,7 +31,7 @@ Mesh in_frame(const Scene& scene, const Object& object, const Object& target) {
     return mesh;
 }
 
-/// Objects of one medium, in one frame, and which of them share open edges.
+/// Objects of one medium in one frame, connected by shared open edges.
 class Neighbours {
 public:
     Neighbours(const Scene& scene, std::vector<std::uint32_t> objects) : objects_(std::move(objects)) {
@@ -50,7 +50,7 @@ public:
         sides_ = sorted_half_edges(triangles, weld_);
     }
 
-    /// Groups of two or more that have no open edge together.
+    /// Groups of two or more objects that have no open edge together.
     std::vector<std::vector<std::uint32_t>> closed_groups() {
         DisjointSets sets(objects_.size());
         for_each_edge(sides_, [&](std::span<const HalfEdge> edge) {
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    /// Positions were rounded in frames of their own.
+    /// Welds positions with a tolerance, because each object's positions were rounded in its own frame.
     void weld(const std::vector<glm::vec3>& positions) {
         std::vector<std::uint32_t> all(positions.size());
         std::iota(all.begin(), all.end(), 0u);
@@ -81,7 +81,7 @@ private:
     std::vector<HalfEdge> sides_;
 };
 
-/// Whether parts are the whole surface of something: sheets that lie on each other are not.
+/// True if the parts bound a solid; coincident sheets do not.
 bool bound_a_solid(const std::vector<Mesh>& parts) {
     std::vector<const Mesh*> meshes;
     for (const Mesh& part : parts) meshes.push_back(&part);

@@ -8,9 +8,10 @@
 
 namespace pellucid {
 
-/// Refracting objects of equal media whose open surfaces close each other, such as the faces of a cube in two nodes,
-/// become one body, with a warning that takes the place of those that they are open. They get meshes of their own, in the
-/// frame of the first. `moves`: per object, whether it may be moved apart later; such are left alone.
+/// Joins refracting objects of equal media whose open surfaces close each other, such as the faces of a cube in two
+/// nodes, into one body. A warning about the join replaces the warnings about open surfaces. The joined objects get
+/// new meshes in the frame of the first. `moves`: per object, whether it may move independently; such objects are not
+/// joined.
 void join_open_objects(Scene& scene, const std::vector<char>& moves, Warnings& warnings);
 
 }  // namespace pellucid

@@ -6,15 +6,15 @@
 namespace pellucid {
 namespace {
 
-/// Where a time lies between two keys.
+/// Position of a time between two keys.
 struct Place {
-    std::size_t key = 0;    ///< the one before, or the only one that counts
-    double u = 0.0;         ///< 0..1 on the way to the next; 0: only `key` counts
-    double length_s = 0.0;  ///< from this key to the next
+    std::size_t key = 0;    ///< the key before the time, or the only relevant key
+    double u = 0.0;         ///< 0..1 between this key and the next; 0: only `key` matters
+    double length_s = 0.0;  ///< time between this key and the next
 };
 
 Place place_of(const Keyframes& k, double time_s) {
-    // Of keys at the same time the last one counts from there on, so no interval that is used has length 0.
+    // Of several keys at one time the last applies. Intervals in use therefore never have length 0.
     const auto next = std::upper_bound(k.times.begin(), k.times.end(), time_s,
                                        [](double time, float key_time) { return time < double(key_time); });
     if (next == k.times.begin()) return {};
@@ -25,7 +25,7 @@ Place place_of(const Keyframes& k, double time_s) {
     return place;
 }
 
-/// part: 0 the tangent before the key, 1 the value, 2 the tangent after the key.
+/// `part`: 0 the tangent before the key, 1 the value, 2 the tangent after the key.
 double number(const Keyframes& k, std::size_t key, std::size_t part, std::size_t component) {
     const std::size_t row = k.interpolation == Interpolation::kCubicSpline ? 3 * key + part : key;
     return double(k.values[row * k.width + component]);
@@ -66,7 +66,7 @@ glm::dquat rotation_at(const Keyframes& k, double time_s) {
     if (k.interpolation == Interpolation::kLinear)
         return glm::normalize(glm::slerp(here, glm::normalize(quaternion(k, p.key + 1)), p.u));
     const glm::dquat spline(cubic(k, p, 3), cubic(k, p, 0), cubic(k, p, 1), cubic(k, p, 2));
-    // A spline between opposite quaternions may pass through zero, where there is no rotation.
+    // A spline between opposite quaternions may pass through zero, which is no rotation.
     return glm::length(spline) > 0.0 ? glm::normalize(spline) : here;
 }
 

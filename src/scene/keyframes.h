@@ -6,11 +6,11 @@
 
 namespace pellucid {
 
-/// Values at a time (s), interpolated component by component.
+/// Values at a time, s, interpolated per component.
 std::vector<double> value_at(const Keyframes& keyframes, double time_s);
 
-/// The unit quaternion at a time; keyframes have width 4 (x, y, z, w) and no zero among their values. LINEAR is
-/// the spherical interpolation along the shorter arc.
+/// Unit quaternion at a time, s. Keyframes must have width 4 (x, y, z, w) and non-zero values. LINEAR means spherical
+/// interpolation along the shorter arc.
 glm::dquat rotation_at(const Keyframes& keyframes, double time_s);
 
 }  // namespace pellucid

@@ -30,7 +30,7 @@ std::uint32_t DisjointSets::root(std::uint32_t i) {
 
 DisjointSets near_vertices(std::span<const glm::vec3> positions, std::span<const std::uint32_t> vertices,
                            float tolerance) {
-    // Sorted along a line that no file's grid follows: those that are near are near in the list.
+    // Sort along a line that is aligned with no file's grid: nearby positions are then nearby in the list.
     std::vector<std::pair<float, std::uint32_t>> order;
     for (const std::uint32_t v : vertices)
         order.emplace_back(glm::dot(positions[v] - positions[vertices[0]], glm::vec3(0.48f, 0.6f, 0.64f)), v);

@@ -14,7 +14,8 @@ struct HalfEdge {
     std::uint32_t triangle;
     bool forward;  ///< runs from the smaller to the larger vertex
 };
-/// The sides of all triangles, ordered by `ends`. Those of triangles with two corners welded into one are left out: such a triangle is only a line.
+/// The sides of all triangles, ordered by `ends`. Triangles with two corners welded together are degenerate and
+/// skipped.
 std::vector<HalfEdge> sorted_half_edges(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> weld);
 
 /// Calls `function` with the sides at each edge.
@@ -26,11 +27,11 @@ void for_each_edge(const std::vector<HalfEdge>& sides, Function function) {
     }
 }
 
-/// Disjoint sets of the numbers 0 .. count - 1 (Tarjan 1975), with paths halved on the way.
+/// Disjoint sets of the numbers 0 .. count - 1, with path halving (Tarjan 1975).
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count);
-    /// The number that stands for the set of `i`.
+    /// The representative of the set of `i`.
     std::uint32_t root(std::uint32_t i);
     void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
 
@@ -38,11 +39,11 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// Sets of those `vertices` that lie within `tolerance` of each other, one after the other; all others stand alone.
+/// Groups `vertices` that are connected by distances within `tolerance`; every other vertex is a set of its own.
 DisjointSets near_vertices(std::span<const glm::vec3> positions, std::span<const std::uint32_t> vertices,
                            float tolerance);
 
-/// 1e-6 of the longest side of the positions' box: what is nearer is meant to be one place.
+/// 1e-6 of the longest side of the positions' box: closer positions count as equal.
 float weld_tolerance(std::span<const glm::vec3> positions);
 
 }  // namespace pellucid

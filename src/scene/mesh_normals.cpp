@@ -12,7 +12,7 @@
 namespace pellucid {
 namespace {
 
-/// Normals of the triangles, as long as twice their area.
+/// Normals of the triangles; their length is twice the triangle's area.
 std::vector<glm::dvec3> area_vectors(const Mesh& mesh) {
     std::vector<glm::dvec3> vectors(mesh.triangles.size());
     std::transform(mesh.triangles.begin(), mesh.triangles.end(), vectors.begin(), [&](glm::uvec3 t) {
@@ -27,7 +27,7 @@ bool usable(const glm::dvec3& v) {
     return length > 0.0 && std::isfinite(length);
 }
 
-/// One normal per position, indexed by the welded vertex.
+/// Smooth normals per position, indexed by the welded vertex.
 std::vector<glm::vec3> smooth_normals(const Mesh& mesh, const std::vector<std::uint32_t>& weld) {
     const std::vector<glm::dvec3> areas = area_vectors(mesh);
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
@@ -44,7 +44,7 @@ std::vector<glm::vec3> smooth_normals(const Mesh& mesh, const std::vector<std::u
     }
     std::vector<glm::vec3> normals(mesh.positions.size(), glm::vec3(0.0f, 0.0f, 1.0f));
     for (std::size_t v = 0; v < normals.size(); ++v) {
-        // On a sheet with two faces back to back the sum vanishes but for rounding: one side wins.
+        // On a double-sided sheet the sum vanishes up to rounding; use the largest triangle's side.
         const bool cancelled = glm::length(sums[v]) <= 1e-9 * total[v];
         const glm::dvec3 n = cancelled && !areas.empty() ? areas[largest[v]] : sums[v];
         if (usable(n)) normals[v] = glm::normalize(n);
@@ -52,14 +52,14 @@ std::vector<glm::vec3> smooth_normals(const Mesh& mesh, const std::vector<std::u
     return normals;
 }
 
-/// A corner of a triangle, seen from the vertex that is worked on.
+/// A corner of a triangle at the current vertex.
 struct Corner {
     std::uint32_t triangle;
     std::uint32_t slot;   ///< 0..2
     std::uint32_t group;  ///< corners of one group share a normal
 };
 
-/// One of the two edges with which a corner leaves its vertex.
+/// One of a corner's two edges at its vertex.
 struct Spoke {
     std::uint32_t far_vertex;
     std::uint32_t corner;
@@ -70,7 +70,7 @@ std::uint32_t root_of(std::vector<Corner>& corners, std::uint32_t i) {
     return i;
 }
 
-/// Joins the corners around one vertex across every edge that is bent less than the crease angle.
+/// Joins the corners around one vertex across every edge bent less than the crease angle.
 void group_corners(const Mesh& mesh, const std::vector<std::uint32_t>& weld, const std::vector<glm::dvec3>& areas,
                    double cos_crease, std::vector<Corner>& corners, std::vector<Spoke>& spokes) {
     spokes.clear();
@@ -92,7 +92,7 @@ void group_corners(const Mesh& mesh, const std::vector<std::uint32_t>& weld, con
     for (std::uint32_t i = 0; i < corners.size(); ++i) corners[i].group = root_of(corners, i);
 }
 
-/// Corners of all triangles, ordered by welded vertex; those of vertex v are first[v]..first[v+1].
+/// Corners of all triangles, ordered by welded vertex. Vertex v has the entries first[v]..first[v+1].
 struct CornerTable {
     std::vector<std::uint32_t> first;
     std::vector<std::uint32_t> corner;  ///< 3 * triangle + slot
@@ -112,7 +112,8 @@ CornerTable corners_by_vertex(const Mesh& mesh, const std::vector<std::uint32_t>
     return table;
 }
 
-/// `crease_angles`: one per welded vertex; pi joins all of its corners.
+/// Generates normals with creases. `crease_angles`: one per welded vertex; pi joins all of its corners. Returns the
+/// old vertex of each new vertex.
 std::vector<std::uint32_t> make_creased_normals(Mesh& mesh, const std::vector<std::uint32_t>& weld,
                                                 const std::vector<float>& crease_angles) {
     const std::vector<glm::dvec3> areas = area_vectors(mesh);

@@ -8,14 +8,14 @@
 
 namespace pellucid {
 
-/// Makes a unit normal for every vertex: the mean of the surrounding triangles' normals, weighted
-/// by area, over vertices of equal position. Where two triangles meet at an edge bent by
-/// `crease_angle` or more (radians), each side gets its own normals and vertices are split;
-/// 0 makes flat triangles, pi joins everything, kCreasesByShell takes each shell's crease_angles(). Returns for each vertex the one that it was before.
+/// Generates a unit normal for every vertex: the mean of the surrounding triangles' normals, weighted by area, over
+/// vertices of equal position. At edges bent by `crease_angle` or more (radians), each side gets its own normals and
+/// vertices are split. 0 gives flat triangles, pi joins all triangles, kCreasesByShell uses each shell's
+/// crease_angles(). Returns for each vertex its old index.
 std::vector<std::uint32_t> make_normals(Mesh& mesh, float crease_angle);
 
-/// Scales normals to unit length. Those that are zero or not finite are replaced by made ones
-/// (without creases); returns how many.
+/// Normalises all normals. Replaces zero and non-finite normals by generated ones (without creases); returns their
+/// count.
 std::size_t make_normals_valid(Mesh& mesh);
 
 }  // namespace pellucid

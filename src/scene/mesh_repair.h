@@ -12,23 +12,22 @@
 
 namespace pellucid {
 
-/// For each position the index of the first one that equals it exactly (-0 equals 0).
-/// Files split vertices where normals or texture coordinates jump; the surface itself is only
-/// connected after such vertices count as one.
+/// For each position the index of the first equal position (-0 equals 0). Files split vertices where normals or
+/// texture coordinates are discontinuous. The surface is connected only once such vertices are welded.
 std::vector<std::uint32_t> weld_positions(std::span<const glm::vec3> positions);
-/// The same for positions and normals together.
+/// For each vertex the index of the first with equal position and normal.
 std::vector<std::uint32_t> weld_vertices(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
 
-/// Makes one vertex of those that agree in all their attributes, and drops vertices without a
-/// triangle (which would otherwise count for the bounding sphere).
+/// Merges vertices that agree in all attributes. Drops vertices without a triangle, which would enlarge the bounding
+/// sphere.
 void join_identical_vertices(Mesh& mesh);
-/// Returns for each vertex that stays the one that it was before.
+/// Drops vertices without a triangle. Returns the old index of each remaining vertex.
 std::vector<std::uint32_t> drop_unused_vertices(Mesh& mesh);
 
-/// New vertex i becomes a copy of the old vertex source[i]; triangles stay as they are.
+/// Copies old vertex source[i] to new vertex i. Triangles are unchanged.
 void gather_vertices(Mesh& mesh, const std::vector<std::uint32_t>& source);
 
-/// Edges of a surface, welded by position. A closed solid has none of these.
+/// Defective edges of a surface welded by position. A closed solid has none.
 struct EdgeCounts {
     std::uint64_t boundary = 0;      ///< with one triangle
     std::uint64_t non_manifold = 0;  ///< with more than two triangles
@@ -40,40 +39,39 @@ EdgeCounts count_edges(std::span<const glm::uvec3> triangles, std::span<const st
 /// Removes triangles without area; returns how many.
 std::size_t drop_zero_area_triangles(Mesh& mesh);
 
-/// Volume enclosed by the surface, about the centre of its box: positive if triangles are
+/// Volume enclosed by the surface, relative to the centre of its box. It is positive if triangles are
 /// counter-clockwise seen from outside.
 struct SignedVolume {
     double value = 0.0;
-    /// How much the value would change with the reference point, anywhere in the bounding sphere of
-    /// the box. It is zero for a closed surface; where it reaches the value, the surface is so open
-    /// that it has no inside.
+    /// Largest change of the value for any reference point in the bounding sphere of the box; 0 for a closed surface.
+    /// If it reaches the value, the surface is too open to have an inside.
     double uncertainty = 0.0;
     bool meaningful() const { return std::abs(value) > uncertainty; }
 };
 SignedVolume signed_volume(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
 inline SignedVolume signed_volume(const Mesh& mesh) { return signed_volume(mesh.positions, mesh.triangles); }
 
-/// Exchanges inside and outside: winding and normals (if there are any).
+/// Exchanges inside and outside: reverses winding and normals, if any.
 void turn_inside_out(Mesh& mesh);
 
-/// True if in most triangles the vertex normals lie on the other side than the winding says.
+/// True if most triangles' vertex normals oppose their winding.
 bool normals_oppose_winding(const Mesh& mesh);
 
-/// What is known about a mesh that comes from a file.
+/// Properties of a mesh from a file.
 struct MeshOrigin {
-    bool refractive = false;           ///< bounds a solid that light goes through, so inside and outside matter
-    bool part_of_solid = false;        ///< repair_solid_in_parts() has been here
-    bool make_normals = false;         ///< Mesh::normals is ignored and made anew
-    float crease_angle = 3.14159265f;  ///< for made normals, radians
-    bool deforms = false;              ///< triangles without area may get one
+    bool refractive = false;           ///< bounds a solid that transmits light, so orientation matters
+    bool part_of_solid = false;        ///< already repaired by repair_solid_in_parts()
+    bool make_normals = false;         ///< Mesh::normals is replaced by generated normals
+    float crease_angle = 3.14159265f;  ///< crease angle of generated normals, radians
+    bool deforms = false;              ///< degenerate triangles may gain area
 };
-/// What became of a mesh's vertices.
+/// Mapping of a repaired mesh's vertices.
 struct MeshRepair {
-    std::vector<std::uint32_t> source;  ///< for each vertex the one of the file that it was
-    bool normals_turned = false;        ///< those of the file are kept, and point the other way
+    std::vector<std::uint32_t> source;  ///< for each vertex its index in the file
+    bool normals_turned = false;        ///< normals of the file were kept, but reversed
 };
-/// Makes what a file contains usable: winding, normals, no leftovers. Everything that was changed
-/// or that will be seen as an error in the picture is added to `warnings` with the mesh's name.
+/// Repairs a mesh from a file: winding, normals, unused vertices. Adds a warning with the mesh's name for every
+/// change, and for every defect that remains visible.
 MeshRepair repair_mesh(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings);
 
 }  // namespace pellucid

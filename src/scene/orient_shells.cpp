@@ -13,14 +13,14 @@
 namespace pellucid {
 namespace {
 
-/// Where the winding number of the other shells is computed for an inward shell: at its farthest corners in so many
-/// directions, and at so many triangles.
+/// Samples of an inward shell for the winding number of the other shells: its farthest corners in kDirections
+/// directions, and kTriangles triangles.
 constexpr std::size_t kDirections = 26, kTriangles = 32;
-constexpr double kApart = 1e-5;  // of the shell's size, from a probe to the shell
+constexpr double kApart = 1e-5;  // distance of a sample from the shell, relative to the shell's size
 
 struct Shell {
-    std::vector<std::uint32_t> triangles;  ///< Mesh::triangles
-    std::vector<glm::uvec3> corners;       ///< of each, Mesh::positions
+    std::vector<std::uint32_t> triangles;  ///< indices into Mesh::triangles
+    std::vector<glm::uvec3> corners;       ///< corners of each triangle, indices into Mesh::positions
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
     bool closed = true;
@@ -42,7 +42,7 @@ std::vector<Shell> list_shells(const Mesh& mesh, const Shells& found) {
     return shells;
 }
 
-/// How often the shell surrounds a point; the sign says which way round it is wound.
+/// Winding number of the shell around a point; its sign depends on the shell's orientation.
 double shell_winding(const Mesh& mesh, const Shell& shell, const glm::dvec3& point) {
     double sum = 0.0;
     for (const glm::uvec3 t : shell.corners)
@@ -51,7 +51,7 @@ double shell_winding(const Mesh& mesh, const Shell& shell, const glm::dvec3& poi
     return sum;
 }
 
-/// Whether the other shells enclose a point. How these are wound does not matter: they may need turning, too.
+/// True if another shell encloses the point. The other shell's orientation is ignored, as it may be wrong too.
 bool enclosed(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& own, const glm::dvec3& point) {
     return std::any_of(shells.begin(), shells.end(), [&](const Shell& other) {
         if (&other == &own || !other.closed) return false;
@@ -60,7 +60,7 @@ bool enclosed(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& o
     });
 }
 
-/// Points just outside an inward shell: in its triangles, and at corners, first those that stick out farthest.
+/// Points just outside an inward shell: first at its extreme corners, then on its triangles.
 std::vector<glm::dvec3> probes(const Mesh& mesh, const Shell& shell) {
     const double apart = kApart * glm::length(shell.high - shell.low);
     struct Corner {
@@ -68,7 +68,7 @@ std::vector<glm::dvec3> probes(const Mesh& mesh, const Shell& shell) {
         int corner = 0;
         double along = -std::numeric_limits<double>::infinity();
     };
-    std::vector<glm::dvec3> directions;  // a spiral from pole to pole
+    std::vector<glm::dvec3> directions;  // directions on a spiral from pole to pole
     for (std::size_t d = 0; d < kDirections; ++d) {
         const double z = 1.0 - (2.0 * double(d) + 1.0) / double(kDirections), r = std::sqrt(1.0 - z * z);
         const double turn = double(d) * std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -113,7 +113,7 @@ bool is_cavity(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& 
                        [&](const glm::dvec3& point) { return enclosed(mesh, shells, own, point); });
 }
 
-/// Turns shells, and normals that no triangle of another shell has.
+/// Reverses shells, and those normals that other shells' triangles do not share.
 void turn(Mesh& mesh, const std::vector<const Shell*>& turned) {
     if (turned.empty()) return;
     std::vector<char> in_turned(mesh.positions.size(), 0), elsewhere(mesh.positions.size(), 0);

@@ -19,8 +19,8 @@ namespace {
 
 const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
 
-/// Each welded vertex gets the place of one within the tolerance, if that leaves fewer open edges. Returns how many
-/// moved.
+/// Merges welded vertices within the tolerance, if that leaves fewer open edges. Returns the number of merged
+/// vertices.
 std::size_t join_near_vertices(Mesh& mesh, std::vector<std::uint32_t>& weld) {
     const std::uint64_t open = count_edges(mesh.triangles, weld).boundary;
     if (open == 0) return 0;
@@ -47,24 +47,24 @@ std::size_t join_near_vertices(Mesh& mesh, std::vector<std::uint32_t>& weld) {
 }
 
 struct TwiceDrawn {
-    std::size_t alike = 0;    ///< left out: equal triangles wound alike are kept once
-    std::size_t walls = 0;    ///< left out: pairs wound against each other inside a solid
-    std::size_t doubled = 0;  ///< left out: the other sides of triangles that a file has twice
+    std::size_t alike = 0;    ///< removed duplicates with equal winding
+    std::size_t walls = 0;    ///< removed pairs with opposite winding inside a solid
+    std::size_t doubled = 0;  ///< removed back sides of double-sided triangles
 };
 
-/// Triangles of the same welded vertices, by winding.
+/// Triangles with the same welded vertices, by winding.
 struct SameTriangles {
     std::array<std::vector<std::uint32_t>, 2> wound;
     std::size_t pairs() const { return std::min(wound[0].size(), wound[1].size()); }
 };
 
-/// Those that there are more than once.
+/// Groups of triangles that occur more than once.
 std::vector<SameTriangles> same_triangles(const std::vector<glm::uvec3>& triangles,
                                           const std::vector<std::uint32_t>& weld) {
     std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> keys;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         std::array<std::uint32_t, 3> key{weld[triangles[t].x], weld[triangles[t].y], weld[triangles[t].z]};
-        // From the least on: what is wound the other way has the other two exchanged.
+        // Rotate the key to start at its least vertex; the other two then tell the winding.
         std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
         if (key[0] == key[1] || key[1] == key[2] || key[2] == key[0]) continue;
         const bool turned = key[1] > key[2];
@@ -90,7 +90,7 @@ std::vector<glm::uvec3> kept(const std::vector<glm::uvec3>& triangles, const std
     return rest;
 }
 
-/// Edges with more triangles on the one side than on the other.
+/// Number of edges with different counts of triangles in the two directions.
 std::size_t open_edges(const std::vector<glm::uvec3>& triangles, const std::vector<std::uint32_t>& weld) {
     std::size_t count = 0;
     for_each_edge(sorted_half_edges(triangles, weld), [&](std::span<const HalfEdge> edge) {
@@ -104,7 +104,7 @@ TwiceDrawn leave_out_twice_drawn(Mesh& mesh, const std::vector<std::uint32_t>& w
     const std::vector<SameTriangles> all = same_triangles(mesh.triangles, weld);
     if (all.empty()) return {};
     TwiceDrawn result;
-    // Pairs wound against each other: walls inside a solid, if without them there is one.
+    // Pairs with opposite winding are walls inside a solid if their removal leaves a closed surface.
     std::vector<char> gone(mesh.triangles.size(), 0);
     std::size_t pairs = 0;
     for (const SameTriangles& same : all) {
@@ -126,7 +126,7 @@ TwiceDrawn leave_out_twice_drawn(Mesh& mesh, const std::vector<std::uint32_t>& w
         }
         mesh.triangles = kept(mesh.triangles, gone);
     }
-    // Of those wound alike one is enough, unless the others close the surface elsewhere.
+    // Keep one triangle of equal winding, unless the duplicates close the surface elsewhere.
     std::vector<char> alike(mesh.triangles.size(), 0);
     for (const SameTriangles& same : same_triangles(mesh.triangles, weld))
         for (const std::vector<std::uint32_t>& wound : same.wound)
@@ -140,8 +140,8 @@ TwiceDrawn leave_out_twice_drawn(Mesh& mesh, const std::vector<std::uint32_t>& w
     return result;
 }
 
-/// Turns the fewer of the triangles that are wound against each other, in each surface that can be oriented. Returns how
-/// many were turned.
+/// Makes the winding consistent in each orientable surface by reversing the minority of its triangles. Returns the
+/// number of reversed triangles.
 std::size_t wind_alike(Mesh& mesh, const std::vector<std::uint32_t>& weld) {
     const std::vector<HalfEdge> sides = sorted_half_edges(mesh.triangles, weld);
     struct Neighbour {
@@ -192,7 +192,7 @@ std::size_t wind_alike(Mesh& mesh, const std::vector<std::uint32_t>& weld) {
     return turned;
 }
 
-/// Normals that point to the inside of all triangles around them point outside then.
+/// Reverses normals that oppose all triangles around them. Returns their count.
 std::size_t turn_inward_normals(Mesh& mesh) {
     if (mesh.normals.empty()) return 0;
     std::vector<glm::dvec3> outward(mesh.positions.size(), glm::dvec3(0.0));
@@ -232,7 +232,7 @@ void warn_of_edges(const EdgeCounts& edges, bool all_closed, const std::string& 
                         name, edges.miswound));
 }
 
-/// Parts in one mesh, and back.
+/// Joins the parts into one mesh; take_apart() is the inverse.
 Mesh joined(const std::vector<Mesh*>& parts) {
     Mesh whole;
     const bool normals =
@@ -277,8 +277,8 @@ SolidRepair repair_solid(Mesh& mesh, bool deforms, Warnings& warnings) {
         warnings.add(fmt::format("{}: {} triangle{} wound against their neighbours, turned", mesh.name, rewound,
                                  plural(rewound)));
 
-    // Edges are counted before triangles are dropped: a triangle squeezed to a line leaves no gap in the surface, though
-    // its neighbours no longer share an edge.
+    // Count edges before dropping triangles: a triangle squeezed to a line leaves no gap, but its neighbours no longer
+    // share an edge.
     const Shells shells = find_shells(mesh.positions, mesh.triangles, weld);
     warn_of_edges(count_edges(mesh.triangles, weld), shells.all_closed(), mesh.name, warnings);
     SolidRepair repair;
@@ -292,7 +292,7 @@ SolidRepair repair_solid(Mesh& mesh, bool deforms, Warnings& warnings) {
     }
     if (const std::size_t dropped = deforms ? 0 : drop_zero_area_triangles(mesh))
         warnings.add(fmt::format("{}: {} triangle{} without area left out", mesh.name, dropped, plural(dropped)));
-    // An open sheet has no volume whose sign could be believed.
+    // An open sheet has no meaningful sign of volume.
     if (const SignedVolume volume = signed_volume(mesh); !one_by_one && volume.value < 0.0 && volume.meaningful()) {
         turn_inside_out(mesh);
         repair.inside_out = true;
@@ -306,7 +306,7 @@ void repair_solid_in_parts(const std::vector<Mesh*>& parts, const std::string& n
     Mesh whole = joined(parts);
     whole.name = name;
     const SolidRepair repair = repair_solid(whole, false, warnings);
-    if (repair.inside_out && whole.normals.empty())  // of those parts that have any
+    if (repair.inside_out && whole.normals.empty())  // parts that have normals
         for (Mesh* part : parts)
             for (glm::vec3& n : part->normals) n = -n;
     take_apart(whole, parts);

@@ -9,18 +9,18 @@
 
 namespace pellucid {
 
-/// What repair_solid() did besides what it warned about.
+/// Changes by repair_solid() beyond its warnings.
 struct SolidRepair {
-    bool inside_out = false;  ///< the whole surface was turned, normals and all
+    bool inside_out = false;  ///< the whole surface was reversed, normals included
 };
 
-/// Makes the surface of a solid from a file one that says where inside is, and warns of what it changed or could not:
-/// vertices that all but touch are joined, triangles that are there twice go, triangles wound against their neighbours
-/// and shells wound inside out are turned (orient_shells.h), triangles without area go. Normals, where there are any,
-/// follow. `deforms`: vertices and normals stay as they are, but for turning the whole surface.
+/// Repairs the surface of a solid from a file, so that it defines an inside, and warns of every change and remaining
+/// defect. Merges nearly coincident vertices. Removes duplicate triangles. Reverses triangles wound against their
+/// neighbours, and shells wound inside out (orient_shells.h). Removes triangles without area. Normals are updated
+/// accordingly. `deforms`: vertices and normals stay unchanged, except for a reversal of the whole surface.
 SolidRepair repair_solid(Mesh& mesh, bool deforms, Warnings& warnings);
 
-/// The same for parts that bound one solid together; `name` is the solid's, for warnings.
+/// Repairs parts that together bound one solid. `name`: name of the solid, for warnings.
 void repair_solid_in_parts(const std::vector<Mesh*>& parts, const std::string& name, Warnings& warnings);
 
 }  // namespace pellucid

@@ -8,7 +8,7 @@
 namespace pellucid {
 
 glm::vec3 Material::sigma_a() const {
-    // Black would absorb infinitely strongly; exp(-infinity * 0) is no number. 1e-30 is black.
+    // Black would mean infinite absorption, and exp(-infinity * 0) is NaN. Use 1e-30 instead.
     const glm::vec3 left = glm::clamp(attenuation_color, glm::vec3(1e-30f), glm::vec3(1.0f));
     return glm::max(-glm::log(left), glm::vec3(0.0f)) / attenuation_distance;
 }
@@ -40,8 +40,8 @@ Bounds scene_bounds(const Scene& scene) {
         low = glm::min(low, p);
         high = glm::max(high, p);
     });
-    if (!(low.x <= high.x)) return {};  // nothing in it
-    // The radius belongs to the rounded centre, so that the sphere holds every vertex.
+    if (!(low.x <= high.x)) return {};  // empty scene
+    // Use the rounded centre for the radius, so that the sphere contains every vertex.
     const glm::vec3 center(0.5 * (low + high));
     double radius2 = 0.0;
     for_each_vertex([&](const glm::dvec3& p) {

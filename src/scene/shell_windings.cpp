@@ -11,24 +11,25 @@
 namespace pellucid {
 namespace {
 
-constexpr double kSamples = 4096.0;       // that a shell gets besides one per triangle, by area
-constexpr double kPerCell = 2.0;          // triangles, if each were in one cell of the grid
-constexpr std::size_t kMostCells = 2048;  // across
-constexpr double kUndecided = 1e-6;       // of the shell's size: surfaces no farther from a sample do not count
-constexpr std::uint32_t kConfirmed = 3;   // samples that a winding number needs to be believed, where it is not 0 or 1
+constexpr double kSamples = 4096.0;       // samples per shell, distributed by area, besides one per triangle
+constexpr double kPerCell = 2.0;          // triangles per cell, if each lay in one cell of the grid
+constexpr std::size_t kMostCells = 2048;  // cells per side
+constexpr double kUndecided = 1e-6;       // relative to the shell's size; closer surfaces make a sample undecided
+constexpr std::uint32_t kConfirmed = 3;   // samples required to accept a winding number
 
 /// Twice the signed area of three points.
 double area_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
 }
 
-/// On which side of a line p lies: the same with either end first, so that triangles on both sides agree.
+/// True if p lies to the left of a line. Exchanging the ends gives the opposite result, so triangles on both sides
+/// agree.
 bool left_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& p) {
     const bool swapped = a.x != b.x ? b.x < a.x : b.y < a.y;
     return swapped ? area_of(b, a, p) <= 0.0 : area_of(a, b, p) > 0.0;
 }
 
-/// One shell, in a frame whose z axis is along no likely axis of the model. Rays along z are counted.
+/// One shell in a frame whose z axis is unlikely to align with the model. Winding numbers are counted along z.
 class ShellLines {
 public:
     ShellLines(std::span<const glm::vec3> positions, const std::vector<glm::uvec3>& triangles) {
@@ -78,7 +79,7 @@ private:
         glm::dvec3 a, b, c;
     };
     static constexpr int kLowest = 16, kCounted = 33;
-    struct Counts {  ///< samples, per winding number
+    struct Counts {  ///< number of samples per winding number
         std::uint32_t of[kCounted] = {};
     };
 
@@ -110,12 +111,13 @@ private:
         const Corners& own = triangles_[triangle];
         const double own_area = area_of(own.a, own.b, own.c);
         if (own_area == 0.0) return;
-        // An additive recurrence (Roberts 2018), the first near the middle.
+        // An additive recurrence (Roberts 2018), starting near the middle.
         double u = std::fmod(0.37 + 0.754877666 * number, 1.0), v = std::fmod(0.29 + 0.569840291 * number, 1.0);
         if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
         const glm::dvec3 p = own.a + u * (own.b - own.a) + v * (own.c - own.a);
         const double undecided = kUndecided * glm::length(high_ - low_);
-        int ahead = 0;  // winding number just after the triangle on a ray along z: 1 for each surface that it leaves by
+        // winding number just beyond the triangle on a ray along z: +1 for each surface through which the ray leaves
+        int ahead = 0;
         const std::size_t at = cell(p.y, 1) * across_ + cell(p.x, 0);
         for (std::size_t i = first_[at]; i < first_[at + 1]; ++i) {
             if (listed_[i] == triangle) continue;
@@ -135,8 +137,8 @@ private:
 
     std::vector<Corners> triangles_;
     glm::dvec3 low_{std::numeric_limits<double>::infinity()}, high_{-std::numeric_limits<double>::infinity()};
-    std::size_t across_ = 1;          ///< cells of a grid over x and y
-    std::vector<std::size_t> first_;  ///< per cell, of listed_
+    std::size_t across_ = 1;          ///< cells per side of a grid over x and y
+    std::vector<std::size_t> first_;  ///< per cell, index of its first entry in listed_
     std::vector<std::uint32_t> listed_;
 };
 

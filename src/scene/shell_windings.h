@@ -10,8 +10,8 @@
 
 namespace pellucid {
 
-/// Winding numbers that a closed shell has next to its own triangles: 0 and 1 where it is simple and wound outward, -1 and
-/// 0 where it is wound inward, more where it crosses itself.
+/// Range of winding numbers next to a closed shell's own triangles. A simple outward shell has 0 and 1, an inward
+/// shell -1 and 0. A shell that crosses itself has more.
 struct WindingRange {
     int least = 0;  ///< <= 0
     int most = 1;   ///< >= 0
@@ -19,8 +19,8 @@ struct WindingRange {
     bool operator==(const WindingRange&) const = default;
 };
 
-/// Of each shell; those that are open count as simple. Each triangle is sampled at one point, and at more by its share of
-/// the area: what only smaller parts of the surface reach is not seen.
+/// Winding ranges of all shells; open shells count as simple. Each triangle gets one sample, and more in proportion to
+/// its area. Smaller features may be missed.
 std::vector<WindingRange> winding_ranges(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
                                          const Shells& shells);
 

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// Directions around an edge nearer than this, in radians, are one.
+/// Directions around an edge that differ by less than this, in radians, count as equal.
 constexpr double kSameAngle = 1e-5;
 
 /// A triangle at an edge, seen along the edge from its first end to its second.
 struct Leaf {
     double angle;  ///< radians, counter-clockwise
-    bool ends;     ///< material lies before it, not behind it, counter-clockwise
+    bool ends;     ///< true if material lies before the triangle in counter-clockwise order, false if behind
     std::uint32_t triangle;
 };
 
@@ -39,7 +39,7 @@ std::vector<Leaf> leaves_at(std::span<const glm::vec3> positions, std::span<cons
         leaves.push_back({std::atan2(glm::dot(way, y), glm::dot(way, x)), side.forward, side.triangle});
     }
     std::sort(leaves.begin(), leaves.end(), [](const Leaf& l, const Leaf& m) { return l.angle < m.angle; });
-    // Counted from where no leaf is near: directions around half a turn may be rounded to either sign.
+    // Start counting at the widest gap: rounding may give directions near half a turn either sign.
     std::size_t first_leaf = 0;
     double widest = leaves.front().angle + 2.0 * std::numbers::pi - leaves.back().angle;
     for (std::size_t i = 1; i < leaves.size(); ++i) {
@@ -49,7 +49,7 @@ std::vector<Leaf> leaves_at(std::span<const glm::vec3> positions, std::span<cons
     }
     for (std::size_t i = 0; i < first_leaf; ++i) leaves[i].angle += 2.0 * std::numbers::pi;
     std::rotate(leaves.begin(), leaves.begin() + std::ptrdiff_t(first_leaf), leaves.end());
-    // Of leaves in one direction those that end material come first: what touches is not one.
+    // Among equal directions, order triangles that end material first: touching surfaces are not joined.
     for (std::size_t begin = 0, end; begin < leaves.size(); begin = end) {
         for (end = begin + 1; end < leaves.size() && leaves[end].angle - leaves[end - 1].angle < kSameAngle;) ++end;
         std::stable_sort(leaves.begin() + std::ptrdiff_t(begin), leaves.begin() + std::ptrdiff_t(end),
@@ -59,7 +59,7 @@ std::vector<Leaf> leaves_at(std::span<const glm::vec3> positions, std::span<cons
     return leaves;
 }
 
-/// Joins the triangles at an edge that have material between them, once around.
+/// Joins the triangles at an edge that have material between them, all around the edge.
 void join_leaves(std::vector<Leaf> leaves, DisjointSets& sets) {
     std::vector<Leaf> begun;
     for (int round = 0; round < 2; ++round) {
@@ -73,7 +73,8 @@ void join_leaves(std::vector<Leaf> leaves, DisjointSets& sets) {
                 left.push_back(leaves[i]);
                 continue;
             }
-            // Of ends in one direction the one that the file has nearest: shells lie together there.
+            // Among ends in equal directions, choose the one nearest in the file, because a file stores shells
+            // contiguously.
             const std::uint32_t start = begun.back().triangle;
             const auto apart = [&](const Leaf& leaf) {
                 return std::max(leaf.triangle, start) - std::min(leaf.triangle, start);
@@ -110,7 +111,7 @@ Shells find_shells(std::span<const glm::vec3> positions, std::span<const glm::uv
         if (2 * std::size_t(forward) != edge.size()) open.push_back(edge[0].triangle);
     });
 
-    // What is only a line belongs to a surface that it touches.
+    // Degenerate triangles belong to a surface that they touch.
     std::vector<std::uint32_t> at_vertex(weld.size(), kNone);
     for (const HalfEdge& side : sides)
         for (int k = 0; k < 3; ++k) at_vertex[weld[triangles[side.triangle][k]]] = side.triangle;

@@ -26,12 +26,12 @@ void make_translucent(Scene& scene, const Translucency& translucency) {
         material.transmission_texture = {};
         material.metallic = 0.0f;
         material.unlit = false;
-        if (was_glass) material.roughness = 0.5f;  // the smoothness of glass would show the lamps of the environment
+        if (was_glass) material.roughness = 0.5f;  // smooth surfaces would reflect the environment's lamps
         material.diffuse_transmission = 0.5f;
         material.diffuse_transmission_color = glm::vec3(material.base_color);
         material.attenuation_color = translucency.color;
         material.attenuation_distance = translucency.distance;
-        if (!(material.thickness > 0.0f)) material.thickness = 1.0f;  // a volume, as glTF has it
+        if (!(material.thickness > 0.0f)) material.thickness = 1.0f;  // glTF requires a thickness for volumes
     }
 }
 

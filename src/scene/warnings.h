@@ -10,14 +10,14 @@
 
 namespace pellucid {
 
-/// What Scene::warnings is collected in: one line each, each line once, in order of appearance.
+/// Collects Scene::warnings: unique lines in order of appearance.
 class Warnings {
 public:
     void add(std::string_view text) {
         std::string line = one_line(text);
         if (seen_.insert(line).second) lines_.push_back(std::move(line));
     }
-    /// Takes back lines that start and go on like this: what they said is not so after all.
+    /// Removes lines that begin with `start` and contain `part`, because they no longer apply.
     void drop(std::string_view start, std::string_view part) {
         std::erase_if(lines_, [&](const std::string& line) {
             return line.starts_with(start) && line.find(part) != std::string::npos;

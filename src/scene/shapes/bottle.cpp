@@ -9,7 +9,7 @@ constexpr double kBodyRadius = 0.38, kGrooveDepth = 0.03;
 constexpr double kGroovesBottom = -0.62, kGroovesTop = 0.16;
 constexpr double kNeckRadius = 0.15;
 
-/// The outside from the foot to below the rim, where the wall is followed by the inside.
+/// Control points of the outside, from the foot to below the rim. add_inside() offsets them by the wall.
 std::vector<glm::dvec2> outside(int grooves) {
     std::vector<glm::dvec2> points = {{0.350, -0.985}, {0.375, -0.940}, {kBodyRadius, -0.860}, {kBodyRadius, -0.740}};
     const double step = (kGroovesTop - kGroovesBottom) / (2.0 * grooves);
@@ -26,7 +26,8 @@ std::vector<glm::dvec2> outside(int grooves) {
     return points;
 }
 
-/// From the middle of the underside, which is raised as in most bottles, to that of the bottom inside.
+/// Control points from the middle of the underside, which is raised as in most bottles, to the middle of the inner
+/// bottom.
 std::vector<glm::dvec2> control_points(int grooves, double wall) {
     std::vector<glm::dvec2> points = {
         {0.000, -0.900}, {0.090, -0.902}, {0.200, -0.935}, {0.270, -0.985}, {0.310, -1.0}};

@@ -3,8 +3,8 @@
 namespace pellucid {
 namespace {
 
-/// An axis-aligned box around the origin, each face `segments` x `segments` quads with vertices of
-/// its own. Positions on an edge come from the same numbers for both faces, so they are equal.
+/// An axis-aligned box around the origin. Each face has `segments` x `segments` quads with its own vertices. Positions
+/// on an edge are computed from the same numbers for both faces, so they are equal.
 Mesh make_box(glm::dvec3 size, int segments) {
     Mesh mesh;
     const unsigned n = unsigned(segments);
@@ -26,7 +26,7 @@ Mesh make_box(glm::dvec3 size, int segments) {
             for (unsigned i = 0; i < n; ++i)
                 for (unsigned j = 0; j < n; ++j) {
                     const unsigned a = first + i * (n + 1) + j, b = a + n + 1, c = b + 1, d = a + 1;
-                    // across x along points to the positive side.
+                    // The cross product of across and along points to the positive side.
                     const auto add = [&](unsigned p, unsigned q, unsigned r) {
                         mesh.triangles.push_back(side > 0.0 ? glm::uvec3(p, q, r) : glm::uvec3(p, r, q));
                     };

@@ -13,14 +13,14 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 struct CurvePoint {
     glm::dvec3 position;
-    glm::dvec3 tangent;  ///< derivative, any length
+    glm::dvec3 tangent;  ///< derivative, of any length
 };
 
 /// A tube along `curve(t)`, t in 0..2 pi.
 template <class Curve>
 Mesh make_curve_tube(const Curve& curve, const ShapeArguments& arguments) {
     const double tube = arguments.number("tube");
-    // Whether it fits is a matter of the curve, not of how finely this mesh follows it.
+    // Test the exact curve, not its coarse approximation by this mesh.
     constexpr int kCheckCount = 1024;
     std::vector<glm::dvec3> fine;
     for (int i = 0; i < kCheckCount; ++i) fine.push_back(curve(kTwoPi * i / kCheckCount).position);
@@ -42,7 +42,7 @@ Mesh make_knot(const ShapeArguments& arguments) {
     const int p = arguments.whole("p"), q = arguments.whole("q");
     if (std::gcd(p, q) != 1) arguments.fail("p and q must not share a factor");
     const double tube = arguments.number("tube");
-    // The torus that the knot lies on; the knot's outermost point is 1 m from the axis.
+    // Radii of the torus that contains the knot. The knot's outermost point is 1 m from the axis.
     const double major = (1.0 - tube) / 1.42, minor = 0.42 * major;
     const auto knot = [=](double t) -> CurvePoint {
         const double cp = std::cos(p * t), sp = std::sin(p * t);

@@ -1,6 +1,6 @@
-// The modern round brilliant: table, stars, mains (kites) and upper girdle facets on the crown;
-// lower girdle facets and mains on the pavilion. The free corner of every kite is put on the kite's
-// plane, so all facets are flat; the solid is convex.
+// The modern round brilliant: table, stars, mains (kites) and upper girdle facets on the crown; lower girdle facets
+// and mains on the pavilion. The free corner of every kite is placed in the kite's plane, so all facets are flat and
+// the solid is convex.
 
 #include "scene/shapes/shape_builders.h"
 
@@ -28,16 +28,17 @@ public:
             add_girdle(mesh, i);
             add_pavilion(mesh, i);
         }
-        // From the girdle's middle to between culet and table, so that the gem turns about itself.
+        // Move the origin from the girdle's middle to the middle between culet and table.
         const float middle = float(0.5 * (table_height() + culet().y));
         for (glm::vec3& position : mesh.positions) position.y -= middle;
         return mesh;
     }
 
 private:
-    /// Step i + 1/2 lies between main facets i and i + 1. Counter-clockwise seen from above.
+    /// Point at an angle in steps of a main facet, counter-clockwise seen from above. Step i + 1/2 lies between main
+    /// facets i and i + 1.
     glm::dvec3 at(double step, double radius, double height) const {
-        // Steps that mean the same corner must give the same bits.
+        // Equal corners must be equal bit by bit.
         const double angle = 2.0 * std::numbers::pi * std::fmod(step + facets_, facets_) / facets_;
         return {radius * std::cos(angle), height, -radius * std::sin(angle)};
     }
@@ -45,15 +46,15 @@ private:
     double table_height() const { return half_girdle_ + crown_slope_ * (1.0 - table_radius_); }
 
     glm::dvec3 table_corner(int i) const { return at(i, table_radius_, table_height()); }
-    /// Where two kites, a star and two upper girdle facets meet.
+    /// Common corner of two kites, a star and two upper girdle facets.
     glm::dvec3 star_tip(int i) const {
-        constexpr double kStarShare = 0.45;  // of the way from table to girdle along the kite
+        constexpr double kStarShare = 0.45;  // position between table and girdle along the kite, 0..1
         const double along_kite = table_radius_ + kStarShare * (cos_half_step() - table_radius_);
         return at(i + 0.5, along_kite / cos_half_step(), table_height() - crown_slope_ * (along_kite - table_radius_));
     }
     glm::dvec3 upper_girdle(double step) const { return at(step, 1.0, half_girdle_); }
     glm::dvec3 lower_girdle(double step) const { return at(step, 1.0, -half_girdle_); }
-    /// Where two pavilion mains and two lower girdle facets meet.
+    /// Common corner of two pavilion mains and two lower girdle facets.
     glm::dvec3 pavilion_tip(int i) const {
         constexpr double kTipRadius = 0.25;
         return at(i + 0.5, kTipRadius, culet().y + pavilion_slope_ * kTipRadius * cos_half_step());

@@ -48,7 +48,7 @@ Mesh revolve(const std::vector<ProfilePoint>& profile, int segments) {
     }
     const unsigned end = pole(profile.back());
 
-    // The seam is the modulo: the last column shares the vertices of the first.
+    // The modulo closes the seam: the last column shares the vertices of the first.
     const auto vertex = [&](unsigned ring, unsigned i) { return first + ring * around + i % around; };
     for (unsigned i = 0; i < around; ++i) {
         mesh.triangles.push_back({start, vertex(0, i), vertex(0, i + 1)});

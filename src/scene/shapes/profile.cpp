@@ -10,7 +10,7 @@ namespace {
 class AxisToAxisSpline {
 public:
     explicit AxisToAxisSpline(const std::vector<glm::dvec2>& points) {
-        // Mirrored neighbours beyond the ends put the ends on the axis exactly and level.
+        // Mirrored neighbours beyond the ends place the ends exactly on the axis, with a horizontal tangent.
         control_.push_back({-points[1].x, points[1].y});
         control_.insert(control_.end(), points.begin(), points.end());
         const glm::dvec2 last = points[points.size() - 2];
@@ -19,7 +19,7 @@ public:
 
     double end() const { return double(control_.size() - 3); }
 
-    /// t in 0..end()
+    /// `t`: 0..end().
     ProfilePoint at(double t) const {
         const std::size_t span = std::min(std::size_t(t), control_.size() - 4);
         const double u = t - double(span), w = 1.0 - u;
@@ -36,12 +36,12 @@ private:
     std::vector<glm::dvec2> control_;
 };
 
-/// `count` points from end to end, closer where the profile bends: equal shares of the sum of
-/// length and turning, each in units of its total.
+/// `count` points from end to end, denser at bends: equal steps of the sum of length and turning, each normalised by
+/// its total.
 std::vector<ProfilePoint> sampled(const AxisToAxisSpline& spline, int count) {
     constexpr int kFineCount = 8192;
     const auto parameter = [&](double i) { return spline.end() * i / (kFineCount - 1); };
-    std::vector<glm::dvec2> travelled{{0.0, 0.0}};  // length, turning
+    std::vector<glm::dvec2> travelled{{0.0, 0.0}};  // cumulative length and turning
     ProfilePoint before = spline.at(0.0);
     for (int i = 1; i < kFineCount; ++i) {
         const ProfilePoint point = spline.at(parameter(i));
@@ -67,7 +67,7 @@ std::vector<ProfilePoint> sampled(const AxisToAxisSpline& spline, int count) {
 }  // namespace
 
 std::vector<ProfilePoint> spline_profile(const std::vector<glm::dvec2>& control_points, int rings) {
-    // Rings of quads and the two fans lie between rings + 1 points.
+    // `rings` segments, including the two fans, lie between rings + 1 points.
     return sampled(AxisToAxisSpline(control_points), rings + 1);
 }
 

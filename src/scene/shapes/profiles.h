@@ -6,8 +6,8 @@
 
 namespace pellucid {
 
-/// The outline of the shape `goblet` in the half plane of distance from the axis and height: `rings` stretches from the
-/// axis to the axis.
+/// Outline of the shape `goblet` in the half plane (distance from the axis, height), from axis to axis in `rings`
+/// segments.
 std::vector<glm::dvec2> goblet_outline(double wall, int rings);
 
 }  // namespace pellucid

@@ -7,8 +7,8 @@
 namespace pellucid {
 namespace {
 
-/// Vertices of a row of one hemisphere: row 0 is the pole, row k has 4k vertices around.
-/// Spacing along and across rows stays within a factor pi/2, unlike that of a UV sphere.
+/// A sphere of rows of vertices: row 0 is the pole, and row k of a hemisphere has 4k vertices. Spacing along and
+/// across rows stays within a factor pi/2, unlike on a UV sphere.
 class OctahedralSphere {
 public:
     explicit OctahedralSphere(int segments) : segments_(unsigned(segments)) {}
@@ -21,8 +21,8 @@ public:
                 add_vertex(mesh, radius * direction, inward ? -direction : direction);
             }
         for (unsigned row = 0; row < segments_; ++row) {
-            append_strip(mesh, base, row, row + 1, inward);                                   // north
-            append_strip(mesh, base, 2 * segments_ - row, 2 * segments_ - row - 1, !inward);  // south
+            append_strip(mesh, base, row, row + 1, inward);                                   // northern hemisphere
+            append_strip(mesh, base, 2 * segments_ - row, 2 * segments_ - row - 1, !inward);  // southern hemisphere
         }
     }
 
@@ -35,7 +35,7 @@ private:
         const unsigned n = segments_;
         if (row == 0) return 0;
         if (row <= n) return 1 + 2 * row * (row - 1);
-        const unsigned left = 2 * n - row;  // rows after this one, all shorter
+        const unsigned left = 2 * n - row;  // rows after this one, all of them shorter
         return vertex_count() - row_length(row) - (left == 0 ? 0 : 1 + 2 * left * (left - 1));
     }
     unsigned vertex_count() const { return 4 * segments_ * segments_ + 2; }
@@ -49,7 +49,7 @@ private:
                 std::sin(colatitude) * std::sin(longitude)};
     }
 
-    /// The triangles between a row and the next longer one, in each of the four octants.
+    /// Appends the triangles between a row and the next longer row, in each of the four octants.
     void append_strip(Mesh& mesh, unsigned base, unsigned inner_row, unsigned outer_row, bool flip) const {
         const unsigned steps = steps_from_pole(inner_row);
         const auto vertex = [&](unsigned row, unsigned i) { return base + row_start(row) + i % row_length(row); };

@@ -1,6 +1,5 @@
-// Tubes of constant radius along closed curves. Seen from the curve every point of such a tube lies
-// along its normal, so the normals are exact. Frames by parallel transport: Bishop, "There is more
-// than one way to frame a curve", 1975.
+// Tubes of constant radius along closed curves. Every point lies at the radius along its normal from the curve, so the
+// normals are exact. Frames by parallel transport: Bishop, "There is more than one way to frame a curve", 1975.
 
 #include "scene/shapes/shape_builders.h"
 
@@ -13,7 +12,7 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-/// `v` turned by the rotation that takes unit vector `from` to unit vector `to` (not opposite).
+/// Rotates `v` by the rotation from unit vector `from` to unit vector `to` (not opposite).
 glm::dvec3 transported(glm::dvec3 v, glm::dvec3 from, glm::dvec3 to) {
     const glm::dvec3 axis = glm::cross(from, to);
     const glm::dvec3 turned =
@@ -32,7 +31,7 @@ Mesh make_tube(const std::vector<TubeRing>& rings, double radius, int sides) {
             const glm::dvec3 normal = std::cos(angle) * ring.first_axis + std::sin(angle) * ring.second_axis;
             add_vertex(mesh, ring.center + radius * normal, normal);
         }
-    // Both seams are the modulo: the last ring and side share the vertices of the first.
+    // The modulo closes both seams: the last ring and side share the vertices of the first.
     const auto vertex = [&](unsigned ring, unsigned side) { return ring % along * around + side % around; };
     for (unsigned ring = 0; ring < along; ++ring)
         for (unsigned side = 0; side < around; ++side) {
@@ -51,7 +50,7 @@ std::vector<TubeRing> transport_rings(const std::vector<glm::dvec3>& centers,
     for (std::size_t i = 1; i <= count; ++i)
         axes.push_back(transported(axes.back(), unit_tangents[i - 1], unit_tangents[i % count]));
 
-    // Having come around, the axis is off by this angle about the first tangent.
+    // Angle between the transported and the initial axis about the first tangent, after one revolution.
     const double excess = std::atan2(glm::dot(glm::cross(axes[0], axes[count]), start), glm::dot(axes[0], axes[count]));
     std::vector<TubeRing> rings;
     for (std::size_t i = 0; i < count; ++i) {
@@ -75,8 +74,8 @@ bool tube_is_clear(const std::vector<glm::dvec3>& centers, double radius) {
         const double bend = glm::length(glm::cross(b - a, c - b));
         const double circumradius = 0.5 * glm::length(b - a) * glm::length(c - b) * glm::length(c - a);
         if (circumradius <= radius * bend) return false;
-        // A curve that bends no tighter than the radius can come closer than a diameter only after
-        // more than half a circle of it (Schur's theorem).
+        // A curve whose curvature radius is nowhere below the radius can come closer than a diameter only after more
+        // than half a circle (Schur's theorem).
         for (std::size_t j = i + 1; j < count; ++j) {
             const double apart = length_to[j] - length_to[i];
             if (std::min(apart, length - apart) > std::numbers::pi * radius &&

@@ -1,4 +1,4 @@
-// Volumes from implicit functions: lenses with known rays, solids by their distance functions, air and smoke.
+// Volumes from implicit functions: lenses with known rays, solids by distance functions, air and smoke.
 #include "optics/index_fields.h"
 #include "scene/volumes/volume_building.h"
 
@@ -8,7 +8,7 @@
 namespace pellucid {
 namespace {
 
-/// A field of the index over a cube of half-size `half`, smoothed as the parameter says.
+/// Samples an index field over a box of half-size `half`, smoothed by the parameter `smoothing`.
 template <class Field>
 Volume sampled(const Field& field, glm::dvec3 half, const ShapeArguments& arguments) {
     Volume volume = empty_grid(-half, half, arguments.whole("resolution"), 1);
@@ -29,7 +29,7 @@ Volume make_maxwell_fisheye(const ShapeArguments& arguments) {
     const MaxwellFisheyeField<double> field{radius, n0};
     const auto ball = [&](glm::dvec3 x) {
         IndexSample<double> at = field(x);
-        at.n = std::max(at.n, 0.5 * n0);  // outside, that of the surface
+        at.n = std::max(at.n, 0.5 * n0);  // outside the ball, the index at its surface
         return at;
     };
     return sampled(ball, glm::dvec3(1.0625 * radius), arguments);
@@ -59,7 +59,7 @@ Volume make_rounded_cube(const ShapeArguments& arguments) {
     fill_solid(volume, arguments, distance);
     const int layers = arguments.whole("layers");
     if (layers == 1) return volume;
-    // Every second layer inside, all as thick, has an index of its own and no absorption.
+    // Every second layer inside has its own index and no absorption. All layers have the same thickness.
     const double thickness = half / layers, sigma = arguments.number("smoothing") * double(volume.voxel);
     const double other = arguments.number("other-ior"), ior = arguments.number("ior");
     std::vector<float> share;
@@ -78,8 +78,8 @@ Volume make_rounded_cube(const ShapeArguments& arguments) {
     return volume;
 }
 
-// Air over hot ground bends light up: its index rises with height to that of the air above (as refraction near the
-// horizon goes, exaggerated so that it shows over metres).
+// Air over hot ground bends light upwards: its index rises with height to that of the air above. The effect is real
+// refraction near the horizon, exaggerated to be visible over metres.
 Volume make_mirage(const ShapeArguments& arguments) {
     const double length = arguments.number("length"), height = arguments.number("height");
     const double contrast = arguments.number("contrast"), scale = arguments.number("scale");

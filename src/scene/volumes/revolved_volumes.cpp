@@ -8,8 +8,8 @@
 namespace pellucid {
 namespace {
 
-/// Signed distances (positive outside) from a closed outline in the half plane of distance from the axis and height, on a
-/// grid, interpolated linearly.
+/// Signed distances (positive outside) to a closed outline in the half plane (distance from the axis, height),
+/// tabulated on a grid and interpolated linearly.
 class OutlineDistance {
 public:
     OutlineDistance(const std::vector<glm::dvec2>& outline, glm::dvec2 low, glm::dvec2 high, double spacing)
@@ -42,7 +42,7 @@ private:
             const double t = std::clamp(glm::dot(p - a, way) / std::max(glm::dot(way, way), 1e-30), 0.0, 1.0);
             const glm::dvec2 off = p - a - t * way;
             squared = std::min(squared, glm::dot(off, off));
-            // A ray outwards, away from the axis, which is no part of the outline.
+            // Test a ray away from the axis. The axis is not part of the outline.
             if ((a.y > p.y) != (outline[i + 1].y > p.y) && p.x < a.x + (p.y - a.y) / way.y * way.x) inside = !inside;
         }
         return (inside ? -1.0 : 1.0) * std::sqrt(squared);

@@ -1,5 +1,5 @@
-// Volumes in OpenVDB files (Museth, VDB: High-resolution sparse volumes with dynamic topology, 2013). The one file that
-// sees OpenVDB's headers.
+// Volumes in OpenVDB files (Museth, VDB: High-resolution sparse volumes with dynamic topology, 2013). This is the only
+// file that includes OpenVDB's headers.
 #include "core/fail.h"
 #include "core/file.h"
 #include "optics/index_fields.h"
@@ -26,11 +26,12 @@ namespace {
 namespace vdb = openvdb;
 namespace fs = std::filesystem;
 
-// What our files say of the box, whose first voxel is (0, 0, 0): OpenVDB keeps only voxels that differ from the background.
+// Metadata of our files with the size of the box, whose first voxel is (0, 0, 0). OpenVDB itself stores only voxels
+// that differ from the background.
 constexpr const char* kVoxels = "pellucid_voxels";
 constexpr std::int64_t kMostVoxels = 65536;  // along an axis
 
-/// A field of numbers, or one of colours, by its name.
+/// Access to a scalar or colour field by its name.
 struct FieldAccess {
     const char* name;
     std::vector<float> Volume::*number;
@@ -60,10 +61,10 @@ std::string field_names() {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// A grid's name in a message; it may be empty.
+/// A grid's name for a message; the name may be empty.
 std::string quoted(const std::string& name) { return fmt::format("'{}'", one_line(name)); }
 
-/// Bytes of a value when it is laid out densely.
+/// Bytes of a value in dense storage.
 std::size_t value_size(const vdb::GridBase& grid) {
     const bool twice = grid.isType<vdb::DoubleGrid>() || grid.isType<vdb::Vec3DGrid>();
     const bool vector = grid.isType<vdb::Vec3SGrid>() || grid.isType<vdb::Vec3DGrid>();
@@ -83,7 +84,7 @@ std::vector<typename Grid::ValueType> dense_values(const Grid& grid, const vdb::
     return values;
 }
 
-/// A grid's values over a box: `number(i, value)` or `color(i, value)` for each, as they are numbers or vectors.
+/// Visits a grid's values over a box: calls `number(i, value)` for scalars and `color(i, value)` for vectors.
 template <class Number, class Color>
 void visit_values(const fs::path& file, const vdb::GridBase& grid, const vdb::CoordBBox& box, const Number& number,
                   const Color& color) {
@@ -109,7 +110,7 @@ void visit_values(const fs::path& file, const vdb::GridBase& grid, const vdb::Co
 
 bool is_distance(const std::string& field) { return field == "level-set" || field == "distance"; }
 
-/// Distances to a surface say where it reflects; as a level set they become a solid of the index that the mapping gives.
+/// Adds the reflecting surface of a distance grid; a level set also adds a solid with the index of the mapping.
 void add_distances(const fs::path& file, Volume& volume, const MappedGrid& mapped, const vdb::CoordBBox& box) {
     const bool is_solid = mapped.mapping.field == "level-set";
     const std::size_t count = volume.voxel_count();
@@ -150,7 +151,7 @@ void add_field(const fs::path& file, Volume& volume, const MappedGrid& mapped, c
     visit_values(file, *mapped.grid, box, number, color);
 }
 
-/// Grids that the mapping names, or else those named as fields are.
+/// Grids named by the mapping, or else grids with the names of fields.
 std::vector<MappedGrid> choose_grids(const fs::path& file, const vdb::GridPtrVec& grids,
                                      std::span<const GridMapping> mapping) {
     std::vector<std::string> present;
@@ -179,8 +180,8 @@ std::vector<MappedGrid> choose_grids(const fs::path& file, const vdb::GridPtrVec
     return chosen;
 }
 
-/// The voxels of a grid: of our files as they were saved, of others a voxel around what is active, so that densities fall
-/// to the background at the faces.
+/// The voxels of a grid. Our files store their box. For other files it is the box of active voxels plus one voxel
+/// around it, so that densities fall to the background at the faces.
 vdb::CoordBBox box_of(const vdb::GridBase& grid) {
     const auto size = grid.getMetadata<vdb::Vec3IMetadata>(kVoxels);
     if (size) return {vdb::Coord(0), vdb::Coord(size->value()).offsetBy(-1)};
@@ -189,7 +190,7 @@ vdb::CoordBBox box_of(const vdb::GridBase& grid) {
     return box;
 }
 
-/// Voxels along the axes of a box that may be what a damaged file says.
+/// Size of a box in voxels. Throws Error for sizes that only a damaged file contains.
 glm::uvec3 size_of(const fs::path& file, const vdb::CoordBBox& box) {
     glm::uvec3 size;
     for (int k = 0; k < 3; ++k) {
@@ -202,7 +203,7 @@ glm::uvec3 size_of(const fs::path& file, const vdb::CoordBBox& box) {
     return size;
 }
 
-/// Cubes along the axes, or nothing that a Volume can be.
+/// Throws Error unless voxels are cubes along the axes.
 void check_transform(const fs::path& file, const vdb::math::Transform& transform) {
     const double edge = transform.voxelSize()[0];
     bool cubes = transform.isLinear() && edge > 0.0 && std::isfinite(edge);
@@ -219,7 +220,7 @@ void check_transform(const fs::path& file, const vdb::math::Transform& transform
 vdb::GridPtrVecPtr read_grids(const fs::path& file) {
     vdb::initialize();
     std::ifstream stream(file, std::ios::binary);
-    stream.exceptions(std::ios::badbit | std::ios::failbit);  // the library takes what is cut off for zeros
+    stream.exceptions(std::ios::badbit | std::ios::failbit);  // the library would read truncated data as zeros
     return vdb::io::Stream(stream, false).getGrids();
 }
 

@@ -30,7 +30,7 @@ void check_field(const Volume& volume, const char* field, const std::vector<T>& 
 bool is_amount(float value) { return value >= 0.0f && std::isfinite(value); }
 bool is_amount(const glm::vec3& v) { return is_amount(v.x) && is_amount(v.y) && is_amount(v.z); }
 
-/// Bytes that can be had without swapping; 0 where the system does not say.
+/// Memory available without swapping, bytes; 0 if the system does not report it.
 double free_bytes() {
     std::ifstream file("/proc/meminfo");
     std::string word;
@@ -40,7 +40,7 @@ double free_bytes() {
     return 0.0;
 }
 
-/// One axis of a Gaussian over the grid: `step` is from voxel to voxel along it.
+/// Smooths along one axis of the grid. `weights`: one half of a symmetric kernel.
 void smooth_axis(const Volume& volume, std::vector<float>& values, int axis, const std::vector<double>& weights) {
     const std::size_t steps[3] = {1, volume.size.x, std::size_t(volume.size.x) * volume.size.y};
     const std::size_t step = steps[axis];

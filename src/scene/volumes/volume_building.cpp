@@ -10,7 +10,7 @@
 namespace pellucid {
 namespace {
 
-/// 0..1, from a hash of a lattice point: the numbers of xxHash's finish.
+/// Pseudo-random number 0..1 of a lattice point, by the constants of xxHash's finalisation.
 double lattice_number(glm::ivec3 at) {
     std::uint32_t h =
         std::uint32_t(at.x) * 0x9e3779b1u ^ std::uint32_t(at.y) * 0x85ebca77u ^ std::uint32_t(at.z) * 0xc2b2ae3du;
@@ -61,7 +61,7 @@ Volume empty_grid(glm::dvec3 low, glm::dvec3 high, int resolution, std::size_t f
 double fractal_noise(glm::dvec3 x, double scale, int octaves) {
     double sum = 0.0, weight = 1.0, total = 0.0;
     for (int octave = 0; octave < octaves; ++octave, weight *= 0.5) {
-        // Every octave has a lattice of its own, so that no place is a corner of all.
+        // Offset the lattice of every octave, so that they share no corner.
         sum += weight * value_noise(x * std::exp2(octave) / scale + 17.31 * octave);
         total += weight;
     }
@@ -69,7 +69,7 @@ double fractal_noise(glm::dvec3 x, double scale, int octaves) {
 }
 
 float noise_factor(double share, double value) {
-    // Octaves add up to values about the middle; twice their distance from it fills the range.
+    // The sum of octaves concentrates around the middle; double its deviation to fill the range.
     return float(1.0 + share * std::clamp(2.0 * (2.0 * value - 1.0), -1.0, 1.0));
 }
 
@@ -99,7 +99,7 @@ void fill_solid(Volume& volume, const ShapeArguments& arguments, const std::func
     std::vector<float> inside;
     fill_field(volume, inside, [&](glm::dvec3 x) { return smoothed_inside(distance(x), sigma); });
     volume.boundary.resize(inside.size());
-    // The smoothed Dirac delta is the slope of what is inside, here with a height of 1.
+    // The smoothed Dirac delta is the slope of the smoothed inside, scaled to a height of 1.
     for_each_slice(volume, [&](unsigned z) {
         const std::size_t slice = std::size_t(volume.size.x) * volume.size.y;
         for (unsigned y = 0; y < volume.size.y; ++y)

@@ -9,19 +9,19 @@
 
 namespace pellucid {
 
-// What makers of volumes are made from; the table of names and parameters is in volume_makers.cpp.
+// Building blocks of volumes; volume_makers.cpp contains the table of names and parameters.
 
 /// Calls `slice(z)` for every layer of voxels, from several threads.
 void for_each_slice(const Volume& volume, const std::function<void(unsigned z)>& slice);
 
-/// The middle of a voxel in the volume's frame, m.
+/// Centre of a voxel in the volume's frame, m.
 glm::dvec3 voxel_center(const Volume& volume, unsigned x, unsigned y, unsigned z);
 
-/// An empty grid over a box, `resolution` voxels along its longest side. Throws Error if `fields` numbers a voxel do not
-/// fit into memory.
+/// An empty grid over a box, with `resolution` voxels along its longest side. Throws Error if `fields` floats per
+/// voxel do not fit into memory.
 Volume empty_grid(glm::dvec3 low, glm::dvec3 high, int resolution, std::size_t fields);
 
-/// Fills a field with `value(x)` at the middle of every voxel.
+/// Fills a field with `value(x)` at the centre of every voxel.
 template <class T, class Value>
 void fill_field(const Volume& volume, std::vector<T>& field, const Value& value) {
     field.resize(volume.voxel_count());
@@ -32,19 +32,18 @@ void fill_field(const Volume& volume, std::vector<T>& field, const Value& value)
     });
 }
 
-/// Noise of mean about 1/2, 0..1: octaves of smoothly interpolated random numbers on lattices (value noise), the widest of
-/// spacing `scale`, m, each half as wide and half as strong as the one before.
+/// Noise with mean about 1/2, 0..1: octaves of smoothly interpolated random numbers on lattices (value noise). The
+/// first octave has spacing `scale`, m; each further octave has half the spacing and half the weight.
 double fractal_noise(glm::dvec3 x, double scale, int octaves = 5);
 
-/// What noise of value 0..1 multiplies a medium by: within 1 - share..1 + share.
+/// Factor of a medium for noise of value 0..1: within 1 - share..1 + share.
 float noise_factor(double share, double value);
 
-/// Turns a signed distance (m, positive outside) into the index, boundary and medium of a solid, as the parameters ior,
-/// dispersion, red, green, blue, scattering, g, emitted-red, -green and -blue, noise, noise-scale and smoothing of
-/// `arguments` say.
+/// Converts a signed distance (m, positive outside) into the index, boundary and medium of a solid. `arguments`
+/// contains the parameters of with_solid_parameters().
 void fill_solid(Volume& volume, const ShapeArguments& arguments, const std::function<double(glm::dvec3)>& distance);
 
-/// Adds the parameters of fill_solid(), and resolution, to those of a maker.
+/// Appends the parameters of fill_solid(), and resolution, to a volume's own.
 std::vector<ShapeParameter> with_solid_parameters(std::vector<ShapeParameter> own);
 
 Volume make_luneburg(const ShapeArguments& arguments);

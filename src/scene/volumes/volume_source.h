@@ -11,11 +11,11 @@ namespace pellucid {
 
 inline constexpr std::string_view kVolumePrefix = "volume:";
 
-/// True for what open_volume() takes.
+/// True for sources that open_volume() accepts.
 bool names_volume(const std::string& source);
 
-/// A volume by what scenes call it: `volume:NAME[,PARAMETER=VALUE...]`, see make_volume(); or an OpenVDB file
-/// in `folder`, see load_volume(). Throws Error as these do.
+/// Opens a volume by its name in scenes: `volume:NAME[,PARAMETER=VALUE...]`, see make_volume(), or an OpenVDB file in
+/// `folder`, see load_volume(). Throws Error as these functions do.
 Volume open_volume(const std::string& source, const std::filesystem::path& folder = {},
                    std::span<const GridMapping> mapping = {});
 
