@@ -47,7 +47,7 @@ AccelerationStructure::AccelerationStructure(const Device& device, std::string n
                                                                  .maxVertex = std::max(triangles.vertex_count, 1u) - 1,
                                                                  .indexType = vk::IndexType::eUint32,
                                                                  .indexData = triangles.indices};
-    // Not opaque: shaders decide which triangles count.
+    // The geometry is not opaque, because shaders decide which triangles count.
     geometry_ = vk::AccelerationStructureGeometryKHR{.geometryType = vk::GeometryTypeKHR::eTriangles, .geometry = data};
     create(device, std::move(name), Type::eBottomLevel, use);
 }
@@ -85,7 +85,7 @@ vk::AccelerationStructureBuildGeometryInfoKHR AccelerationStructure::build_info(
             .pGeometries = &geometry_};
 }
 
-// A buffer's address may be less aligned than scratch memory has to be.
+// The extra bytes align the address, because a buffer's own alignment may be too small for scratch memory.
 BuildScratch::BuildScratch(const Device& device, vk::DeviceSize size)
     : buffer_(device, "scratch memory of acceleration structures", size + device.ray_tracing()->scratch_alignment,
               vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eShaderDeviceAddress),

@@ -7,19 +7,19 @@
 
 namespace pellucid {
 
-/// What an acceleration structure is made for.
+/// The use of an acceleration structure, which decides how it is built.
 enum class StructureUse {
-    kStatic,   ///< built once, traced often: a good tree over triangles that stay
-    kRefit,    ///< the same tree, its boxes fitted again to triangles that have moved
-    kRebuild,  ///< built anew in every frame: fast
+    kStatic,   ///< built once for fast tracing of static triangles
+    kRefit,    ///< built for fast tracing; refitted to moved triangles, with the same tree
+    kRebuild,  ///< rebuilt in every frame, with fast builds
 };
 
-/// One level of the hierarchy that rays go through (VkAccelerationStructureKHR): triangles of a mesh,
-/// or placements of such structures. Empty until Recorder::build(). Needs Device::ray_tracing().
+/// One level of a hierarchy for ray tracing (VkAccelerationStructureKHR): triangles of a mesh, or instances of such
+/// structures. Empty until Recorder::build(). Needs Device::ray_tracing().
 class AccelerationStructure {
 public:
-    /// Triangles: three 32-bit indices each into vertices `stride` bytes apart, which begin with their position
-    /// (3 floats).
+    /// Triangles with three 32-bit indices each. Vertices are `stride` bytes apart and begin with their position, 3
+    /// floats.
     struct Triangles {
         vk::DeviceAddress vertices;
         std::uint32_t stride;
@@ -32,19 +32,19 @@ public:
         vk::DeviceAddress records;
         std::uint32_t count;
     };
-    /// Throw Error if the device builds none of this size, naming `name`.
+    /// Throws Error, with `name`, if the device does not support this number of triangles or instances.
     AccelerationStructure(const Device& device, std::string name, Triangles triangles, StructureUse use);
     AccelerationStructure(const Device& device, std::string name, Instances instances, StructureUse use);
 
     vk::AccelerationStructureKHR handle() const { return *handles_->structure; }
     vk::DeviceAddress address() const { return address_; }
     ResourceId id() const { return handles_->storage.id(); }
-    /// As Buffer::held().
+    /// Like Buffer::held().
     std::shared_ptr<const void> held() const { return handles_; }
 
-    /// Bytes of scratch memory that building it, or refitting it, needs at most.
+    /// Largest scratch memory of a build or refit, bytes.
     vk::DeviceSize scratch_size() const { return scratch_size_; }
-    /// The build as vkCmdBuildAccelerationStructuresKHR wants it; pGeometries points into this object.
+    /// Arguments of vkCmdBuildAccelerationStructuresKHR. pGeometries points into this object.
     vk::AccelerationStructureBuildGeometryInfoKHR build_info(vk::BuildAccelerationStructureModeKHR mode) const;
     std::uint32_t primitive_count() const { return primitive_count_; }
 
@@ -64,11 +64,11 @@ private:
     vk::DeviceSize scratch_size_ = 0;
 };
 
-/// Scratch memory for builds that need `size` bytes at most.
+/// Scratch memory for builds that need up to `size` bytes.
 class BuildScratch {
 public:
     BuildScratch(const Device& device, vk::DeviceSize size);
-    vk::DeviceAddress address() const { return address_; }  ///< aligned as the device wants it
+    vk::DeviceAddress address() const { return address_; }  ///< with the alignment that the device needs
     ResourceId id() const { return buffer_.id(); }
     std::shared_ptr<const void> held() const { return buffer_.held(); }
 

@@ -1,11 +1,11 @@
 #ifndef PELLUCID_GPU_APPEARANCE_GLSL
 #define PELLUCID_GPU_APPEARANCE_GLSL
 
-// What textures and colours want to know of a vertex; see gpu_scene.h. Needs: appearance (float[]).
+// Texture coordinates and colours of vertices; see gpu_scene.h. Needs: appearance (float[]).
 
 const uint kAppearanceStride = 5u;
 
-// Both sets.
+// Texture coordinates of both sets.
 vec4 vertex_texcoords(uint vertex) {
     uint at = kAppearanceStride * vertex;
     return vec4(appearance[at], appearance[at + 1u], appearance[at + 2u], appearance[at + 3u]);

@@ -21,7 +21,7 @@ void check_access(const Program& program, const BindingSlot& slot, const Binding
                                        access_name(reads_it, writes_it)));
 }
 
-/// What the pass binds itself comes before what groups have.
+/// The pass's own bindings take precedence over those of groups.
 const Binding* find_binding(Bindings bindings, std::string_view name) {
     const Binding* found = nullptr;
     for (const Binding& binding : bindings) {

@@ -37,23 +37,24 @@ inline Binding writes(std::string_view name, const GpuImage& i) { return {name, 
 inline Binding updates(std::string_view name, const Buffer& b) { return {name, Access::kReadWrite, &b, nullptr, {}}; }
 inline Binding updates(std::string_view name, const GpuImage& i) { return {name, Access::kReadWrite, nullptr, &i, {}}; }
 
-/// Stands for those of a group that the shader declares, in the way in which it declares them.
+/// Represents the bindings of a group that the shader declares, with the access that the shader declares.
 inline Binding all_of(const std::vector<Binding>& group) { return {.name = {}, .access = {}, .group = &group}; }
 
-/// Those of a pass, from a list in braces or any row of them.
+/// The bindings of a pass, from a list in braces, a span or a vector.
 struct Bindings : std::span<const Binding> {
     Bindings(std::initializer_list<Binding> list) : std::span<const Binding>(list.begin(), list.size()) {}
     Bindings(std::span<const Binding> row) : std::span<const Binding>(row) {}
     Bindings(const std::vector<Binding>& row) : std::span<const Binding>(row) {}
 };
 
-/// The binding of a pass for a slot of its program; its kind is checked. Throws std::logic_error, naming both
-/// sides.
+/// The binding of a pass for a slot of its program. Throws std::logic_error, naming both sides, if it is missing or of
+/// the wrong kind.
 const Binding& binding_of(const Program& program, const BindingSlot& slot, Bindings bindings);
-/// Throws std::logic_error if the pass itself binds what the shaders do not declare, or in another way, or anything twice.
+/// Throws std::logic_error if one of the pass's own bindings is undeclared in the shaders, has another access there, or
+/// is bound twice.
 void check_own(const Program& program, Bindings bindings);
 
-/// Where and how shaders use what is bound to a slot.
+/// The stages in which shaders use a slot, and their access.
 vk::PipelineStageFlags2 stages_of(const BindingSlot& slot);
 vk::AccessFlags2 access_of(const BindingSlot& slot);
 

@@ -2,7 +2,7 @@
 #define PELLUCID_GPU_CAMERA_GLSL
 
 // The camera, in view space: right-handed, looking along -Z, depth = -z in metres.
-// A picture is drawn in tiles, a small one in one. Pixels count from the tile's corner unless said otherwise.
+// An image is drawn in one or more tiles. Pixels count from the tile's corner unless stated otherwise.
 // Needs: frame (FrameConstants).
 
 struct Ray {
@@ -10,11 +10,11 @@ struct Ray {
     vec3 direction;  // unit
 };
 
-// Of the tile, in the whole picture.
+// First pixel of the tile, in the whole image.
 ivec2 first_pixel() { return ivec2(frame.first_x, frame.first_y); }
 
 vec2 film_point(vec2 pixel) {
-    pixel += vec2(first_pixel());  // exact: every tile gets the rays of the whole picture
+    pixel += vec2(first_pixel());  // exact, so every tile gets the rays of the whole image
     return vec2(frame.film.x + pixel.x * frame.film.z, frame.film.y - pixel.y * frame.film.w);
 }
 
@@ -30,7 +30,7 @@ vec3 view_position(vec2 pixel, float depth) {
     return vec3(frame.orthographic != 0u ? p : p * depth, -depth);
 }
 
-// Pixel coordinate, in the whole picture, of a view-space point in front of the camera (depth > 0 for perspective).
+// Pixel coordinate, in the whole image, of a view-space point in front of the camera (depth > 0 for perspective).
 vec2 project_to_picture(vec3 position) {
     vec2 p = frame.orthographic != 0u ? position.xy : position.xy / -position.z;
     return vec2(p.x - frame.film.x, frame.film.y - p.y) / frame.film.zw;

@@ -20,7 +20,7 @@ std::uint32_t CountedBuffer::limit(const Device& device) const {
     const vk::DeviceSize texels = texels_ == vk::Format::eUndefined
                                       ? bytes
                                       : vk::DeviceSize(device.limits().maxTexelBufferElements) * texel_size(texels_);
-    // Shaders number items by signed integers.
+    // Shaders use signed integers for item numbers.
     return std::uint32_t(std::min<vk::DeviceSize>((std::min(bytes, texels) - kHeaderSize) / item_size_, 0x7ffffff0u));
 }
 

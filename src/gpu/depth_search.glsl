@@ -1,15 +1,14 @@
 #ifndef PELLUCID_GPU_DEPTH_SEARCH_GLSL
 #define PELLUCID_GPU_DEPTH_SEARCH_GLSL
 
-// Where a ray meets the surfaces of a depth image, first in linear, then in binary steps (Wyman, "Interactive Image-Space
-// Refraction of Nearby Geometry", 2005). Needs: gpu/frame.glsl, and `float stored_depth(ivec2 texel)`: m along the view's
-// axis.
+// Intersects a ray with a depth image by linear, then binary steps (Wyman, "Interactive Image-Space Refraction of
+// Nearby Geometry", 2005). Needs: gpu/frame.glsl, and `float stored_depth(ivec2 texel)`, m along the view's axis.
 #include "gpu/stretch.glsl"
 
 bool is_behind(Stretch s, float share) { return depth_at(s, share) > stored_depth(texel_at(s, share)); }
 
-// Whether the depths on two sides of a change are of one surface: their difference is no more than that to the next
-// texel beyond. Otherwise the ray passes behind the edge of something.
+// Whether the texels before and after a crossing show one surface. Their depths must not differ by more than twice the
+// difference to the next texel. Otherwise the ray passes behind the edge of an object.
 bool one_surface(ivec2 front, ivec2 behind) {
     if (front == behind) return true;
     float at_behind = stored_depth(behind);
@@ -18,8 +17,8 @@ bool one_surface(ivec2 front, ivec2 behind) {
     return abs(stored_depth(front) - at_behind) <= 2.0 * slope + 1e-4 * at_behind;
 }
 
-// Share of the stretch at which it meets an opaque surface from in front; negative: nowhere. `behind` is kept from
-// stretch to stretch.
+// Share of the stretch at which it meets an opaque surface from in front; negative: no hit. `behind`: whether the ray
+// is behind the depth image; pass it on from stretch to stretch.
 float search(Stretch s, uint linear_steps, uint binary_steps, inout bool behind) {
     float end = share_within_picture(s), before = 0.0;
     if (end < 0.0) return -1.0;

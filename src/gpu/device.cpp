@@ -216,7 +216,7 @@ Device::Device(const vulkan::LentDevice& lent) : messages_(std::make_unique<std:
 
 Device::~Device() { give_back(); }
 
-/// Leaves to the caller what is the caller's.
+/// Releases the caller's handles without destroying them.
 void Device::give_back() {
     if (!lent_) return;
     device_.release();

@@ -24,10 +24,10 @@ struct RayTracingLimits {
     std::uint64_t max_instances;
 };
 
-/// Words that a buffer gets at the beginning of the next frame; see upload_later() in gpu/memory.h.
+/// Data that is copied to a buffer at the beginning of the next frame; see upload_later() in gpu/memory.h.
 struct PendingUpload {
     vk::Buffer buffer;
-    std::uint64_t id;                  ///< its ResourceId
+    std::uint64_t id;                  ///< ResourceId of the buffer
     std::shared_ptr<const void> held;  ///< Buffer::held()
     std::vector<std::byte> data;
     vk::DeviceSize offset;
@@ -41,7 +41,7 @@ class Device {
 public:
     /// Throws DeviceError if no device fits, Error if `options.device` names none.
     explicit Device(const DeviceOptions& options);
-    /// A device of the caller's. Throws DeviceError if it was not made with what Pellucid needs.
+    /// Wraps the caller's device. Throws DeviceError if it was created without features that Pellucid needs.
     explicit Device(const vulkan::LentDevice& lent);
     ~Device();
     Device(const Device&) = delete;
@@ -64,27 +64,27 @@ public:
     bool float_blending() const { return float_blending_; }
     /// 64-bit integers in shaders and atomics on them in storage buffers, which light in volumes needs.
     bool long_atomics() const { return long_atomics_; }
-    /// Ray queries and acceleration structures; nothing where the device has none.
+    /// Limits of ray queries and acceleration structures; nullopt if the device has none.
     const std::optional<RayTracingLimits>& ray_tracing() const { return ray_tracing_; }
-    /// Nanoseconds per timestamp tick; 0 where the queue has no timestamps.
+    /// Nanoseconds per timestamp tick; 0 if the queue has no timestamps.
     double timestamp_period_ns() const { return timestamp_period_ns_; }
     bool debug_labels() const { return debug_labels_; }
 
-    /// Memory type that fits `type_bits` and has all of `required`, preferring `preferred` as well.
+    /// A memory type in `type_bits` with all flags of `required` and, if possible, those of `preferred`.
     std::uint32_t memory_type(std::uint32_t type_bits, vk::MemoryPropertyFlags required,
                               vk::MemoryPropertyFlags preferred = {}) const;
 
-    /// What has been made on it so far.
+    /// Vulkan objects created on this device so far.
     vulkan::Made& made() const { return *made_; }
     void add_upload(PendingUpload upload) const { uploads_->push_back(std::move(upload)); }
-    /// Puts them before those that have been added since they were taken.
+    /// Returns taken uploads. They go before uploads that were added since.
     void give_uploads_back(std::vector<PendingUpload> taken) const {
         uploads_->insert(uploads_->begin(), std::make_move_iterator(taken.begin()),
                          std::make_move_iterator(taken.end()));
     }
     std::vector<PendingUpload> take_uploads() const { return std::exchange(*uploads_, {}); }
 
-    /// What the validation layer has said so far, in order.
+    /// Messages of the validation layer so far, in order.
     const std::vector<std::string>& validation_messages() const { return *messages_; }
 
 private:
@@ -95,7 +95,7 @@ private:
     void give_back();
 
     vk::raii::Context context_;
-    std::unique_ptr<std::vector<std::string>> messages_;  // its address is given to the messenger
+    std::unique_ptr<std::vector<std::string>> messages_;  // the messenger has its address
     vk::raii::Instance instance_ = nullptr;
     vk::raii::DebugUtilsMessengerEXT messenger_ = nullptr;
     vk::raii::Device device_ = nullptr;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<const char*, 3> kRayTracingExtensions = {
     VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
-    VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,  // the first needs it; nothing is deferred here
+    VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,  // required by the first; unused otherwise
 };
 
 bool has_long_atomics(const vk::raii::PhysicalDevice& physical) {
@@ -22,7 +22,7 @@ bool has_long_atomics(const vk::raii::PhysicalDevice& physical) {
            chain.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics;
 }
 
-/// The structure of a chain that has the type of `Structure`; null: there is none.
+/// The structure of type `type` in a chain, or null.
 template <class Structure>
 const Structure* in_chain(const VkPhysicalDeviceFeatures2* features, VkStructureType type) {
     for (auto* each = reinterpret_cast<const VkBaseInStructure*>(features); each != nullptr; each = each->pNext)
@@ -51,7 +51,8 @@ bool has_ray_tracing(const vk::raii::PhysicalDevice& physical) {
     const auto available = physical.enumerateDeviceExtensionProperties();
     std::vector<const char*> names;
     for (const vk::ExtensionProperties& each : available) names.push_back(each.extensionName);
-    if (!all_in(kRayTracingExtensions, names)) return false;  // the features below may not even be asked for
+    if (!all_in(kRayTracingExtensions, names))
+        return false;  // without the extensions, querying their features is not allowed
     const auto chain =
         physical
             .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,

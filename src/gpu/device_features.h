@@ -11,24 +11,24 @@
 
 namespace pellucid {
 
-/// Families that do graphics and compute; nothing if there is none.
+/// The first queue family with graphics and compute, if any.
 std::optional<std::uint32_t> universal_queue_family(const vk::raii::PhysicalDevice& physical);
-/// Ray queries and acceleration structures.
+/// Whether the device has ray queries and acceleration structures.
 bool has_ray_tracing(const vk::raii::PhysicalDevice& physical);
-/// What Pellucid cannot do without and a device lacks, in Vulkan's words.
+/// Vulkan names of the features that Pellucid requires and the device lacks.
 std::vector<std::string> missing_features(const vk::raii::PhysicalDevice& physical);
 
-/// What a device was made with.
+/// The features with which a device was created.
 struct TurnedOn {
     bool dynamic_rendering = false, synchronization2 = false, maintenance4 = false;
     bool fragment_atomics = false;  ///< fragmentStoresAndAtomics
     bool long_atomics = false;      ///< 64-bit integers in shaders, and atomics on them in buffers
     bool ray_tracing = false;
 
-    /// Those that Pellucid cannot do without, in Vulkan's words.
+    /// Vulkan names of the required features that are off.
     std::vector<std::string> missing() const;
 };
-/// `features`: the chain that was given to vkCreateDevice.
+/// `features`, `extensions`: as given to vkCreateDevice.
 TurnedOn turned_on(const VkPhysicalDeviceFeatures2* features, std::span<const char* const> extensions);
 
 }  // namespace pellucid

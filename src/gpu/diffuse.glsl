@@ -1,7 +1,7 @@
 #ifndef PELLUCID_GPU_DIFFUSE_GLSL
 #define PELLUCID_GPU_DIFFUSE_GLSL
 
-// Light of the environment that a diffuse surface scatters. Needs: frame (FrameConstants).
+// Radiance that a diffuse surface reflects from the environment. Needs: frame (FrameConstants).
 #include "scene/irradiance.glsl"
 
 vec3 diffuse_radiance(vec3 albedo, vec3 normal) {

@@ -1,5 +1,5 @@
 #version 460
-// Computes how many workgroups of 64 go through the items of a counted buffer (counted_buffer.h).
+// Computes the number of workgroups of 64 for the items of a counted buffer (counted_buffer.h).
 layout(local_size_x = 1) in;
 layout(std430, set = 0, binding = 0) readonly buffer Counted { uint count; };
 layout(std430, set = 0, binding = 1) writeonly buffer Groups { uint groups[3]; };

@@ -1,10 +1,10 @@
 #ifndef PELLUCID_GPU_EMITTED_RADIANCE_GLSL
 #define PELLUCID_GPU_EMITTED_RADIANCE_GLSL
 
-// Needs: what gpu/texture.glsl needs.
+// Needs: everything that gpu/texture.glsl needs.
 #include "gpu/texture.glsl"
 
-// Of a material at texture coordinates of two sets.
+// Emitted radiance of a material at texture coordinates of two sets.
 vec3 emitted_radiance(MaterialRecord material, vec2 first_set, vec2 second_set) {
     return material.emission.rgb * sample_texture(material.emission_texture, first_set, second_set).rgb;
 }

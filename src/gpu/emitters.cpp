@@ -21,7 +21,7 @@ bool emits_light(const Material& material) {
 
 std::vector<EmitterRecord> emitters_of(const Scene& scene, std::span<const std::uint32_t> first_triangles) {
     std::vector<EmitterRecord> emitters;
-    std::vector<double> emissions, powers;  // per triangle; a power without factors that all have
+    std::vector<double> emissions, powers;  // per triangle; powers omit common factors
     double total = 0.0;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];

@@ -2,13 +2,13 @@
 #define PELLUCID_GPU_ENVIRONMENT_GLSL
 
 // Light from infinitely far away; twin of scene/environment.cpp.
-// `vec3 procedural_radiance(uint kind, vec3 uniform_radiance, vec3 d)` comes with the formulas.
+// scene/environment_formulas.glsl defines `vec3 procedural_radiance(uint kind, vec3 uniform_radiance, vec3 d)`.
 // Includers with a map need `#extension GL_EXT_samplerless_texture_functions : require`.
 
 #include "scene/environment_formulas.glsl"
 
-// Radiance of an equirectangular map from direction d: bilinear, wrapping in u, clamped in v, texel
-// centres at (i + 1/2) / size. By hand, because filtering of 32-bit float images is optional.
+// Radiance of an equirectangular map from direction d: bilinear, wrapping in u, clamped in v, texel centres at
+// (i + 1/2) / size. The shader interpolates, because hardware filtering of 32-bit float images is optional.
 vec3 map_radiance(texture2D map, vec3 d) {
     ivec2 size = textureSize(map, 0);
     vec2 position = equirect_from_direction(d) * vec2(size) - 0.5;
@@ -26,7 +26,7 @@ vec3 map_radiance(texture2D map, vec3 d) {
     return mix(upper, lower, weight.y);
 }
 
-// Where an environment stands, and how bright it is: cosine and sine of its rotation about +Y, and its intensity.
+// Cosine and sine of an environment's rotation about +Y, and its intensity.
 struct EnvironmentPlacement {
     float cosine, sine, intensity;
 };

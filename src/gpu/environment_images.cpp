@@ -17,12 +17,12 @@ GpuImage sampled_image(const Device& device, const char* name, vk::Extent2D exte
     return {device, name, kFormat, extent, 1, Usage::eSampled | Usage::eStorage | Usage::eTransferSrc};
 }
 
-/// Samples along the side of a texel of the pyramid: closer than the map's texels, so that none is missed.
+/// Samples along the side of a pyramid texel. They are denser than the map's texels, so that no texel is missed.
 std::uint32_t samples_per_side(const Environment& environment) {
     constexpr std::uint32_t kOfFormula = 4, kLeast = 4, kMost = 32;
     if (environment.kind != Environment::Kind::kMap) return kOfFormula;
-    // The widest texels, in the middle of an octahedron's face, see sqrt(3 sqrt(3)) * 2 / size radians.
-    constexpr float kTexelsAround = 2.7563f * float(kPyramidSize);  // 2 pi / that
+    // The widest texels, at the centre of an octahedron's face, span sqrt(3 sqrt(3)) * 2 / size radians.
+    constexpr float kTexelsAround = 2.7563f * float(kPyramidSize);  // 2 pi divided by that angle
     return std::clamp(std::uint32_t(2.0f * float(environment.map.width) / kTexelsAround), kLeast, kMost);
 }
 

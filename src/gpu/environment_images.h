@@ -8,7 +8,7 @@
 
 namespace pellucid {
 
-/// Fills what shaders have to know of the environment beside its map.
+/// Fills the environment part of `constants`, which is everything but the map.
 void set_environment(gpu::FrameConstants& constants, const Environment& environment);
 
 /// The environment's map, or one black texel if it is a formula; bound as "environment_map".
@@ -17,13 +17,13 @@ GpuImage upload_environment(const Device& device, const Environment& environment
 /// The environment as rough surfaces reflect it, for gpu/filtered_environment.glsl.
 struct FilteredEnvironment {
     explicit FilteredEnvironment(const Device& device);
-    /// Records; the images hold it once the recording has run. `map` is what upload_environment() made of it.
+    /// Records the filtering; the images are valid once the recording has run. `map`: result of upload_environment().
     void filter(Workspace& workspace, Recorder& recorder, const Environment& environment, const GpuImage& map) const;
 
     GpuImage pyramid, filtered;
 };
 
-/// What stands in for it where nothing is rough; undefined.
+/// A placeholder for scenes without rough surfaces. Its contents are undefined.
 GpuImage no_filtered_environment(const Device& device);
 
 }  // namespace pellucid

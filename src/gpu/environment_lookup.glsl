@@ -1,11 +1,11 @@
 #ifndef PELLUCID_GPU_ENVIRONMENT_LOOKUP_GLSL
 #define PELLUCID_GPU_ENVIRONMENT_LOOKUP_GLSL
 
-// Radiance of the environment that is set. Needs: frame, environment_map (texture2D).
+// Radiance of the current environment. Needs: frame, environment_map (texture2D).
 #include "gpu/environment.glsl"
 
-// Programs that are made for one kind of environment define PELLUCID_ENVIRONMENT_KIND: some drivers run all kinds
-// for every pixel otherwise.
+// Programs for one kind of environment define PELLUCID_ENVIRONMENT_KIND. Otherwise some drivers evaluate all kinds for
+// every pixel.
 #ifndef PELLUCID_ENVIRONMENT_KIND
 #define PELLUCID_ENVIRONMENT_KIND frame.environment_kind
 #endif

@@ -1,8 +1,8 @@
 #ifndef PELLUCID_GPU_ENVIRONMENT_PYRAMID_GLSL
 #define PELLUCID_GPU_ENVIRONMENT_PYRAMID_GLSL
 
-// Octahedral maps of the environment's mean radiance (rgb) and of what their texels see (a: solid angle, sr), each
-// half as wide as the one before: the first at the image's left, the others below each other at its right.
+// Octahedral maps of the environment: mean radiance (rgb) and solid angle (a, sr) per texel. Each level is half as wide
+// as the one before. The first level is at the image's left, the others are below each other at its right.
 
 const int kPyramidSize = PELLUCID_PYRAMID_SIZE;
 

@@ -24,13 +24,13 @@ struct Grid {
     std::vector<double> cells;
 };
 
-/// Integral up to `x` of the tent by which linear interpolation spreads a texel at 0.
+/// Integral up to `x` of the tent filter of linear interpolation for a texel at 0.
 double tent_up_to(double x) {
     x = std::clamp(x, -1.0, 1.0);
     return x < 0.0 ? 0.5 * (1.0 + x) * (1.0 + x) : 1.0 - 0.5 * (1.0 - x) * (1.0 - x);
 }
 
-/// Means over `count` cells of a row of values between which one interpolates linearly.
+/// Means of a linearly interpolated row of values over `count` equal cells.
 std::vector<double> means(const std::vector<double>& values, int count, bool wraps) {
     const int n = int(values.size());
     const double width = double(n) / count;
@@ -84,7 +84,7 @@ Grid tabulate_formula(Environment environment) {
     return grid;
 }
 
-/// Appends the running shares of the weights; returns their sum.
+/// Appends the cumulative shares of the weights. Returns the sum of the weights.
 double append_shares(const double* weights, int count, std::vector<std::uint32_t>& words) {
     double sum = 0.0, running = 0.0;
     for (int i = 0; i < count; ++i) sum += weights[i];

@@ -1,15 +1,15 @@
 #ifndef PELLUCID_GPU_ENVIRONMENT_SHARES_GLSL
 #define PELLUCID_GPU_ENVIRONMENT_SHARES_GLSL
 
-// Directions chosen by the environment's light (environment_shares.h). Needs: gpu/frame.glsl.
-// Of the rows, then of the cells in each row: the probability of those up to and including it.
+// Samples directions in proportion to the environment's light (environment_shares.h). Needs: gpu/frame.glsl.
+// `shares` holds cumulative probabilities: first of the rows, then of the cells in each row.
 layout(std430, set = 0, binding = 56) readonly buffer EnvironmentShares {
     uint share_columns, share_rows;
     float shares[];
 };
 
-// The first of `count` shares from `first` on that exceeds `choice`, 0..1. `within`: where in its interval `choice` lies, 0..1;
-// `share`: its probability.
+// Index of the first of `count` cumulative shares from `first` on that exceeds `choice`, 0..1. `within`: position of
+// `choice` in the interval of that share, 0..1. `share`: probability of the interval.
 uint chosen_share(uint first, uint count, float choice, out float within, out float share) {
     uint low = 0u, high = count - 1u;
     while (low < high) {
@@ -25,7 +25,7 @@ uint chosen_share(uint first, uint count, float choice, out float within, out fl
     return low;
 }
 
-// A unit direction away from the scene; `pdf`: per steradian. `u`: 0..1. Uniform within a cell.
+// Samples a unit direction towards the environment, uniform within a cell. `pdf`: per steradian. `u`: 0..1.
 vec3 sample_environment(vec2 u, out float pdf) {
     const float kPi = 3.14159265;
     float down, across, row_share, share;

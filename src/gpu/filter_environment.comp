@@ -1,8 +1,7 @@
 #version 460
-// The environment as rough surfaces blur it: the mean over the GGX lobe of reflection seen along the normal. Facets are
-// sampled in proportion to their visible area (Walter et al. 2007), and each sample takes the mean over the solid
-// angle that it stands for (Krivanek & Colbert, "Real-time shading with filtered importance sampling", 2008), so that
-// a small sun leaves no specks.
+// Filters the environment for rough surfaces: the mean over the GGX reflection lobe, seen along the normal. Facets are
+// sampled in proportion to their visible area (Walter et al. 2007). Each sample takes the mean over its solid angle, so
+// that a small sun leaves no specks (Krivanek & Colbert, "Real-time shading with filtered importance sampling", 2008).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/structs.h"
@@ -33,7 +32,7 @@ vec3 mean_over_lobe(vec3 direction, float roughness, uint count) {
     for (uint i = 0u; i < count; ++i) {
         vec2 u = spread_point(i, count);
         float tan2 = alpha2 * u.x / (1.0 - u.x);  // of the facet's slope
-        if (tan2 >= 1.0) break;                   // light from below; slopes grow with i
+        if (tan2 >= 1.0) break;                   // the light comes from below; slopes grow with i
         float cos2 = 1.0 / (1.0 + tan2), angle = 2.0 * kPi * u.y;
         float cos_light = 2.0 * cos2 - 1.0, sin_light = sqrt(max(1.0 - cos_light * cos_light, 0.0));
         vec3 light = world_from_lobe * vec3(sin_light * cos(angle), sin_light * sin(angle), cos_light);
@@ -41,9 +40,9 @@ vec3 mean_over_lobe(vec3 direction, float roughness, uint count) {
         float density = alpha2 / (4.0 * kPi * spread * spread);  // of `light`, per steradian
         vec3 point = light / (abs(light.x) + abs(light.y) + abs(light.z));
         float texels = 1.0 / (float(count) * density * octahedral_texel_solid_angle(point, kPyramidSize));
-        // Half a level coarser than that, for samples to overlap.
+        // Use a level that is half a level coarser, so that samples overlap.
         int level = clamp(int(0.5 * log2(texels) + 1.0), 0, kCoarsest);
-        // Smith's share of the light that other facets do not shadow.
+        // Smith's masking: share of the light that other facets do not shadow.
         float shadowing = 2.0 / (1.0 + sqrt(1.0 + alpha2 * (1.0 / (cos_light * cos_light) - 1.0)));
         vec3 radiance = octahedral_map_value(pyramid, pyramid_corner(level), pyramid_size(level), light).rgb;
         sum += shadowing * vec4(radiance, 1.0);
@@ -58,7 +57,7 @@ void main() {
         int size = filter_level_size(level);
         if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(size)))) continue;
         vec3 direction = normalize(octahedron_point((2.0 * vec2(texel) + 1.0) / float(size) - 1.0));
-        uint count = min(32u << uint(level), 1024u);  // the wider the lobe, the more samples and the fewer texels
+        uint count = min(32u << uint(level), 1024u);  // wider lobes need more samples and have fewer texels
         float roughness = float(level) / float(PELLUCID_FILTER_LEVELS);
         imageStore(filtered_environment, ivec3(at, 0), vec4(mean_over_lobe(direction, roughness, count), 1.0));
         return;

@@ -1,5 +1,5 @@
 #version 460
-// One level of the environment's pyramid from the next finer one. No light is lost or gained.
+// Computes a level of the environment's pyramid from the next finer one. No light is lost or gained.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/structs.h"
 #include "gpu/environment_pyramid.glsl"

@@ -1,9 +1,9 @@
 #ifndef PELLUCID_GPU_LIGHT_PARTS_GLSL
 #define PELLUCID_GPU_LIGHT_PARTS_GLSL
 
-// The part of a picture that light belongs to, by what it has met on its way to the eye: in Heckbert's notation, D all that
-// is not smooth, `emitted` is E S* L, `direct` E S* D L, `caustic` E S* D S+ L, and `indirect` E S* D (S* D)+ S* L.
-// Needs: gpu/frame.glsl.
+// Parts of an image's light, by the surfaces on the path to the eye. In Heckbert's notation, with D for every surface
+// that is not smooth: `emitted` is E S* L, `direct` E S* D L, `caustic` E S* D S+ L, and `indirect` E S* D (S* D)+ S*
+// L. Needs: gpu/frame.glsl.
 
 // Whether the frame draws light of this part.
 bool draws_part(uint part) { return frame.light_part == PELLUCID_ALL_LIGHT || frame.light_part == part; }

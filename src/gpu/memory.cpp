@@ -42,7 +42,7 @@ vk::raii::DeviceMemory allocate(const Device& device, const std::string& name, c
     }
 }
 
-/// Records, submits and waits. For uploads and downloads only: a frame goes through the Recorder.
+/// Records, submits and waits. Use it only for uploads and downloads; frames use the Recorder.
 void submit_once(const Device& device, const std::function<void(const vk::raii::CommandBuffer&)>& record) {
     const auto& handle = device.handle();
     ++device.made().pools;
@@ -92,7 +92,7 @@ vk::BufferImageCopy2 copy_region(const GpuImage& image, std::uint32_t layer, std
             .imageExtent = {image.extent().width, rows, 1}};
 }
 
-/// Calls `copy(first_row, row_count)` for bands of rows that fit the staging buffer.
+/// Calls `copy(first_row, row_count)` for bands of rows that fit into the staging buffer.
 void for_each_band(const GpuImage& image, const std::function<void(std::uint32_t, std::uint32_t)>& copy) {
     const vk::DeviceSize row_bytes = vk::DeviceSize(image.extent().width) * texel_size(image.format());
     const auto band = std::uint32_t(std::max<vk::DeviceSize>(1, kStagingSize / row_bytes));
@@ -134,7 +134,7 @@ Buffer::Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::
         size_ = std::max<vk::DeviceSize>(size_, texel_size(texels));
         usage |= vk::BufferUsageFlagBits::eUniformTexelBuffer;
     }
-    const bool addressed = bool(usage & vk::BufferUsageFlagBits::eShaderDeviceAddress);  // then it is not bound
+    const bool addressed = bool(usage & vk::BufferUsageFlagBits::eShaderDeviceAddress);  // such a buffer is not bound
     if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && !addressed && size_ > device.max_storage_binding()) {
         throw TooLarge(fmt::format("{} needs {} MiB in one storage buffer; {} allows {} MiB", name_, size_ >> 20,
                                    device.info().name, device.max_storage_binding() >> 20));
@@ -283,8 +283,8 @@ void upload(const Device& device, const GpuImage& image, std::uint32_t layer, st
 
 namespace {
 
-/// Calls `copy(region, bytes, offset)` for slabs of a box of a 3D image that fit the staging buffer; a single slice is
-/// always one.
+/// Calls `copy(region, bytes, offset)` for slabs of a box of a 3D image. A slab has as many slices as fit into the
+/// staging buffer, and at least one.
 void for_each_slab(const GpuImage& image, vk::Offset3D first, vk::Extent3D extent,
                    const std::function<void(const vk::BufferImageCopy2&, vk::DeviceSize, vk::DeviceSize)>& copy) {
     const vk::DeviceSize slice = vk::DeviceSize(extent.width) * extent.height * texel_size(image.format());

@@ -14,7 +14,7 @@
 
 namespace pellucid {
 
-/// The device has no room for what is asked of it at once; for less it may.
+/// A request exceeds the device's memory or limits. A smaller request may succeed.
 class TooLarge : public Error {
 public:
     using Error::Error;
@@ -23,13 +23,13 @@ public:
 /// Identifies a buffer or an image to the Recorder; never reused.
 using ResourceId = std::uint64_t;
 
-/// Device memory read and written by shaders. Throws Error if it is larger than the device allows.
+/// Device memory that shaders read and write. The constructor throws Error if `size` is larger than the device allows.
 class Buffer {
 public:
     Buffer() = default;
     Buffer(Buffer&&) noexcept = default;
     Buffer& operator=(Buffer&&) noexcept = default;
-    /// `texels`: the format in which shaders may also read it as a texel buffer.
+    /// `texels`: format in which shaders may also read the buffer as a texel buffer.
     Buffer(const Device& device, std::string name, vk::DeviceSize size, vk::BufferUsageFlags usage,
            bool host_visible = false, vk::Format texels = vk::Format::eUndefined);
 
@@ -37,14 +37,14 @@ public:
     vk::DeviceSize size() const { return size_; }
     ResourceId id() const { return id_; }
     const std::string& name() const { return name_; }
-    /// Host address; null unless the buffer is host visible. Coherent.
+    /// Host address of coherent memory; null unless the buffer is host visible.
     std::byte* mapped() const { return mapped_; }
     /// Device address; 0 unless `usage` has eShaderDeviceAddress, which needs Device::ray_tracing().
     vk::DeviceAddress address() const { return address_; }
-    /// eUndefined: it is no texel buffer.
+    /// Format as a texel buffer; eUndefined if the buffer is none.
     vk::Format texels() const { return texels_; }
     vk::BufferView texel_view() const { return handles_ ? *handles_->texel_view : vk::BufferView(); }
-    /// Whoever has it keeps the memory alive when the buffer goes.
+    /// A handle that keeps the memory alive after the buffer is destroyed.
     std::shared_ptr<const void> held() const { return handles_; }
 
 private:
@@ -62,9 +62,9 @@ private:
     vk::DeviceAddress address_ = 0;
 };
 
-/// A two-dimensional image, an array of them, or a three-dimensional image; one mip level. Always in layout GENERAL, so that a
-/// pass needs only memory barriers (the cost on current desktop GPUs is small, and the software
-/// driver has no layouts).
+/// A two-dimensional image, an array of them, or a three-dimensional image; one mip level. The layout is always
+/// GENERAL, so a pass needs only memory barriers. The cost is small on current desktop GPUs, and the software driver
+/// has no layouts.
 class GpuImage {
 public:
     GpuImage() = default;
@@ -72,19 +72,19 @@ public:
     GpuImage& operator=(GpuImage&&) noexcept = default;
     GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent2D extent, std::uint32_t layers,
              vk::ImageUsageFlags usage);
-    /// Three-dimensional. Throws Error if it is larger than the device allows.
+    /// Creates a three-dimensional image. Throws Error if it is larger than the device allows.
     GpuImage(const Device& device, std::string name, vk::Format format, vk::Extent3D extent, vk::ImageUsageFlags usage);
 
     vk::Image handle() const { return *handles_->image; }
-    vk::ImageView array_view() const { return *handles_->array_view; }  ///< all layers, as a 2D array; or the 3D image
+    vk::ImageView array_view() const { return *handles_->array_view; }  ///< all layers as a 2D array, or the 3D image
     vk::ImageView layer_view(std::uint32_t layer) const { return *handles_->layer_views.at(layer); }
     vk::Format format() const { return format_; }
     vk::Extent2D extent() const { return extent_; }
     std::uint32_t layers() const { return std::max<std::uint32_t>(1, std::uint32_t(handles_->layer_views.size())); }
-    std::uint32_t depth() const { return depth_; }  ///< of a 3D image; 1 of others
+    std::uint32_t depth() const { return depth_; }  ///< 1 unless the image is three-dimensional
     ResourceId id() const { return id_; }
     const std::string& name() const { return name_; }
-    /// As Buffer::held().
+    /// Like Buffer::held().
     std::shared_ptr<const void> held() const { return handles_; }
 
 private:
@@ -105,23 +105,24 @@ private:
 /// Bytes per texel of the formats Pellucid uses.
 std::uint32_t texel_size(vk::Format format);
 
-/// Fills a device buffer (from byte `offset` on) or one layer of an image from host memory, and waits for it.
+/// Copies host memory to a device buffer, from byte `offset` on, or to one layer of an image. Waits for the copy.
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize offset = 0);
-/// Fills whole words of a device buffer at the beginning of the next frame (Recorder::upload_pending()), after those before.
+/// Copies whole words to a device buffer at the beginning of the next frame (Recorder::upload_pending()), in the order
+/// of the calls.
 void upload_later(const Device& device, const Buffer& buffer, std::span<const std::byte> data,
                   vk::DeviceSize offset = 0);
 void upload(const Device& device, const GpuImage& image, std::uint32_t layer, std::span<const std::byte> data);
 
-/// Fills the box of a 3D image that begins at `first`, rows along x, then y, then z; and waits for it.
+/// Fills the box of a 3D image that begins at `first`, and waits. `data`: rows along x, then y, then z.
 void upload_box(const Device& device, const GpuImage& image, vk::Offset3D first, vk::Extent3D extent,
                 std::span<const std::byte> data);
-/// The whole of a 3D image, after all submitted work.
+/// Downloads a whole 3D image after all submitted work.
 std::vector<std::byte> download_box(const Device& device, const GpuImage& image);
 
-/// Fills an RGBA32F image with `image`, RGB of the same size; alpha is 1.
+/// Fills an RGBA32F image from an RGB image of the same size; alpha is 1.
 void upload_rgb(const Device& device, const GpuImage& destination, const Image& image);
 
-/// One layer of an image, tightly packed rows from the top, after all submitted work.
+/// Downloads one layer of an image after all submitted work, as tightly packed rows from the top.
 std::vector<std::byte> download(const Device& device, const GpuImage& image, std::uint32_t layer);
 
 }  // namespace pellucid

@@ -8,13 +8,13 @@ vec2 sign_not_zero(vec2 v) {
     return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }
 
-// Place of a direction in the square -1..1. The length of n does not matter, as long as it is not 0.
+// Position of a direction in the square -1..1. n may have any length but 0.
 vec2 octahedral_from_direction(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     return n.z < 0.0 ? (1.0 - abs(p.yx)) * sign_not_zero(p) : p;
 }
 
-// The point of the octahedron abs(x) + abs(y) + abs(z) = 1 at such a place; not of unit length.
+// The point of the octahedron abs(x) + abs(y) + abs(z) = 1 at a position in the square; not of unit length.
 vec3 octahedron_point(vec2 p) {
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * sign_not_zero(n.xy);

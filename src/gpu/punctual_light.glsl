@@ -7,7 +7,7 @@ const uint kDirectionalLight = 0u, kPointLight = 1u, kSpotLight = 2u;  // pelluc
 struct PunctualLight {
     vec3 position;
     uint kind;
-    vec3 direction;  // unit, the way the light goes
+    vec3 direction;  // unit, along the light
     float inverse_range;
     vec3 intensity;
     float radius;  // m, of point and spot lights
@@ -16,8 +16,8 @@ struct PunctualLight {
 };
 
 struct ArrivingLight {
-    vec3 way;          // unit, the way the light goes
-    float irradiance;  // on a surface that faces it, per intensity; 0: no light arrives
+    vec3 way;          // unit, along the light
+    float irradiance;  // on a surface that faces the light, per intensity; 0: no light arrives
 };
 
 ArrivingLight arriving_light(PunctualLight light, vec3 position) {

@@ -28,7 +28,7 @@ Recorder::Recorder(const Device& device) : device_(device) {
 }
 
 void Recorder::restart(vk::CommandBuffer commands) {
-    device_.give_uploads_back(std::exchange(uploads_, {}));  // that did not run
+    device_.give_uploads_back(std::exchange(uploads_, {}));  // these uploads did not run
     parts_.clear();
     pool_.reset();
     own_used_ = 0;
@@ -55,7 +55,7 @@ void Recorder::begin_commands() {
         commands_ = *own_[own_used_++];
         commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}, dispatch());
     }
-    // What earlier submissions and the host wrote becomes visible here; from now on states_ knows.
+    // Writes of the host and of earlier submissions become visible here. Later accesses are tracked in states_.
     const vk::MemoryBarrier2 all{.srcStageMask = Stage::eAllCommands,
                                  .srcAccessMask = AccessBit::eMemoryWrite,
                                  .dstStageMask = Stage::eAllCommands,
@@ -115,7 +115,7 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
         }
         const vk::DescriptorSetAllocateInfo info{
             .descriptorPool = *descriptor_pools_[descriptor_pool_], .descriptorSetCount = 1, .pSetLayouts = &layout};
-        // Sets are freed with their pool, so the plain handle is wanted here, not the RAII one.
+        // The pool frees its sets, so use a plain handle instead of a RAII one.
         VkDescriptorSet set = VK_NULL_HANDLE;
         const VkDescriptorSetAllocateInfo& plain = info;
         const VkResult result = handle.getDispatcher()->vkAllocateDescriptorSets(*handle, &plain, &set);
@@ -126,7 +126,7 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
 
 void Recorder::bind(const Program& program, Bindings bindings, std::span<const std::byte> push) {
     const bool graphics = program.bind_point() == vk::PipelineBindPoint::eGraphics;
-    const std::size_t push_offset = graphics ? sizeof(DrawCall::object) : 0;  // which each draw sets by itself
+    const std::size_t push_offset = graphics ? sizeof(DrawCall::object) : 0;  // each draw sets the object itself
     if (push_offset + push.size() != program.push_size()) {
         throw std::logic_error(fmt::format("{}: the shader has {} bytes of push constants, the pass {}", program.name(),
                                            program.push_size(), push_offset + push.size()));
@@ -240,8 +240,8 @@ void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<c
     commands_.endRendering(dispatch());
 }
 
-// A structure that others are placed in stands for them: whoever waits for its build waits for theirs, since
-// barriers here are for all memory and its build has waited for them.
+// Bindings need to name only the top structure. Its build waits for the builds of its instances, and barriers cover all
+// memory, so a wait for the top structure covers the instances, too.
 void Recorder::build(const AccelerationStructure& structure, vk::BuildAccelerationStructureModeKHR mode,
                      std::span<const ResourceId> inputs, const BuildScratch& scratch) {
     const auto stage = Stage::eAccelerationStructureBuildKHR;
@@ -328,7 +328,7 @@ void Recorder::end_of_steps() { add_step({}); }
 
 void Recorder::add_step(std::function<bool()> step) {
     if (callers_) throw std::logic_error("a step on the host, in commands of the caller's");
-    // Mesa's software driver wants labels to end in the commands in which they begin.
+    // Mesa's software driver requires a label to end in the command buffer in which it begins.
     if (in_scope_) end_label();
     make_visible_to_host();
     commands_.end(dispatch());

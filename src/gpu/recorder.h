@@ -24,7 +24,7 @@ inline vk::ClearValue clear_to(float value) { return vk::ClearColorValue(std::ar
 inline vk::ClearValue clear_to(std::array<std::uint32_t, 4> value) { return vk::ClearColorValue(value); }
 inline vk::ClearValue clear_to_farthest() { return vk::ClearDepthStencilValue{1.0f, 0}; }
 
-/// What a draw renders into. Cleared attachments forget what they held.
+/// The attachments of a draw. Attachments without `clear` keep their contents.
 struct RenderTarget {
     struct Attachment {
         const GpuImage* image;
@@ -34,27 +34,27 @@ struct RenderTarget {
     vk::Extent2D extent;
     std::vector<Attachment> colors = {};
     std::optional<Attachment> depth = {};
-    vk::Rect2D scissor = {};  ///< zero extent: everything
+    vk::Rect2D scissor = {};  ///< zero extent: the whole target
 };
 
-/// Triangle corners of one object: the shader sees them as gl_VertexIndex, which counts in GpuScene::indices,
-/// and the object as the first word of the push constants.
+/// A range of triangle corners of one object. gl_VertexIndex is the position of a corner in GpuScene::indices. The
+/// object is the first word of the push constants.
 struct DrawCall {
     std::uint32_t first_corner;
     std::uint32_t corner_count;
     std::uint32_t object;
 };
 
-/// Records one frame's passes in the order of the calls. Each call names what it reads and writes and
-/// gets its barriers from that; groups of calls are timed and labelled by scopes.
+/// Records one frame's passes in the order of the calls. Each call names the resources that it reads and writes, from
+/// which the recorder derives barriers. Scopes time and label groups of calls.
 ///
-/// The names and accesses given are checked against the shader; a mismatch is a bug and throws
-/// std::logic_error naming both sides. Resources that go while it is recorded, or runs, live on until it has run.
+/// Names and accesses are checked against the shader. A mismatch is a bug and throws std::logic_error naming both
+/// sides. Resources that are destroyed during recording or execution stay alive until the frame has run.
 class Recorder {
 public:
     explicit Recorder(const Device& device);
 
-    /// Times and labels everything recorded while it lives. Scopes do not nest.
+    /// Times and labels everything that is recorded during the scope's lifetime. Scopes do not nest.
     class Scope {
     public:
         Scope(Recorder& recorder, std::string_view name);
@@ -66,7 +66,7 @@ public:
         Recorder& recorder_;
     };
 
-    /// Runs at least `threads.width` x `threads.height` invocations; the shader drops the surplus.
+    /// Runs at least `threads.width` x `threads.height` invocations. The shader must ignore the surplus.
     template <class Push>
     void compute(const Program& program, Bindings bindings, const Push& push, vk::Extent2D threads) {
         compute_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), threads);
@@ -75,7 +75,7 @@ public:
         compute_bytes(program, bindings, {}, threads);
     }
 
-    /// Runs as many workgroups as the first three words of `arguments` say when the device gets there.
+    /// Runs the number of workgroups in the first three words of `arguments`, which the device reads on execution.
     template <class Push>
     void compute_indirect(const Program& program, Bindings bindings, const Push& push, const Buffer& arguments) {
         compute_indirect_bytes(program, bindings, std::as_bytes(std::span(&push, 1)), arguments);
@@ -94,7 +94,7 @@ public:
         draw_bytes(program, bindings, {}, target, calls);
     }
 
-    /// Builds a structure, or refits it, from `inputs`: the buffers or structures that it is made of.
+    /// Builds or refits a structure. `inputs`: the buffers or structures from which it is built.
     void build(const AccelerationStructure& structure, vk::BuildAccelerationStructureModeKHR mode,
                std::span<const ResourceId> inputs, const BuildScratch& scratch);
 
@@ -103,9 +103,9 @@ public:
     void fill(const Buffer& buffer, std::uint32_t word) { fill(buffer, 0, VK_WHOLE_SIZE, word); }
     void fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize bytes, std::uint32_t word);
     void copy(const Buffer& source, const Buffer& destination, vk::DeviceSize bytes);
-    /// From byte `offset` of `source` on, row by row, without gaps.
+    /// Copies tightly packed rows, from byte `offset` of `source` on, to an image.
     void copy(const Buffer& source, vk::DeviceSize offset, const GpuImage& destination);
-    /// Calls `then` with the T at byte `offset` of `source`, once what is being recorded has run.
+    /// Calls `then` with the T at byte `offset` of `source`, once the recording has run.
     template <class T, class Then>
     void read(const Buffer& source, vk::DeviceSize offset, Then then) {
         when_done([from = read_bytes(source, offset, sizeof(T)), then = std::move(then)] {
@@ -115,7 +115,7 @@ public:
         });
     }
 
-    /// Writes `data`, of whole words, to byte `offset` of `buffer` once the device gets there.
+    /// Records a write of `data`, whole words, to byte `offset` of `buffer`.
     void write(const Buffer& buffer, std::span<const std::byte> data, vk::DeviceSize offset = 0) {
         write_bytes({buffer.handle(), buffer.id(), buffer.held(), {}, offset}, data);
     }
@@ -123,53 +123,55 @@ public:
     void write(const Buffer& buffer, const T& value) {
         write(buffer, std::as_bytes(std::span(&value, 1)));
     }
-    /// What upload_later() was given since the last recording took it.
+    /// Records the uploads that upload_later() has collected since the last recording.
     void upload_pending();
-    /// Copies a layer of `source` to an image of the caller's, of equal texels, that becomes readable in layout `after`.
+    /// Copies the first layer of `source` to the caller's image, which must have an equal texel format. The caller's
+    /// image goes from layout `before` to layout `after`.
     void copy_to(const GpuImage& source, vk::Image target, vk::Offset2D at, vk::ImageLayout before,
                  vk::ImageLayout after);
 
-    /// Copies the caller's image, as large as `destination` and in layout `layout`, to it, texel by texel, in the format of that.
+    /// Copies the caller's image texel by texel to `destination`, which has the same size, and converts the format.
+    /// `layout`: layout of the caller's image.
     void copy_from(vk::Image source, vk::ImageLayout layout, const GpuImage& destination);
     /// Copies depths of the caller's image, row by row.
     void copy_depths_from(vk::Image source, vk::ImageLayout layout, vk::Extent2D extent, const Buffer& destination);
 
-    /// Runs `step` on the host between what is recorded before, whose results it sees in mapped buffers, and what is
-    /// recorded after, which sees what it wrote there. Where it returns false, what is recorded from here to end_of_steps()
-    /// is left out. A recording with such steps cannot be part of another's commands.
+    /// Runs `step` on the host between the commands recorded before and after. The step sees earlier results in mapped
+    /// buffers, and later commands see its writes. If it returns false, all commands from here to end_of_steps() are
+    /// skipped. A recording with steps cannot use the caller's command buffer.
     void on_host(std::function<bool()> step);
-    /// Ends the row of steps begun by the first on_host(), before the scope in which they are.
+    /// Ends the sequence of steps that the first on_host() began. Call it before their scope ends.
     void end_of_steps();
 
-    /// Ends the recording, submits it and waits. Returns the time of each scope in recording order;
-    /// scopes of one name are added up. The recorder is then empty and ready for the next frame.
+    /// Ends the recording, submits it and waits. Returns the time of each scope in recording order; times of equal
+    /// names are added up. The recorder is then empty and ready for the next frame.
     std::vector<PassTime> submit_and_wait();
 
-    /// Commands, and what the host does once they have run.
+    /// Commands, and the host's step after them.
     struct Part {
         vk::CommandBuffer commands;
-        std::function<bool()> step;  ///< empty: the end of a row, or of the recording
+        std::function<bool()> step;  ///< empty: end of a sequence of steps, or of the recording
     };
-    /// Ends the recording. Its parts run one after the other (run_parts), the last one on the device. `done` is set in the end,
-    /// if given.
+    /// Ends the recording and returns its parts, for run_parts(). `done`: if given, the device sets it at the end.
     const std::vector<Part>& end(vk::Event done = {});
-    /// Calls `submit` with the commands of one part after the other, each of which has run when it returns but for the last
-    /// ones, and takes the host's steps.
+    /// Calls `submit` with the commands of each part, and runs the host's step after each. `submit` must wait until the
+    /// commands have run, except for the last part.
     static void run_parts(std::span<const Part> parts, const std::function<void(vk::CommandBuffer, bool last)>& submit);
-    /// After all of a recording that was ended has run: the times of its scopes, as submit_and_wait() has them. The recorder
+    /// Returns the times of the scopes, as submit_and_wait() does. Call after the ended recording has run. The recorder
     /// is then empty.
     std::vector<PassTime> finish();
 
-    /// Forgets what was recorded, and begins anew: in `commands` of the caller's, which are recording, if given.
+    /// Discards the recording and starts a new one. `commands`: the caller's command buffer, in recording state, if
+    /// given.
     void restart(vk::CommandBuffer commands = {});
 
-    /// Calls `then` once what is being recorded has run; never if it is forgotten.
+    /// Calls `then` once the recording has run; never if the recording is discarded.
     void when_done(std::function<void()> then) { when_done_.push_back(std::move(then)); }
 
     const Device& device() const { return device_; }
 
 private:
-    /// What keeps a resource alive.
+    /// Keeps a resource alive.
     using Holder = std::shared_ptr<const void>;
     struct Use {
         ResourceId id;
@@ -182,8 +184,8 @@ private:
         }
     };
     struct State {
-        std::optional<Use> write;  // the last,
-        std::vector<Use> reads;    // and those since, which see it
+        std::optional<Use> write;  // the last write
+        std::vector<Use> reads;    // reads since the last write, which see its result
         Holder holder;
     };
     template <class Resource>
@@ -208,7 +210,7 @@ private:
     void synchronise(Use use) { synchronise(std::span(&use, 1)); }
     void write_bytes(const PendingUpload& to, std::span<const std::byte> data);
     std::byte* stage(vk::DeviceSize bytes, const Buffer*& buffer, vk::DeviceSize& offset);
-    /// `uses_` are then those of the bindings.
+    /// Binds the program and its resources, and sets `uses_` to the uses of the bindings.
     void bind(const Program& program, Bindings bindings, std::span<const std::byte> push);
     vk::DescriptorSet allocate_set(const Program& program);
     void write_timestamp(vk::PipelineStageFlagBits2 stage);
@@ -218,11 +220,11 @@ private:
 
     const Device& device_;
     vk::raii::CommandPool pool_ = nullptr;
-    std::vector<vk::raii::CommandBuffer> own_;  // kept from recording to recording
+    std::vector<vk::raii::CommandBuffer> own_;  // reused by the next recording
     std::size_t own_used_ = 0;
-    vk::CommandBuffer commands_;  // what is being recorded: one of own_, or the caller's
+    vk::CommandBuffer commands_;  // in recording state: one of own_, or the caller's
     bool callers_ = false;
-    std::vector<Part> parts_;  // before commands_
+    std::vector<Part> parts_;  // ended parts, which run before commands_
     vk::raii::Fence fence_ = nullptr;
     std::vector<vk::raii::DescriptorPool> descriptor_pools_;
     std::size_t descriptor_pool_ = 0;
@@ -231,7 +233,7 @@ private:
     bool in_scope_ = false;
     std::uint32_t timestamps_ = 0;
     std::map<ResourceId, State> states_;
-    // Of the pass that is being recorded; kept for their memory.
+    // Scratch data of the current pass; members, so that their memory is reused.
     std::vector<Use> uses_;
     struct Descriptors {
         std::vector<vk::WriteDescriptorSet> writes;
@@ -242,12 +244,12 @@ private:
         std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structure_writes;
     } descriptors_;
     std::vector<std::function<void()>> when_done_;
-    std::vector<Buffer> read_buffers_;  // of kReadBufferSize, on the host
-    vk::DeviceSize read_end_ = 0;       // in all of them
-    std::vector<Buffer> staging_;       // on the host, what is written to buffers
+    std::vector<Buffer> read_buffers_;  // host memory, kReadBufferSize bytes each
+    vk::DeviceSize read_end_ = 0;       // bytes used, over all read_buffers_
+    std::vector<Buffer> staging_;       // host memory for data written to buffers
     std::size_t staging_used_ = 0;
-    vk::DeviceSize staging_end_ = 0;      // in the last that is used
-    std::vector<PendingUpload> uploads_;  // that this recording has taken
+    vk::DeviceSize staging_end_ = 0;      // bytes used in the last used buffer of staging_
+    std::vector<PendingUpload> uploads_;  // uploads that this recording has taken
 };
 
 }  // namespace pellucid

@@ -1,4 +1,4 @@
-// What a Recorder copies, fills, writes and reads.
+// Copies, fills, writes and reads of a Recorder.
 #include "gpu/recorder.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using AccessBit = vk::AccessFlagBits2;
 
 constexpr vk::DeviceSize kReadBufferSize = 1 << 16;
 constexpr vk::DeviceSize kStagingSize = 1 << 20;
-constexpr std::size_t kLargestUpdate = 65536;  // that Vulkan writes from within commands
+constexpr std::size_t kLargestUpdate = 65536;  // bytes; limit of vkCmdUpdateBuffer
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void Recorder::clear_layer(const GpuImage& image, std::uint32_t layer, vk::Clear
 }
 
 void Recorder::fill(const Buffer& buffer, vk::DeviceSize offset, vk::DeviceSize bytes, std::uint32_t word) {
-    // eAllTransfer, not eClear: validation layers up to 1.3.239 take a fill for a copy.
+    // Use eAllTransfer instead of eClear, because validation layers up to 1.3.239 treat a fill as a copy.
     synchronise(use_of(buffer, Stage::eAllTransfer, AccessBit::eTransferWrite, true));
     commands_.fillBuffer(buffer.handle(), offset, bytes, word, dispatch());
 }
@@ -115,7 +115,7 @@ void Recorder::upload_pending() {
     }
 }
 
-/// Of a colour image; what comes before it is done, and what comes after it waits.
+/// Changes the layout of a colour image. Waits for all earlier commands, and all later commands wait for the change.
 void Recorder::change_layout(vk::Image image, vk::ImageLayout from, vk::ImageLayout to) {
     const auto everything = AccessBit::eMemoryRead | AccessBit::eMemoryWrite;
     const vk::ImageMemoryBarrier2 barrier{
@@ -144,7 +144,7 @@ void Recorder::copy_to(const GpuImage& source, vk::Image target, vk::Offset2D at
     change_layout(target, vk::ImageLayout::eTransferDstOptimal, after);
 }
 
-// Values lie side by side in buffers on the host, so no copy waits for another.
+// Values get separate ranges of the host buffers, so no copy waits for another.
 const std::byte* Recorder::read_bytes(const Buffer& source, vk::DeviceSize offset, vk::DeviceSize bytes) {
     if (read_end_ % kReadBufferSize + bytes > kReadBufferSize)
         read_end_ += kReadBufferSize - read_end_ % kReadBufferSize;

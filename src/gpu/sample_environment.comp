@@ -1,5 +1,5 @@
 #version 460
-// The finest level of the environment's pyramid: the mean over each texel.
+// Computes the finest level of the environment's pyramid: the mean radiance over each texel.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/structs.h"

@@ -82,7 +82,7 @@ void SceneHierarchy::write_instances(Recorder& recorder, const GpuScene& scene) 
     recorder.write(instances_, std::as_bytes(std::span(instances)));
 }
 
-// One after the other: they share the scratch memory, which for a large mesh is as large as the mesh.
+// Builds run one after the other, because they share scratch memory. For a large mesh that is as large as the mesh.
 void SceneHierarchy::record(Recorder& recorder, Mode mode, const std::vector<bool>& meshes) const {
     std::vector<ResourceId> parts = {instances_.id()};
     for (std::size_t i = 0; i < meshes_.size(); ++i) {

@@ -9,20 +9,22 @@
 
 namespace pellucid {
 
-/// Hierarchy over a scene's triangles: one structure per mesh, and one over their placements. The custom index of an
-/// instance is its object.
+/// Hierarchy over a scene's triangles: one structure per mesh, and one over all instances of meshes. The custom index
+/// of an instance is its object.
 class SceneHierarchy {
 public:
-    /// Nothing is built yet. The scene's vertices must stay where they are. Needs Device::ray_tracing().
+    /// Allocates the hierarchy; update() builds it. The scene's vertex buffer must stay the same. Needs
+    /// Device::ray_tracing().
     SceneHierarchy(const Device& device, const GpuScene& scene, StructureUse use);
     SceneHierarchy(const SceneHierarchy&) = delete;
     SceneHierarchy& operator=(const SceneHierarchy&) = delete;
 
-    /// True if it is the hierarchy of `scene` made for `use`, or becomes that in update().
+    /// True if this is the hierarchy of `scene` for `use`, possibly not built yet.
     bool is_of(const GpuScene& scene, StructureUse use) const;
 
-    /// Records, in a scope of its own, what a frame needs before it can trace: the first time the build ("build"), and
-    /// where vertices have moved since, or `always`, what the use asks for ("refit" or "build").
+    /// Records the update that a frame needs before it can trace, in its own scope. The first update builds ("build").
+    /// Later updates refit or rebuild, depending on the use ("refit" or "build"), if vertices have moved or if
+    /// `always`.
     void update(Recorder& recorder, const GpuScene& scene, bool always);
 
     const AccelerationStructure& top() const { return *top_; }
@@ -33,13 +35,14 @@ private:
 
     StructureUse use_;
     ResourceId vertices_;
-    std::uint64_t moves_ = 0;                    ///< GpuScene::moves that it is of
-    std::vector<AccelerationStructure> meshes_;  ///< as GpuScene::meshes
+    std::uint64_t moves_ = 0;                    ///< GpuScene::moves at the last update that has run
+    std::vector<AccelerationStructure> meshes_;  ///< one per element of GpuScene::meshes
     Buffer instances_;
     std::optional<AccelerationStructure> top_;
     std::optional<BuildScratch> scratch_;  // none once a static hierarchy is built
     bool built_ = false;
-    std::shared_ptr<int> alive_ = std::make_shared<int>(0);  ///< gone with it, which frames that run may outlive
+    std::shared_ptr<int> alive_ =
+        std::make_shared<int>(0);  ///< expires with this object, which running frames may outlive
 };
 
 }  // namespace pellucid

@@ -1,10 +1,10 @@
 #ifndef PELLUCID_GPU_STRETCH_GLSL
 #define PELLUCID_GPU_STRETCH_GLSL
 
-// Part of a ray as the picture shows it, for searches against stored depths. Needs: gpu/frame.glsl.
+// Segments of rays in image space, for searches in depth images. Needs: gpu/frame.glsl.
 
-// A stretch of a ray over the picture: pixel coordinates, and what is linear in them: the depth of an orthographic
-// camera, the inverse depth of a perspective one.
+// A segment of a ray: pixel coordinates, and a depth value that is linear in them. The value is the depth of an
+// orthographic camera, or the inverse depth of a perspective one.
 struct Stretch {
     vec2 from, to;
     float at_from, at_to;
@@ -25,8 +25,7 @@ ivec2 texel_at(Stretch s, float share) {
 
 vec3 position_at(Stretch s, float share) { return view_position(pixel_at(s, share), depth_at(s, share)); }
 
-// The part of a stretch, from its beginning, that lies over the picture; negative: it begins beside it, where nothing
-// is known.
+// The share of a stretch, from its beginning, that lies within the image. Negative if it begins outside the image.
 float share_within_picture(Stretch s) {
     if (any(lessThan(s.from, vec2(0.0))) || any(greaterThanEqual(s.from, vec2(frame.width, frame.height)))) return -1.0;
     vec2 step = s.to - s.from;

@@ -1,5 +1,5 @@
 #version 460
-// Irradiance / pi of the environment on surfaces of every normal.
+// Tabulates irradiance / pi of the environment for surfaces of every normal.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/structs.h"
@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform texture2D pyramid;
 layout(set = 0, binding = 1, rgba32f) writeonly uniform image2DArray filtered_environment;
 
-const int kLevel = 2;  // of the pyramid: 128 x 128 texels, each the mean of its part of the sphere, 1.4 degrees wide
+const int kLevel = 2;  // level of the pyramid: 128 x 128 texels of mean radiance, 1.4 degrees wide
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);

@@ -1,7 +1,7 @@
 #ifndef PELLUCID_GPU_TEXTURE_GLSL
 #define PELLUCID_GPU_TEXTURE_GLSL
 
-// Sampling textures from the scene's texture pages: bilinear with each texture's own wrapping.
+// Samples textures from the scene's texture pages, bilinearly, with the wrapping of each texture.
 // Needs: textures (TextureRecord[]), texture_pages (texture2DArray).
 
 vec3 linear_from_srgb(vec3 c) {
@@ -23,13 +23,13 @@ vec4 fetch_texel(TextureRecord t, ivec2 i) {
     return texel;
 }
 
-// White where the material has no texture.
+// The texture's value; white if the material has no texture.
 vec4 sample_texture(uint index, vec2 first_set, vec2 second_set) {
     if (index == PELLUCID_NO_TEXTURE) return vec4(1.0);
     TextureRecord t = textures[index];
     vec3 texcoord = vec3((t.flags & PELLUCID_TEXTURE_SECOND_SET) != 0u ? second_set : first_set, 1.0);
     vec2 uv = vec2(dot(t.uv_row0.xyz, texcoord), dot(t.uv_row1.xyz, texcoord));
-    // Far repetitions would lose their texels to rounding; two periods hold a mirrored texture whole.
+    // Reduce uv to two periods, because rounding would spoil far repetitions. A mirrored texture has a period of two.
     uv.x = t.wrap_u == 2u ? clamp(uv.x, -1.0, 2.0) : uv.x - 2.0 * floor(0.5 * uv.x);
     uv.y = t.wrap_v == 2u ? clamp(uv.y, -1.0, 2.0) : uv.y - 2.0 * floor(0.5 * uv.y);
     vec2 position = uv * vec2(t.width, t.height);

@@ -23,7 +23,7 @@ struct Placement {
     std::uint32_t x, y;
 };
 
-/// Side of the square pages: the largest image decides, small images share.
+/// Side of the square pages. The largest image decides it, and small images share a page.
 std::uint32_t page_size(const Device& device, const Scene& scene, const std::vector<int>& images) {
     std::uint32_t largest = 1;
     for (const int index : images) {

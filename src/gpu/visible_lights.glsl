@@ -1,9 +1,9 @@
 #ifndef PELLUCID_GPU_VISIBLE_LIGHTS_GLSL
 #define PELLUCID_GPU_VISIBLE_LIGHTS_GLSL
 
-// Lights with a size, as rays see them that no rough surface has scattered: suns are discs at infinity, lamps and spots
-// balls that hide what is behind them.
-// Needs: scene_lights (PunctualLight[]), kVisibleLights (their number; 0 if none has a size).
+// Lights with a size, for rays that no rough surface has scattered. Suns are discs at infinity. Lamps and spots are
+// balls that hide surfaces behind them. Needs: scene_lights (PunctualLight[]), kVisibleLights (number of lights; 0 if
+// none has a size).
 #include "gpu/light_sample.glsl"
 
 // Radiance of a sun in a unit direction, W/(m2 sr).
@@ -31,7 +31,7 @@ float ball_ahead(PunctualLight light, vec3 origin, vec3 direction) {
     return t < 0.0 ? kFarLight : t;
 }
 
-// Radiance of a lamp, W/(m2 sr). Cone and range count from the middle of the ball, as they do for what it lights.
+// Radiance of a lamp, W/(m2 sr). Cone and range are measured from the ball's centre, as in arriving_light().
 vec3 ball_radiance(PunctualLight light, vec3 origin) {
     ArrivingLight arriving = arriving_light(light, origin);
     vec3 to_middle = light.position - origin;
@@ -39,7 +39,7 @@ vec3 ball_radiance(PunctualLight light, vec3 origin) {
     return light.intensity * (arriving.irradiance * d2 / (3.14159265 * light.radius * light.radius));
 }
 
-// Distance, m, to the nearest lamp before `limit`, and its radiance, W/(m2 sr); `limit` if there is none.
+// Distance, m, to the nearest lamp before `limit`, and its radiance, W/(m2 sr). Returns `limit` if there is none.
 float lamp_ahead(vec3 origin, vec3 direction, float limit, out vec3 radiance) {
     radiance = vec3(0.0);
     for (uint i = 0u; i < kVisibleLights; ++i) {
@@ -52,7 +52,8 @@ float lamp_ahead(vec3 origin, vec3 direction, float limit, out vec3 radiance) {
     return limit;
 }
 
-// Radiance of a light in a unit direction, W/(m2 sr), and its distance, m; 0 if it is not there.
+// Radiance of a light in a unit direction, W/(m2 sr), and its distance, m. The radiance is 0 if the ray misses the
+// light.
 vec3 light_ahead(PunctualLight light, vec3 origin, vec3 direction, out float distance_) {
     distance_ = kFarLight;
     if (light.kind == kDirectionalLight) return sun_ahead(light, direction);

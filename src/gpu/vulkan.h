@@ -1,5 +1,5 @@
 #pragma once
 
-// The one place that configures Vulkan-Hpp.
+// The only file that configures Vulkan-Hpp.
 #define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS
 #include <vulkan/vulkan_raii.hpp>
