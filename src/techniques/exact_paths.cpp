@@ -1,4 +1,4 @@
-// What truths trace on the host, as frames shade it.
+// Results that reference techniques trace on the host, as images that frames shade.
 #include "techniques/truth.h"
 
 #include <cstring>
@@ -8,8 +8,8 @@
 namespace pellucid {
 namespace {
 
-/// Has the host fill images of the frame's size, one after the other in a buffer that both see. `trace` gets the buffer's
-/// address, and says whether it has filled it.
+/// Makes the host fill images of the frame's size, one after the other, through a shared buffer. `trace` gets the
+/// buffer's address and returns whether it has filled the buffer.
 void fill_on_host(Recorder& recorder, const Frame& frame, std::initializer_list<const GpuImage*> images,
                   const std::function<bool(std::byte*)>& trace) {
     const auto size_of = [](const GpuImage& image) {
@@ -27,7 +27,7 @@ void fill_on_host(Recorder& recorder, const Frame& frame, std::initializer_list<
     recorder.end_of_steps();
 }
 
-/// Writes `texel(path)` of every path to `to`, and moves it to the end of that.
+/// Writes `texel(path)` of every path to `to`, and advances `to` past them.
 template <class Texel>
 void write_texels(std::byte*& to, const std::vector<RefractedPath>& paths, Texel texel) {
     for (const RefractedPath& path : paths) {

@@ -1,15 +1,14 @@
 #ifndef PELLUCID_TECHNIQUES_RAY_RANGE_GLSL
 #define PELLUCID_TECHNIQUES_RAY_RANGE_GLSL
 
-// How far a ray in view space can be followed in layers of the view.
-// Needs: frame (FrameConstants).
+// Distances to which a ray in view space can be followed in layers of the view. Needs: frame (FrameConstants).
 
-// Distance to where a quantity that starts at `value` and changes at `rate` per metre reaches zero.
+// Distance at which a quantity that starts at `value` and changes by `rate` per metre reaches zero.
 float reach_zero(float value, float rate) {
     return rate < 0.0 ? max(value, 0.0) / -rate : PELLUCID_EMPTY_DEPTH;
 }
 
-// How far the ray stays within the tile that is drawn.
+// Distance at which the ray leaves the current tile.
 float distance_to_screen_edge(vec3 origin, vec3 direction) {
     bool orthographic = frame.orthographic != 0u;
     float depth = orthographic ? 1.0 : -origin.z;
@@ -22,7 +21,7 @@ float distance_to_screen_edge(vec3 origin, vec3 direction) {
                min(reach_zero(from_high.x, from_high_rate.x), reach_zero(from_high.y, from_high_rate.y)));
 }
 
-// How far the ray stays within the depth range of the glass and `margin` metres more: t(Zmin) or t(Zmax),
+// Distance at which the ray leaves the depth range of the glass, extended by `margin` metres: t(Zmin) or t(Zmax),
 // whichever lies ahead.
 float distance_to_depth_edge(vec3 origin, vec3 direction, float margin) {
     float depth = -origin.z, depth_rate = -direction.z;

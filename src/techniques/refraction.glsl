@@ -1,8 +1,8 @@
 #ifndef PELLUCID_TECHNIQUES_REFRACTION_GLSL
 #define PELLUCID_TECHNIQUES_REFRACTION_GLSL
 
-// A path through the glass of one pixel, in view space, and where its result goes.
-// Needs: frame.glsl and the bindings that techniques share (technique_bindings.glsl).
+// A path through the glass of one pixel, in view space, and the storage of its result. Needs: frame.glsl and the
+// shared bindings of techniques (technique_bindings.glsl).
 #include "optics/interface.glsl"
 
 const uint kStatusOk = 0u;
@@ -29,21 +29,20 @@ Path camera_path(vec2 pixel) {
     return Path(ray.origin, ray.direction, vec3(1.0), 0.0, 0u, 0u, kStatusOk, false);
 }
 
-// Goes straight on to a point inside a medium.
+// Moves the path straight to a point inside a medium.
 void travel(inout Path path, float distance, vec3 sigma_a) {
     path.position += distance * path.direction;
     path.length_inside += distance;
     path.transmittance *= beer_lambert(sigma_a, distance);
 }
 
-// Crosses the boundary of a solid of index `ior` with the outward `normal`, or is totally reflected
-// there. Returns false under total internal reflection.
+// Crosses the boundary of a solid of index `ior` with the outward `normal`, or reflects the path totally. Returns
+// false under total internal reflection.
 bool cross_interface(inout Path path, vec3 normal, bool leaving, float ior) {
     vec3 n = leaving ? -normal : normal;
     float eta = leaving ? ior : 1.0 / ior;
     float cos_theta_i = -dot(path.direction, n);
-    // The interpolated normal bends the ray, the surface says which side it is on. Where they
-    // disagree the ray grazes.
+    // The interpolated normal bends the ray; the surface determines the side. If they disagree, the ray grazes.
     path.side_conflict = path.side_conflict || cos_theta_i < 0.0;
     ++path.events;
     vec3 incident = path.direction;
@@ -51,7 +50,7 @@ bool cross_interface(inout Path path, vec3 normal, bool leaving, float ior) {
         path.transmittance *= 1.0 - fresnel_dielectric(cos_theta_i, eta);
         return true;
     }
-    ++path.reflections;  // refract_direction has left the reflected direction
+    ++path.reflections;  // refract_direction has written the reflected direction
     return false;
 }
 

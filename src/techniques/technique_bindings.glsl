@@ -1,13 +1,13 @@
 #ifndef PELLUCID_TECHNIQUES_TECHNIQUE_BINDINGS_GLSL
 #define PELLUCID_TECHNIQUES_TECHNIQUE_BINDINGS_GLSL
 
-// Bindings 0 to 9, which techniques share: the frame, the scene, the layers, and the result.
+// Bindings 0 to 9, shared by techniques: the frame, the scene, the layers, and the result.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "layers/layers.glsl"
 #include "techniques/refraction.glsl"
 
-// A technique of several passes that reads its own result defines it as empty.
+// A technique of several passes that reads its own result defines this macro as empty.
 #ifndef PELLUCID_RESULT_ACCESS
 #define PELLUCID_RESULT_ACCESS writeonly
 #endif
@@ -45,7 +45,7 @@ void store_world_refraction(ivec2 texel, Path path) {
     imageStore(path_events, at, uvec4(pack_events(path)));
 }
 
-// Of a path in view space.
+// Stores a path given in view space.
 void store_refraction(ivec2 texel, Path path) {
     path.position = (frame.world_from_view * vec4(path.position, 1.0)).xyz;
     path.direction = normalize(mat3(frame.world_from_view) * path.direction);

@@ -4,7 +4,7 @@
 
 namespace pellucid {
 
-/// Ihrke et al. 2007: curved view rays through volumes of varying index. See README.md.
+/// Curved view rays through volumes of varying index (Ihrke et al. 2007). See README.md.
 extern const Technique kIhrke2007;
 
 }  // namespace pellucid

@@ -1,7 +1,7 @@
 #ifndef PELLUCID_TECHNIQUES_IHRKE_2007_LIGHT_BINDINGS_GLSL
 #define PELLUCID_TECHNIQUES_IHRKE_2007_LIGHT_BINDINGS_GLSL
 
-// Volumes, and the light that was traced through them (volume/wavefront.h).
+// Volumes, and the light traced through them (volume/wavefront.h).
 #include "volume/light_records.h"
 #include "volume/volume_record.glsl"
 

@@ -1,25 +1,25 @@
 #version 460
-// Takes every path that stands at a volume through it: to where it leaves the box, or to a surface inside.
-// Ihrke et al. 2007, sections 3 and 4.1.
+// Marches every path at a volume to its exit from the box, or to a surface inside. Ihrke et al. 2007, sections 3 and
+// 4.1.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "techniques/visibility_layers/visibility_bindings.glsl"
 #include "techniques/visibility_layers/path_walk.glsl"
 #include "techniques/visibility_layers/path_light.glsl"
 
-// Those of visibility_bindings.glsl go up to 14.
-layout(constant_id = 16) const uint kIntegrator = 1u;  // of optics/eikonal.glsl
+// Constants of visibility_bindings.glsl have ids up to 14.
+layout(constant_id = 16) const uint kIntegrator = 1u;  // integrator of optics/eikonal.glsl
 layout(constant_id = 17) const bool kAbsorbs = false;
-layout(constant_id = 18) const bool kBoundaries = false;      // some volume has surfaces, which reflect
+layout(constant_id = 18) const bool kBoundaries = false;  // some volume has reflecting surfaces
 layout(constant_id = 19) const bool kScatters = false;
 layout(constant_id = 20) const bool kEmits = false;
 layout(constant_id = 21) const bool kDisperses = false;
 layout(constant_id = 22) const bool kSurfacesInside = false;  // objects may lie in volumes
-layout(constant_id = 23) const bool kOverlapping = false;     // and volumes in volumes
-layout(constant_id = 26) const bool kLit = false;             // light was traced
+layout(constant_id = 23) const bool kOverlapping = false;  // volumes may lie in volumes
+layout(constant_id = 26) const bool kLit = false;  // light was traced through the volumes
 layout(constant_id = 24) const float kStep = 0.5;             // voxels
-layout(constant_id = 27) const bool kCubic = false;            // interpolation of the index
-layout(constant_id = 25) const uint kMostSteps = 8192u;       // from one surface or box to the next
+layout(constant_id = 27) const bool kCubic = false;  // cubic interpolation of the index
+layout(constant_id = 25) const uint kMostSteps = 8192u;  // steps between two surfaces or boxes
 
 layout(set = 0, binding = 5) uniform texture3D volume_index;
 layout(set = 0, binding = 38) uniform texture3D volume_bricks;
@@ -35,9 +35,9 @@ layout(set = 0, binding = 27) uniform texture3D volume_emission;
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
 
-const float kAirIndex = 1.01;        // up to it a ray has left the glass
-const float kReachGrows = 4.0;       // how far surfaces are looked for, in the way since the last time
-const float kStraight = 1.0 - 1e-6;  // cosine up to which a ray still goes the way in which it has looked for surfaces
+const float kAirIndex = 1.01;  // a ray in a lower index has left the glass
+const float kReachGrows = 4.0;  // look-ahead for surfaces, relative to the path length since the last search
+const float kStraight = 1.0 - 1e-6;  // cosine above which a ray keeps its search direction
 
 void branch_from(PathState state, vec3 place, vec3 way, vec3 weight, uint mark) {
     state.path.position = place;
@@ -57,13 +57,14 @@ void leave_boundary(inout PathState state, Boundary boundary, vec3 began, vec3 x
         return;
     }
     vec3 reflected = state.path.transmittance * passage.reflectance;
-    if (!kTree || !may_branch(state.pixel, reflected)) return;  // its light goes on with what is transmitted: none is lost
+    // the transmitted path carries the reflected light too, so no energy is lost
+    if (!kTree || !may_branch(state.pixel, reflected)) return;
     vec3 way = normalize(world_from_voxel * reflect_direction(normalize(boundary.v), passage.normal));
     branch_from(state, (volume.world_from_voxel * vec4(began, 1.0)).xyz, way, reflected, state.mark);
     state.path.transmittance *= 1.0 - passage.reflectance;
 }
 
-// In dispersive volumes every colour goes a way of its own: green's is the path's.
+// In dispersive volumes every colour takes its own path. This path continues with green; red and blue branch off.
 void part_colors(inout PathState state) {
     for (uint other = 1u; other <= 3u; other += 2u) {
         vec3 only = vec3(other == 1u, 0.0, other == 3u);
@@ -74,8 +75,8 @@ void part_colors(inout PathState state) {
     state.path.transmittance *= vec3(0.0, 1.0, 0.0);
 }
 
-// Along an inner normal's side: past the smoothed surface that a ray has entered at the mesh, whose voxels say again
-// what the mesh has said already. A wall may be so thin that its other side begins before.
+// Moves a ray that entered through the mesh past the smoothed surface along `direction`. The voxels would otherwise
+// repeat the mesh's interface. In a thin wall the other side may begin before.
 void pass_entry(inout CurvedRay ray, vec3 direction) {
     float lowest = 1.0;
     for (uint k = 0u; k < 64u; ++k) {
@@ -86,7 +87,7 @@ void pass_entry(inout CurvedRay ray, vec3 direction) {
     }
 }
 
-// False: the path ends here, because it has run out of steps.
+// Returns false if the path ends because it has run out of steps.
 bool march(ivec2 texel, uint own, bool from_mesh, inout PathState state) {
     VolumeRecord volume = volumes[own];
     if (kDisperses && (volume.flags & kDispersiveVolume) != 0u && !has_mark(state, kChannelMask)) part_colors(state);
@@ -103,9 +104,9 @@ bool march(ivec2 texel, uint own, bool from_mesh, inout PathState state) {
     Boundary boundary = kNoBoundary;
     vec3 boundary_began = ray.x;
 
-    // Surfaces of objects are looked for along the ray as it goes, straight on, and again once it has turned: the sooner
-    // that was, the less far.
-    float until_surface = kFarthest, since_look = 0.0, reach = kFarthest;  // voxels
+    // Surfaces of objects are searched straight ahead, and again once the ray has turned. The sooner it turned, the
+    // shorter the next search.
+    float until_surface = kFarthest, since_look = 0.0, reach = kFarthest;  // in voxels
     vec3 looked_along = vec3(0.0);
     float t_min = -coincidence, short_of = 0.5 * kApart * coincidence / volume.voxel;
     uint steps = 0u;
@@ -113,12 +114,12 @@ bool march(ivec2 texel, uint own, bool from_mesh, inout PathState state) {
     begin_search(state.media, state.standing, state.pixel, search);
     search.most_visits = min(kMostVisits, (kMostTurns - min(kMostSteps, 60000u)) / (kTogether * kTurnsPerVisit));
     bool inside = true;
-    bool in_air = has_mesh && !from_mesh;  // where a mesh says what the ray meets next
+    bool in_air = has_mesh && !from_mesh;  // in air inside the box, where the mesh gives the ray's next surface
     for (; inside && steps < kMostSteps; ++steps) {
         CurvedRay next;
         float near, share;
         vec3 direction = normalize(ray.v);
-        // Where nothing changes a step reaches to where something may.
+        // In uniform regions a step reaches the next possible change.
         float stride = kStep;
         if (!kOverlapping && !(kScatters && kLit) && !boundary.open) stride = max(stride, even_way(ray.x, direction));
         if (kSurfacesInside) {
@@ -135,7 +136,7 @@ bool march(ivec2 texel, uint own, bool from_mesh, inout PathState state) {
                 since_look = 0.0;
                 until_surface = hit.t < kFarthest ? max(hit.t, 0.0) / volume.voxel : kFarthest;
                 looked_along = direction;
-                // A surface that would be left is that of a hollow: its other side bends the ray by its voxels.
+                // A surface hit from inside belongs to a hollow. The voxels of its other side bend the ray.
                 if (in_air && hit.t < kFarthest && hit.leaving && (hit.traits & kReplaced) != 0u) {
                     in_air = false;
                     looked_along = vec3(0.0);
@@ -157,7 +158,8 @@ bool march(ivec2 texel, uint own, bool from_mesh, inout PathState state) {
             since_look += stride;
         }
         next = space_step(kIntegrator, ray, stride);
-        if (!inside) next.x = ray.x + stride * direction;  // straight to the surface, and turned as much as on the curve
+        // end straight on the surface, with the direction of the curve
+        if (!inside) next.x = ray.x + stride * direction;
         vec3 way = next.x - ray.x;
         clip_to_box(volume, ray.x, way, near, share);
         if (share < 1.0) {
@@ -174,11 +176,11 @@ bool march(ivec2 texel, uint own, bool from_mesh, inout PathState state) {
         if (kScatters) scattering = volume_value(volume_scattering, middle);
         vec3 depth = (absorption.rgb + scattering.rgb) * travelled, left = exp(-depth);
         if (kEmits || (kScatters && kLit)) {
-            vec3 added = vec3(0.0);  // radiance, per voxel's length
+            vec3 added = vec3(0.0);  // radiance per voxel length
             if (kEmits) added += drawn(part_met(state.mark), volume_value(volume_emission, middle).rgb);
             if (kScatters && kLit)
                 added += drawn(part_through(state.mark, PELLUCID_DIRECT), scattered_radiance(own, middle, -normalize(ray.v), scattering));
-            // What is carried along a bent ray is L / n^2 (the paper leaves that out).
+            // L / n^2 is constant along a bent ray (the paper omits this).
             add_light(texel, state.mark, state.path.transmittance * mean_transmittance(depth) * (n_entry * n_entry / dot(ray.v, ray.v)) * added * travelled);
         }
         state.path.transmittance *= left;
@@ -211,7 +213,7 @@ void main() {
     state.mark &= ~kEntersVolume;
     bool from_mesh = in_replaced(filling_body(state.media));
     if (from_mesh && proxy != kSharpInterfaces) {
-        clear_media(state.media);  // from here on the volume knows what is there
+        clear_media(state.media);  // from here on the volume determines the medium
         state.standing = PELLUCID_NO_TRIANGLE;
     }
     float straight;

@@ -1,5 +1,5 @@
 #version 460
-// View rays that look for diffuse surfaces, of which irradiance is gathered.
+// View rays that find the diffuse surfaces at which irradiance is gathered.
 #extension GL_GOOGLE_include_directive : require
 #define PELLUCID_MAKES_LISTS_ONLY
 #include "techniques/visibility_layers/visibility_bindings.glsl"
@@ -8,7 +8,7 @@
 
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray path_radiance;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray reflected_radiance;
-layout(std430, set = 0, binding = 39) readonly buffer EyeMedia { uint eye_media[]; };  // a bit per slot
+layout(std430, set = 0, binding = 39) readonly buffer EyeMedia { uint eye_media[]; };  // one bit per slot
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 
 void main() {

@@ -15,15 +15,16 @@
 namespace pellucid {
 namespace {
 
-/// Pixels along a side for one that gathers: a quarter of a frame's pixels do.
+/// Pixels per gathering ray along each axis: a quarter of a frame's pixels gather.
 constexpr std::uint32_t kGatherStep = 2;
-/// Spacing of nodes in the first frame, pixels: a node of a surface that faces the eye then has 144 samples.
+/// Spacing of nodes in the first frame, pixels. A node of a surface that faces the eye then has 144 samples.
 constexpr float kNodeSpacing = 24.0f;
-/// Spacing falls with this power of the number of frames, so that a still's blur vanishes, and slowly enough for noise to.
+/// The spacing falls with this power of the number of frames. The blur of a still then vanishes, slowly enough for
+/// noise to vanish too.
 constexpr float kShrinking = -1.0f / 6.0f;
-/// Frames that add to the cache. By then it has what it will have, and counts fit 32 bits.
+/// Most frames that add to the cache. It has then converged, and counts fit 32 bits.
 constexpr std::uint32_t kMostFrames = 4096;
-/// Units of a sum in the scene's brightness.
+/// Integer units of a sum per unit of the scene's brightness.
 constexpr float kUnits = 16777216.0f;
 
 /// Twins in light/irradiance_cells.glsl.
@@ -35,13 +36,12 @@ struct IrradianceGrid {
 static_assert(sizeof(IrradianceGrid) == 48);
 constexpr vk::DeviceSize kNodeSize = 48;
 
-/// Frames send on what earlier ones have found, so the later ones' samples know of more light. From the fourth frame to the
-/// sixteenth, weights grow as the square of the frame's number n: what is missing where surfaces reflect a share r then falls
-/// as n^(3r - 3), not as n^(r - 1), and the mean is as noisy as that of 5 n / 9 samples alike. After that they stay, so that
-/// counts fit.
+/// Frames reflect light found by earlier frames, so later samples contain more light. From frame 4 to 16 weights grow
+/// as the square of the frame's index n. The missing light at reflectance r then falls as n^(3r - 3), not as n^(r -
+/// 1). The mean is as noisy as that of 5 n / 9 equal samples. Later weights are constant, so that counts fit.
 std::uint32_t weight_of(std::uint32_t frame) { return std::clamp(frame * frame / 16, 1u, 16u); }
 
-/// The same view with fewer pixels, each around a point that changes from frame to frame.
+/// The same view with fewer pixels, each sampled at a point that changes between frames.
 gpu::FrameConstants coarse_view(gpu::FrameConstants values) {
     const glm::vec2 first(values.first_x, values.first_y);
     values.film.x += first.x * values.film.z;
@@ -55,7 +55,8 @@ gpu::FrameConstants coarse_view(gpu::FrameConstants values) {
     return values;
 }
 
-/// Slots for the nodes of `points` samples a frame: each adds two at most, and surfaces share most of theirs.
+/// Slots for the nodes of `points` samples per frame. Each sample adds at most two nodes, and surfaces share most of
+/// them.
 std::uint32_t slots_for(std::uint64_t points) {
     return std::uint32_t(std::bit_ceil(std::max<std::uint64_t>(8 * points, 4096)));
 }
@@ -102,7 +103,7 @@ void IrradianceCache::gather(Recorder& recorder, const Frame& frame, bool first)
     gathered_->environment_shares = frame.environment_shares;
     if (!again) write_grid(recorder, frame, first);
     bindings_ = {reads("IrradianceNodes", *nodes_)};
-    // Surfaces that rays find send on what earlier frames have brought them.
+    // Surfaces found by rays reflect the light that earlier frames stored.
     if (frames_ > 1) {
         gathered_->irradiance = &bindings_;
         gathered_->bounces_before_cache = 1;
@@ -119,7 +120,7 @@ void IrradianceCache::gather(Recorder& recorder, const Frame& frame, bool first)
 void IrradianceCache::store(Recorder& recorder) {
     if (!gathered_) return;
     const Recorder::Scope scope(recorder, "irradiance");
-    // The first frame had no cache to look at, so its samples lack light; the second's take their place.
+    // The first frame had no cache to read, so its samples lack light; the second frame's samples replace them.
     if (frames_ == 2) recorder.fill(*nodes_, sizeof(IrradianceGrid), VK_WHOLE_SIZE, 0);
     recorder.compute(workspace_.compute(shaders::store_irradiance_comp),
                      {gathered_->bindings(), reads("path_radiance", *radiance_), reads("reflected_radiance", *sky_),

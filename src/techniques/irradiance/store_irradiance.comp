@@ -1,6 +1,5 @@
 #version 460
-// Adds the samples of irradiance that a frame has gathered to the nodes of the cache. Sums are whole numbers, so their order
-// does not matter.
+// Adds a frame's samples of irradiance to the nodes of the cache. Sums are integers, so their order does not matter.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "gpu/octahedral.glsl"
@@ -9,12 +8,13 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1, rgba32f) readonly uniform image2DArray path_radiance;
-layout(set = 0, binding = 2, rgba32f) readonly uniform image2DArray reflected_radiance;  // what gather() says of the environment
+// openness to the environment, from gather()
+layout(set = 0, binding = 2, rgba32f) readonly uniform image2DArray reflected_radiance;
 layout(std430, set = 0, binding = 55) buffer IrradianceNodes { IrradianceGrid irradiance_grid; IrradianceNode irradiance_nodes[]; };
 
-const float kMostUnits = 1.0e12;  // of a sample; 2^23 weighted samples fit a sum
+const float kMostUnits = 1.0e12;  // bound on a sample; a sum can take 2^23 weighted samples
 
-// The node's slot; a new one where it has none. kNoNode: all that it may have are taken.
+// Returns the node's slot, or a new slot for a new node. kNoNode: all possible slots are occupied.
 uint claim_node(uvec2 node) {
     for (uint i = 0u; i < kMostProbes; ++i) {
         uint slot = (node.x + i) & irradiance_grid.slot_mask;
@@ -24,7 +24,7 @@ uint claim_node(uvec2 node) {
     return kNoNode;
 }
 
-// Adds a whole number to a sum of 64 bits, of which two words are added to apart.
+// Adds an integer to a 64-bit sum, whose two words are updated separately.
 void add_to_sum(uint slot, uint channel, float units) {
     float size = min(abs(units), kMostUnits) * float(irradiance_grid.weight);
     uint high = uint(size / 4294967296.0), low = uint(size - float(high) * 4294967296.0);
@@ -60,7 +60,7 @@ void main() {
     uvec3 bits = hash(uvec3(texel, 3u * frame.sample_index)), more = hash(uvec3(texel, 3u * frame.sample_index + 1u));
     vec3 u = vec3(bits >> 8u) / 16777216.0;
     vec2 v = vec2(more.xy >> 8u) / 16777216.0;
-    // Of the axes one, by the squares of the normal's components.
+    // Choose an axis with probabilities given by the squares of the normal's components.
     float choice = v.x, x2 = normal.x * normal.x, y2 = normal.y * normal.y;
     uint axis = choice < x2 ? 0u : choice < x2 + y2 ? 1u : 2u, facing = axis + (normal[axis] < 0.0 ? 3u : 0u);
     int level = int(floor(irradiance_level(irradiance_grid, point.position) + v.y));

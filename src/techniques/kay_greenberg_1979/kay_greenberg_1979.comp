@@ -1,10 +1,10 @@
 #version 460
-// Kay & Greenberg, "Transparency for Computer Synthesized Images", SIGGRAPH 1979: surfaces are laid over a
+// Kay & Greenberg, "Transparency for Computer Synthesized Images", SIGGRAPH 1979: surfaces are composited over a
 // background image from back to front, FINAL = OLD t + NEW (1 - t). Section numbers are the paper's.
 //
-// The paper rewrites the whole image once per surface: the r-th pass lays each pixel's r-th surface from the back
-// over the image that the passes before have left, read at a displaced pixel. Following one pixel through the
-// passes from the last to the first gives the same sum, and needs no images in between.
+// The paper rewrites the whole image once per surface: pass r composites each pixel's r-th surface from the back over
+// the previous image, read at a displaced pixel. Following one pixel from the last pass to the first gives the same
+// sum without intermediate images.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "techniques/technique_bindings.glsl"
@@ -28,29 +28,29 @@ layout(set = 0, binding = 10, r32f) readonly uniform image2DArray opaque_depth;
 layout(set = 0, binding = 11, rgba32f) readonly uniform image2DArray opaque_radiance;
 layout(set = 0, binding = 12, r32ui) readonly uniform uimage2DArray opaque_object;
 layout(set = 0, binding = 13, rgba32f) writeonly uniform image2DArray path_radiance;
-layout(set = 0, binding = 16, rgba32f) writeonly uniform image2DArray reflected_radiance;  // written if kLit
+layout(set = 0, binding = 16, rgba32f) writeonly uniform image2DArray reflected_radiance;  // written only if kLit
 
 layout(push_constant) uniform Push {
     uint mode;
-    uint surfaces;        // that are looked at; there is one layer more, to tell whether they are all
-    float power;          // p
+    uint surfaces;  // surfaces considered; one more layer exists, to detect that there are more
+    float power;  // p of section 2.2
     float min_transparency;
     float max_transparency;
-    float thickness;      // h, metres
-    float log_transmission;  // of T1 per metre, <= 0
-    uint own_slabs;          // 1: h and T1 are those of the surface's material
+    float thickness;  // h, metres
+    float log_transmission;  // log of T1 per metre, <= 0
+    uint own_slabs;  // 1: h and T1 come from the surface's material
     uint light_count;
-    float least_alpha;  // of highlights
+    float least_alpha;  // least GGX width of highlights
 };
 
-// A pixel's way through the images, last first.
+// State of a pixel while it passes through the images, last image first.
 struct View {
-    vec2 pixel;  // where the image is read; centres at +0.5
+    vec2 pixel;  // position at which the image is read; centres at +0.5
     vec3 transmittance;
-    vec3 radiance;  // NEW terms
+    vec3 radiance;  // sum of the NEW terms
     vec3 highlights;
     float length_inside;
-    float depth;  // of the last surface
+    float depth;  // depth of the last surface
     uint events;
     uint status;
 };
@@ -63,7 +63,7 @@ bool in_picture(vec2 pixel) {
     return all(greaterThanEqual(pixel, vec2(0.0))) && all(lessThan(pixel, vec2(frame.width, frame.height)));
 }
 
-// Surfaces of a pixel in front of what is opaque, up to one more than are looked at.
+// Number of a pixel's surfaces in front of the opaque surface, at most one more than are considered.
 uint count_surfaces(ivec2 texel) {
     float end = imageLoad(opaque_depth, ivec3(texel, 0)).r;
     uint count = 0u;
@@ -71,8 +71,8 @@ uint count_surfaces(ivec2 texel) {
     return count;
 }
 
-// NEW: the surface as if it were opaque. Shading multiplies all that comes through glass by the first surface's
-// colour (`tint`), which is taken out here.
+// NEW: radiance of the surface as if it were opaque. Shading later multiplies all light through glass by the first
+// surface's colour, `tint`, so divide by it here.
 vec3 own_radiance(MaterialRecord material, vec3 tint, vec3 facing, vec3 irradiance_of_lights) {
     vec3 albedo = material.base_color.rgb / max(tint, vec3(1e-4));
     vec3 own = diffuse_radiance(albedo, mat3(frame.world_from_view) * facing);
@@ -87,13 +87,13 @@ SurfaceLight light_on_surface(View view, MaterialRecord material, vec3 facing, f
                     light_count);
 }
 
-// Thickness of a surface's own slab in the world, metres.
+// Thickness of a surface's slab by its material, metres in world space.
 float own_thickness(ObjectRecord object, MaterialRecord material) {
     return material.sigma_a.a * pow(abs(determinant(mat3(object.world_from_object))), 1.0 / 3.0);
 }
 
-// Section 4.2, A and B: outside media rays run along -Z of the view; the surface is a slab of thickness h. Moves
-// to the pixel behind it and returns t.
+// Section 4.2, A and B: rays outside media run along -Z of the view; the surface is a slab of thickness h. Moves to
+// the pixel behind the slab and returns t.
 vec3 cross_slab(inout View view, ObjectRecord object, MaterialRecord material, vec3 facing, float depth) {
     vec3 inside;
     refract_direction(vec3(0.0, 0.0, -1.0), facing, 1.0 / material.ior, inside);
@@ -127,7 +127,7 @@ void cross_surface(inout View view, ivec2 texel, uint layer, vec3 tint) {
     ++view.events;
 }
 
-// The background image under the view's pixel: what is opaque there, or the environment along its view ray.
+// Stores the background under the view's pixel: an opaque surface, or the environment along its view ray.
 void store(ivec2 texel, View view) {
     ivec2 behind = texel_at(view.pixel);
     float opaque = imageLoad(opaque_depth, ivec3(behind, 0)).r;
@@ -145,7 +145,8 @@ void store(ivec2 texel, View view) {
     imageStore(path_radiance, at, vec4(view.radiance, hidden ? 1.0 : 0.0));
 }
 
-// What is added after all surfaces (section 2.2): their highlights, and the environment's reflection at the first one.
+// Stores the light added after all surfaces (section 2.2): their highlights, and the environment's reflection at the
+// first surface.
 void store_reflected(ivec2 texel, vec3 highlights) {
     Fragment first = load_fragment(texel, 0u);
     vec3 direction = mat3(frame.world_from_view) * camera_ray(vec2(texel) + 0.5).direction;
@@ -163,13 +164,13 @@ void main() {
 
     uint count = count_surfaces(texel);
     View view = View(vec2(texel) + 0.5, vec3(1.0), vec3(0.0), vec3(0.0), 0.0, 0.0, 0u, kStatusOk);
-    // What is opaque may stand inside the glass; without it an odd count is an open mesh.
+    // An opaque object may stand inside the glass. Without one, an odd count means an open mesh.
     bool cut = imageLoad(opaque_depth, ivec3(texel, 0)).r < PELLUCID_EMPTY_DEPTH;
     if (count > surfaces) view.status = kStatusEventLimit;
     else if ((count & 1u) != 0u && !cut) view.status = kStatusMissingLayer;
     vec3 tint = material_of(load_fragment(texel, 0u)).base_color.rgb;
 
-    // Surface r from the back; where the pixel has fewer, the pass left it as it was.
+    // Surface r from the back. Where a pixel has fewer surfaces, the pass does not change it.
     for (uint r = min(count, surfaces); r > 0u; --r) {
         if (!in_picture(view.pixel)) {
             view.status = kStatusLeftScreen;

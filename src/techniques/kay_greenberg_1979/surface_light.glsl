@@ -1,8 +1,8 @@
 #ifndef PELLUCID_TECHNIQUES_KAY_GREENBERG_1979_SURFACE_LIGHT_GLSL
 #define PELLUCID_TECHNIQUES_KAY_GREENBERG_1979_SURFACE_LIGHT_GLSL
 
-// Light of the scene's lights on one surface. Every surface sees every light (section 4.1): nothing shadows it.
-// World space throughout. Needs: optics/interface.glsl.
+// Light from the scene's lights on one surface, in world space. Every surface sees every light, without shadows
+// (section 4.1). Needs: optics/interface.glsl.
 #include "gpu/punctual_light.glsl"
 
 layout(std430, set = 0, binding = 14) readonly buffer SceneLights { PunctualLight scene_lights[]; };
@@ -18,7 +18,7 @@ struct LitSurface {
 };
 
 struct SurfaceLight {
-    vec3 irradiance;  // from the viewer's side, W/m2
+    vec3 irradiance;  // arriving on the viewer's side, W/m2
     vec3 highlight;   // radiance towards the eye
 };
 
@@ -40,7 +40,7 @@ SurfaceLight light_on(LitSurface surface, uint light_count) {
         ArrivingLight arriving = arriving_light(scene_lights[i], surface.position);
         float cos_light = -dot(arriving.way, surface.normal);
         if (!(cos_light > 0.0)) continue;
-        vec3 facing = scene_lights[i].intensity * arriving.irradiance;  // irradiance on a surface that faces the light
+        vec3 facing = scene_lights[i].intensity * arriving.irradiance;  // irradiance on a surface facing the light
         sum.irradiance += cos_light * facing;
         sum.highlight += highlight_of(surface, -arriving.way, cos_light) * facing;
     }

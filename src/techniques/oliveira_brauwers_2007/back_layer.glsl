@@ -1,19 +1,19 @@
 #ifndef PELLUCID_TECHNIQUES_OLIVEIRA_BRAUWERS_2007_BACK_LAYER_GLSL
 #define PELLUCID_TECHNIQUES_OLIVEIRA_BRAUWERS_2007_BACK_LAYER_GLSL
 
-// Reading the back layer under a point of a ray. Needs: technique_bindings.glsl, linear_steps, interpolate.
+// Reads the back layer under a point of a ray. Needs: technique_bindings.glsl, linear_steps, interpolate.
 
 layout(set = 0, binding = 10, r32f) readonly uniform image2DArray back_depth;
 layout(set = 0, binding = 11, r32ui) readonly uniform uimage2DArray back_normal;
 
-// Depths of one surface differ by less than this from texel to texel: the depth of a linear step, metres.
+// The depth of a linear step, metres. Neighbouring depths of one surface differ by less.
 float largest_step() { return (frame.glass_far - frame.glass_near) / float(linear_steps); }
 
 ivec2 texel_under(vec3 position) {
     return clamp(ivec2(floor(project(position))), ivec2(0), ivec2(frame.width, frame.height) - 1);
 }
 
-// Beside the object a ray is outside, thus behind the surface that it leaves through.
+// Beside the object a ray is outside, so it must count as behind the exit surface.
 float texel_depth(int x, int y) {
     float depth = imageLoad(back_depth, ivec3(x, y, 0)).r;
     return depth == PELLUCID_EMPTY_DEPTH ? -PELLUCID_EMPTY_DEPTH : depth;
@@ -24,8 +24,8 @@ float stored_depth(vec3 position) {
     return texel_depth(texel.x, texel.y);
 }
 
-// The four texels around a position with their bilinear weights (low x first, then low y), and the depth that
-// they give. A texel across a jump from the nearest one shows another surface and has no weight.
+// The four texels around a position with bilinear weights (low x first, then low y), and their weighted depth. Texels
+// across a depth discontinuity from the nearest texel show another surface and have weight 0.
 struct Footprint {
     ivec2 low, high;
     vec4 weights;
@@ -55,7 +55,7 @@ vec3 texel_normal(int x, int y) {
     return mat3(frame.view_from_world) * unpack_unit_vector(imageLoad(back_normal, ivec3(x, y, 0)).r);
 }
 
-// Unit normal of the surface under a position, in view space; there must be one.
+// Unit normal of the surface under a position, in view space. The surface must exist.
 vec3 normal_at(vec3 position) {
     Footprint around = footprint(position);
     vec3 sum = around.weights.x * texel_normal(around.low.x, around.low.y) +
@@ -63,7 +63,7 @@ vec3 normal_at(vec3 position) {
                around.weights.z * texel_normal(around.low.x, around.high.y) +
                around.weights.w * texel_normal(around.high.x, around.high.y);
     ivec2 nearest = texel_under(position);
-    // Opposite normals may cancel out; then any of them will do.
+    // If opposite normals cancel out, use the nearest one.
     return dot(sum, sum) > 1e-12 ? normalize(sum) : texel_normal(nearest.x, nearest.y);
 }
 

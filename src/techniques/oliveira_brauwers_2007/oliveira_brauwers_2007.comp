@@ -1,7 +1,7 @@
 #version 460
-// Oliveira & Brauwers, "Real-Time Refraction Through Deformable Objects", I3D 2007: the exit point of the
-// refracted ray is searched in the depths of the object's back faces as relief mapping searches a height field,
-// in linear, then in binary steps.
+// Oliveira & Brauwers, "Real-Time Refraction Through Deformable Objects", I3D 2007: the exit point of the refracted
+// ray is searched in the depths of the object's back faces, as relief mapping searches a height field: in linear, then
+// in binary steps.
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/technique_bindings.glsl"
 
@@ -18,7 +18,7 @@ layout(push_constant) uniform Push {
 #include "techniques/oliveira_brauwers_2007/back_layer.glsl"
 #include "techniques/ray_range.glsl"
 
-// Narrows the step in which the ray got behind the layer; returns the last distance in front of it.
+// Narrows the step in which the ray passed behind the layer. Returns the last distance in front of it.
 float binary_search(vec3 origin, vec3 direction, float front, float behind) {
     for (uint i = 0u; i < binary_steps; ++i) {
         float middle = 0.5 * (front + behind);
@@ -32,21 +32,21 @@ float binary_search(vec3 origin, vec3 direction, float front, float behind) {
 bool is_behind(vec3 position) { return -position.z > stored_depth(position); }
 
 struct Hit {
-    float distance;  // negative: none
-    uint status;     // why there is none
+    float distance;  // negative: no hit
+    uint status;  // reason for a missing hit
 };
 
-// Where the ray passes from in front of the back layer to behind it.
+// Finds where the ray passes behind the back layer.
 Hit search(vec3 origin, vec3 direction) {
     float to_screen_edge = distance_to_screen_edge(origin, direction);
-    // A step to spare, so that what lies at the end of the range is passed.
+    // Extend the range by a step, so that a surface at its end is passed.
     float end = min(to_screen_edge, distance_to_depth_edge(origin, direction, largest_step()));
     float step_length = end / float(linear_steps);
     uint i = 1u;
     while (i <= linear_steps && !is_behind(origin + float(i) * step_length * direction)) ++i;
     if (i <= linear_steps) {
         float hit = binary_search(origin, direction, float(i - 1u) * step_length, float(i) * step_length);
-        // An open object may have no back face anywhere near.
+        // An open object may have no back face nearby.
         if (stored_depth(origin + hit * direction) >= -0.5 * PELLUCID_EMPTY_DEPTH) return Hit(hit, kStatusOk);
     }
     bool over_glass = abs(stored_depth(origin + end * direction)) < PELLUCID_EMPTY_DEPTH;
@@ -56,7 +56,7 @@ Hit search(vec3 origin, vec3 direction) {
 void trace(inout Path path, ivec2 texel, vec2 pixel, Fragment first) {
     MaterialRecord material = material_of(first);
     vec3 first_position = view_position(pixel, first.depth);
-    if (back_face(first.triangle)) {  // the entry before this exit is not there: an open mesh, or the eye inside
+    if (back_face(first.triangle)) {  // the entry before this exit is missing: an open mesh, or the eye inside
         travel(path, distance(path.position, first_position), material.sigma_a.rgb);
         cross_interface(path, view_normal(texel, 0u), true, material.ior);
         path.status = kStatusMissingLayer;
@@ -70,7 +70,7 @@ void trace(inout Path path, ivec2 texel, vec2 pixel, Fragment first) {
         return;
     }
     travel(path, hit.distance, material.sigma_a.rgb);
-    // The method has two interfaces. Under total internal reflection the path ends reflected, and says so.
+    // The method has two interfaces. After total internal reflection the path ends with the event limit.
     if (!cross_interface(path, normal_at(path.position), true, material.ior)) path.status = kStatusEventLimit;
 }
 

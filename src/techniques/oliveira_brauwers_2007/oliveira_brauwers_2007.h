@@ -4,7 +4,7 @@
 
 namespace pellucid {
 
-/// Two interfaces, the second found by a search in the depths of the back faces: Oliveira & Brauwers,
+/// Refraction at two interfaces, the second found by a search in the depths of the back faces: Oliveira & Brauwers,
 /// "Real-Time Refraction Through Deformable Objects", I3D 2007.
 extern const Technique kOliveiraBrauwers2007;
 

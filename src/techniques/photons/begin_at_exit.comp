@@ -1,5 +1,5 @@
 #version 460
-// Photons where a technique has found that they leave the glass. Those of the texels beside tell how far they are apart.
+// Photons at the exits from glass that a technique found. Neighbouring texels give the spacing of photons.
 #extension GL_GOOGLE_include_directive : require
 #define PELLUCID_MAKES_LISTS_ONLY
 #include "techniques/visibility_layers/visibility_bindings.glsl"
@@ -10,7 +10,7 @@
 #include "techniques/photons/photon_exits.glsl"
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 
-// Of the larger of the distances to two neighbours, and how it grows along the path.
+// The larger of the distances to two neighbours, and its growth along the path.
 vec2 spacing_of(PhotonExit own, ivec2 texel, uvec2 within) {
     vec2 spacing = vec2(own.spacing, 0.0);
     float widest = 0.0;

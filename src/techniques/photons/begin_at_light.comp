@@ -1,5 +1,5 @@
 #version 460
-// Photons where they leave their light: a texel of a light's view each, jittered alike in all texels of a frame.
+// Photons at their light: one per texel of a light's view. All texels of a frame have the same jitter.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #define PELLUCID_MAKES_LISTS_ONLY
@@ -19,33 +19,33 @@ layout(set = 0, binding = 55) uniform texture2D environment_map;
 layout(std430, set = 0, binding = 53) buffer Photons { uint photon_count, photon_reserved[3]; Photon photons[]; };
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 
-// Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018: R2; 0..1.
+// The sequence R2, 0..1: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
 vec2 jitter_of(uint sample_index) {
     return vec2(uvec2(sample_index + 1u) * uvec2(3242174889u, 2447445414u)) / 4294967296.0;
 }
 
-// A point of the unit disc; those of neighbours are spread evenly.
+// A point of the unit disc; points of neighbouring texels are well distributed.
 vec2 disc_point(uvec2 texel, uint sample_index) {
     vec2 u = fract(vec2(texel) * mat2(0.7548776662, 0.5698402910, 0.8191725134, 0.6710436067) +
                    vec2(hash(uvec3(sample_index, 5u, 9u)).xy >> 8u) / 16777216.0);
     return sqrt(u.x) * vec2(cos(6.283185307 * u.y), sin(6.283185307 * u.y));
 }
 
-// Lists what is sent where none can say it beforehand.
+// Lists a photon at its start, to sum the emitted flux of sources that the host cannot compute.
 void count_sent(ivec2 texel, vec3 flux) {
     uint number = atomicAdd(photon_count, 1u);
-    if (number >= uint(photons.length())) return;  // counted: the frame is drawn again
+    if (number >= uint(photons.length())) return;  // the count then exceeds the capacity, and the frame is repeated
     photons[number] = Photon(vec3(0.0), 0.0, flux, 0u, kStraightPhoton, kNotYetLanded, list_word(texel), 0u);
 }
 
-// Of a texel of a window. `standing`, `mark`: of its path.
+// The light sent through a texel of a window. `standing`, `mark`: state of its path.
 SentLight light_of_texel(PhotonWindow window, uvec2 within, out uint standing, out uint mark) {
     float count = float(window_side * window_side);
     uint number = within.y * window_side + within.x;
     standing = PELLUCID_NO_TRIANGLE;
     mark = 0u;
     if (window.source == kFromEmitters) {
-        mark = kBounced;  // neighbours continue the surface that it leaves
+        mark = kBounced;  // neighbouring triangles continue the emitting surface
         return light_of_emitter(window, number, count, standing);
     }
     if (window.source == kFromEnvironment) {

@@ -1,5 +1,5 @@
 #version 460
-// Where the light of one window of a light leaves the glass, as a technique finds it that was run from the light's view.
+// Exits from glass of one window's light, found by a technique that was run from the light's view.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
@@ -16,7 +16,7 @@ layout(set = 0, binding = 8, r32ui) readonly uniform uimage2DArray path_events;
 #include "techniques/photons/sent_light.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(push_constant) uniform Push { uint window; uint row; };  // texels in a row of all windows
+layout(push_constant) uniform Push { uint window; uint row; };  // `row`: texels in a row of all windows
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -29,7 +29,7 @@ void main() {
     exits[number] = PhotonExit(vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0), 0.0);
     if (!found) return;
     SentLight sent = sent_light(windows[window], vec2(texel) + 0.5, vec2(0.0));
-    // Base colour counts once, where the light leaves.
+    // Apply the base colour once, at the exit.
     MaterialRecord material = materials[objects[find_object(triangle_index(triangle))].material];
     vec3 flux = sent.flux * imageLoad(transmittance, at).rgb * material.base_color.rgb * material.transmission;
     exits[number] = PhotonExit(imageLoad(exit_position, at).xyz, events & 0xfffu, imageLoad(exit_direction, at).xyz,

@@ -1,12 +1,12 @@
 #ifndef PELLUCID_TECHNIQUES_PHOTONS_PHOTON_EXITS_GLSL
 #define PELLUCID_TECHNIQUES_PHOTONS_PHOTON_EXITS_GLSL
 
-// Photons where they leave the glass, per texel of the lights' windows.
+// Photons at their exits from glass, per texel of the lights' windows.
 struct PhotonExit {
     vec3 position;   // m, world
-    uint events;     // 0: there is none
+    uint events;  // 0: no photon
     vec3 direction;  // unit
-    float spacing;   // m, of photons as they meet the glass
+    float spacing;  // m, spacing of photons at the entry into glass
     vec3 flux;       // W
     float reserved;
 };

@@ -15,11 +15,11 @@
 namespace pellucid {
 namespace {
 
-constexpr vk::DeviceSize kPhotonExitSize = 48;  ///< of photon_exits.glsl
+constexpr vk::DeviceSize kPhotonExitSize = 48;  ///< bytes of PhotonExit in photon_exits.glsl
 constexpr std::uint32_t kMostEvents = 64;
-/// Radius of a kernel, of the spacing of photons: a look-up finds 12 of those that are as far apart.
+/// Radius of a kernel in spacings of photons. In a uniform distribution a look-up finds 12 photons.
 constexpr float kKernelWidth = 2.0f;
-/// Photons draw other random numbers than pixels do.
+/// Offset of photon texels, to give photons other random numbers than pixels.
 constexpr std::uint32_t kFirstTexel = 1u << 20;
 
 /// Twin of the block in photon_windows.glsl.
@@ -30,8 +30,8 @@ struct WindowHeader {
     std::uint32_t reserved[2];
 };
 
-/// Factor of radii in sample `sample` of a still (Knaus & Zwicker, "Progressive photon mapping: a probabilistic approach",
-/// 2011, equation 15, alpha = 2/3): the mean over the samples converges.
+/// Factor of radii in sample `sample` of a still (Knaus & Zwicker, "Progressive photon mapping: a probabilistic
+/// approach", 2011, equation 15, alpha = 2/3). The mean over the samples converges.
 float shrinkage(std::uint32_t sample) {
     constexpr double kAlpha = 2.0 / 3.0;
     double share = 1.0;
@@ -41,7 +41,7 @@ float shrinkage(std::uint32_t sample) {
 
 std::uint32_t columns_of(std::size_t windows) { return std::uint32_t(std::ceil(std::sqrt(double(windows)))); }
 
-/// Of a view's texels where its targets are, m. Focused light is resolved so finely.
+/// Size of a view's texels at its targets, m. It limits the resolution of focused light.
 float spacing_of(const LightView& view, const Bounds& bounds) {
     const float texel = std::sqrt(view.constants.film.z * view.constants.film.w);
     if (view.constants.orthographic != 0) return texel;
@@ -53,7 +53,7 @@ float flux_of(const Light& light, const LightView& view) {
     return std::max({i.r, i.g, i.b}) * view.constants.film.z * view.constants.film.w;
 }
 
-/// What a light sends through a view, W, texel by texel as begin_at_light.comp has it.
+/// Flux of a light through a view, W, summed over texels as in begin_at_light.comp.
 glm::dvec3 sent_flux(const Light& light, const LightView& view) {
     const glm::dvec4 film(view.constants.film);
     const std::uint32_t side = view.constants.width;
@@ -131,7 +131,7 @@ std::vector<PhotonWindow> Photons::windows_of(const Frame& frame) const {
     return windows;
 }
 
-/// `width`: of kernels, over the spacing of photons.
+/// Sets the scale of the photon store. `width`: width of kernels, in spacings of photons.
 void Photons::set_scale(const Frame& frame, float width) {
     scale_ = {std::numeric_limits<float>::max(), 0.0f};
     scale_.sample = frame.view.sample_index;
@@ -144,7 +144,7 @@ void Photons::set_scale(const Frame& frame, float width) {
                 area = kPi * setup_.targets.radius * setup_.targets.radius;
     scale_.least_radius = std::min(scale_.least_radius, width * std::sqrt(area / count));
     if (setup_.emitters) scale_.most_flux = std::max(scale_.most_flux, 4.0f * kPi * frame.scene.emitted_power / count);
-    // Where a cell of the environment has one bright texel, its photons carry more than this mean.
+    // If one texel of a cell of the environment is bright, its photons exceed this mean.
     if (setup_.environment != nullptr)
         scale_.most_flux = std::max(scale_.most_flux, 8.0f * setup_.environment->luminance * area / count);
 }
@@ -179,7 +179,7 @@ const Buffer& Photons::gather_exits(Recorder& recorder, const Frame& from_light,
         const Opaque opaque = setup_.draw_opaque(recorder, view);
         const Layers hidden =
             source_.build(recorder, view, opaque, {view.scene.refractive, setup_.by->layer_count(parameters)});
-        // The technique is to find where light leaves the glass, not where it ends.
+        // The technique must find the exits from glass, not the surfaces behind them.
         const GpuImage& nowhere = workspace_.image("no opaque depth", vk::Format::eR32Sfloat, view.extent);
         recorder.clear(nowhere, vk::ClearColorValue(std::array{float(PELLUCID_EMPTY_DEPTH), 0.0f, 0.0f, 0.0f}));
         const Opaque none{opaque.radiance, nowhere, opaque.object, opaque.triangle};

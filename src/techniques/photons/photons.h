@@ -14,62 +14,61 @@
 
 namespace pellucid {
 
-/// What sends photons in a picture.
+/// Sources of photons in an image.
 struct PhotonSetup {
-    /// Emissive surfaces and the environment aim at this sphere around everything that bends light.
+    /// Sphere around everything that bends light. Emissive surfaces and the environment aim at it.
     struct Sphere {
         glm::vec3 center{0.0f};  ///< m, world
         float radius = 0.0f;     ///< m; 0: nothing bends light
     };
 
     bool any() const { return !views.empty() || emitters || environment != nullptr; }
-    /// Views, and one window each for emissive surfaces and the environment.
+    /// Number of windows: one per view, and one each for emissive surfaces and the environment.
     std::size_t window_count() const { return views.size() + (emitters ? 1 : 0) + (environment != nullptr ? 1 : 0); }
 
     std::vector<Light> lights = {};
-    /// Finds where light leaves glass, by its frames from the views; null: paths do. Light that the first surface reflects
-    /// is left out, and metal sends none.
+    /// Technique that finds the exits from glass, by frames from the views; null: photons follow paths. With a
+    /// technique, light reflected by the first surface and light from metal are missing.
     const Technique* by = nullptr;
     ParameterMap parameters = {};  ///< of `by`
     LayerBuilder layer_builder = LayerBuilder::kCompute;
-    /// Draws what stands between a light and the glass; `by` needs it.
+    /// Draws occluders between a light and the glass; required by `by`.
     Opaque (*draw_opaque)(Recorder& recorder, const Frame& frame) = nullptr;
-    std::vector<LightView> views = {};  ///< of `side` texels along each side
+    std::vector<LightView> views = {};  ///< views with `side` texels per side
     std::uint32_t side = 0;
     Sphere targets = {};
-    bool emitters = false;            ///< emissive surfaces send photons
-    bool emitters_in_solids = false;  ///< some of them may lie in glass
-    const EnvironmentShares* environment =
-        nullptr;  ///< directions from which the environment sends photons; null: none
+    bool emitters = false;                           ///< emissive surfaces send photons
+    bool emitters_in_solids = false;                 ///< some emissive surfaces may lie in glass
+    const EnvironmentShares* environment = nullptr;  ///< directions sampled for the environment's photons; null: none
 };
 
-/// Light that lights, emissive surfaces and the environment send through glass and from metal onto opaque surfaces (Jensen, "Global illumination using photon maps",
-/// 1996): every frame traces photons of its own from the lights' views, by the paths of visibility-layers, and sorts them
-/// for look-ups.
+/// Light from lights, emissive surfaces and the environment that reaches opaque surfaces through glass or from metal
+/// (Jensen, "Global illumination using photon maps", 1996). Every frame traces its own photons from the lights' views,
+/// with the paths of visibility-layers, and sorts them for look-ups.
 class Photons {
 public:
     explicit Photons(const Device& device) : workspace_(device), store_(device) {}
 
-    /// Before the frames of a picture, when none is in flight. Photons need GpuScene::topology and, on a device that is a CPU,
-    /// GpuScene::host_finder.
+    /// Call before the frames of an image, when no frame is in flight. Photons need GpuScene::topology and, on a CPU
+    /// device, GpuScene::host_finder.
     void begin(PhotonSetup setup);
     bool any() const { return setup_.any(); }
     bool of_emitters() const { return setup_.emitters; }
     bool of_environment() const { return setup_.environment != nullptr; }
-    /// Traces the photons of a frame; `frame.photons` is bindings().
+    /// Traces the photons of a frame. `frame.photons` must be bindings().
     void record(Recorder& recorder, const Frame& frame);
-    /// What look-ups bind; its address does not change. Null: there are no photons.
+    /// Bindings for look-ups, at a constant address; null without photons.
     const std::vector<Binding>* bindings() const { return any() ? &bindings_ : nullptr; }
     /// As LayerSource::must_repeat().
     bool must_repeat(const Frame& frame);
-    /// Forgets what it has learnt of a scene.
+    /// Forgets everything learnt about a scene.
     void forget() {
         source_ = LayerSource();
         store_ = PhotonStore(workspace_.device());
     }
-    /// Whether frames from now on measure flux().
+    /// Sets whether further frames measure flux().
     void count_flux(bool counts) { counts_ = counts; }
-    /// Of the last frame that has measured it.
+    /// Flux of the last frame that measured it.
     const PhotonFlux& flux() const { return flux_; }
 
 private:

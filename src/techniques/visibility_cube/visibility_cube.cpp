@@ -1,4 +1,4 @@
-// The paths of visibility-layers, in maps of the meshes instead of one of the view.
+// The paths of visibility-layers, in maps of the meshes instead of a map of the view.
 #include "techniques/visibility_cube/visibility_cube.h"
 
 #include "techniques/visibility_layers/visibility_layers.h"

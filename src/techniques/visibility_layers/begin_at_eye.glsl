@@ -1,8 +1,8 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_BEGIN_AT_EYE_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_BEGIN_AT_EYE_GLSL
 
-// View rays that start at the eye, or at the near plane: where what they meet first cannot be told from the first layer
-// alone. Those are of the pixels with glass, or of all where the eye is in a medium.
+// View rays that start at the eye, or at the near plane, because the first layer alone does not give their first hit.
+// These are the pixels with glass, or all pixels if the eye is in a medium.
 #define PELLUCID_MAKES_LISTS_ONLY
 #include "techniques/visibility_layers/visibility_bindings.glsl"
 #include "techniques/visibility_layers/path_walk.glsl"
@@ -14,7 +14,7 @@ layout(set = 0, binding = 63, r32ui) readonly uniform uimage2DArray opaque_trian
 layout(set = 0, binding = 7, rgba32f) writeonly uniform image2DArray path_radiance;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray reflected_radiance;
 layout(std430, set = 0, binding = 30) readonly buffer Volumes { VolumeRecord volumes[]; };
-layout(std430, set = 0, binding = 39) readonly buffer EyeMedia { uint eye_media[]; };  // a bit per slot
+layout(std430, set = 0, binding = 39) readonly buffer EyeMedia { uint eye_media[]; };  // one bit per slot
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 #include "volume/volume_boxes.glsl"
 
@@ -33,7 +33,7 @@ void main() {
     bool in_medium = false;
     for (uint w = 0u; w < kMediumWords; ++w) state.media.words[w] = eye_media[w];
     if (eye_differs != 0u) {
-        in_medium = kFoundOnHost;  // unless the host finds that it is not
+        in_medium = kFoundOnHost;  // assumed until the host has found the media
         if (!kFoundOnHost) find_media(path.position, path.direction, state.media);
     }
     for (uint w = 0u; w < kMediumWords; ++w) in_medium = in_medium || state.media.words[w] != 0u;
@@ -41,7 +41,7 @@ void main() {
     bool begins = in_medium;
     if (first != PELLUCID_NO_TRIANGLE)
         begins = begins || !kVolumes || proxy == kSharpInterfaces || (traits[object_of(triangle_index(first))] & kReplaced) == 0u;
-    // What is opaque has been drawn without lights so far.
+    // Opaque surfaces were drawn without lights so far.
     if (kLightsSurfaces && whole_picture != 0u) begins = begins || imageLoad(opaque_triangle, at).r != PELLUCID_NO_TRIANGLE;
     if (kVolumes) {
         float straight, opaque = imageLoad(opaque_depth, at).r;

@@ -1,5 +1,5 @@
 #version 460
-// Paths of pixels that show an opaque surface, for the light that the rasteriser does not draw. They stand on the surface.
+// Paths of pixels with an opaque surface, for the light that the rasteriser does not draw. They start on the surface.
 #extension GL_GOOGLE_include_directive : require
 #define PELLUCID_MAKES_LISTS_ONLY
 #include "techniques/visibility_layers/visibility_bindings.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// View rays of an eye in the open, and what they do at the first surface of glass.
+// View rays of an eye outside all media, up to and across the first surface of glass.
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/visibility_layers/visibility_bindings.glsl"
 #include "layers/surface_map.glsl"
@@ -44,7 +44,7 @@ void main() {
     uint own_traits = traits[object];
     if (kManySlots) own_traits += shell_traits[triangle - objects[object].first_triangle + objects[object].first_corner / 3u];
     bool leaving = back_face(first);
-    if (!leaving || (own_traits & kClosed) == 0u) {  // else the near plane has cut off what comes before
+    if (!leaving || (own_traits & kClosed) == 0u) {  // otherwise the near plane has clipped the entry
         Crossing crossing;
         crossing.surface = surface_at(triangle, object, state.path.position, state.path.direction);
         crossing.leaving = leaving;

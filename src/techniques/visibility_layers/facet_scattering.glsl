@@ -1,27 +1,27 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_FACET_SCATTERING_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_FACET_SCATTERING_GLSL
 
-// How much light a rough boundary scatters from one direction to another: Heitz et al. 2016. Twin of
-// src/reference/rough_interface.cpp, where the formulas are explained. Needs: microfacets.glsl, optics/interface.glsl.
+// Light that a rough boundary scatters from one direction to another: Heitz et al. 2016. Twin of
+// src/reference/rough_interface.cpp, which explains the formulas. Needs: microfacets.glsl, optics/interface.glsl.
 //
-// All directions are in the surface's frame. wo and wi point away from the surface, wo.z > 0. A way is a direction of travel, in
-// a frame whose z axis is the normal on the light's side. eta = n_here / n_there, seen from that side.
+// All directions are in the surface's frame. wo and wi point away from the surface, wo.z > 0. `way` is a direction of
+// travel, in a frame whose z axis is the normal on the light's side. eta = n_here / n_there, seen from that side.
 
 vec3 to_other_side(vec3 w) { return vec3(w.xy, -w.z); }
 
-// GGX: normals m, m.z > 0, per solid angle and projected area.
+// GGX: density of normals m, m.z > 0, per solid angle and projected area.
 float facet_density(vec3 m, float alpha) {
     float a2 = alpha * alpha, d = dot(m.xy, m.xy) + a2 * m.z * m.z;
     return a2 / (3.14159265 * d * d);
 }
 
-// Area of the facets that face w, projected along w, per macroscopic area; w may point below the surface.
+// Projected area along w of the facets that face w, per macroscopic area. w may point below the surface.
 float projected_area(vec3 w, float alpha) {
     float cos2 = w.z * w.z, slope2 = alpha * alpha * max(1.0 - cos2, 0.0), slanted = sqrt(cos2 + slope2);
-    return w.z < 0.0 ? 0.5 * slope2 / (slanted - w.z) : 0.5 * (slanted + w.z);  // without cancellation below the horizon
+    return w.z < 0.0 ? 0.5 * slope2 / (slanted - w.z) : 0.5 * (slanted + w.z);  // no cancellation below the horizon
 }
 
-// Density with which the next facet on a way reflects light to w.
+// Density with which the next facet reflects light travelling along `way` to w.
 float reflected_density(vec3 way, vec3 w, float eta, float alpha) {
     vec3 sum = w - way;
     if (!(sum.z > 0.0)) return 0.0;
@@ -29,7 +29,8 @@ float reflected_density(vec3 way, vec3 w, float eta, float alpha) {
     return fresnel_dielectric(-dot(way, m), eta) * facet_density(m, alpha) / (4.0 * projected_area(-way, alpha));
 }
 
-// The same of what it refracts: Walter et al. 2007, equations 16 and 17.
+// Density with which the next facet refracts light travelling along `way` to w: Walter et al. 2007, equations 16 and
+// 17.
 float refracted_density(vec3 way, vec3 w, float eta, float alpha) {
     vec3 sum = w - eta * way;
     float length_ = length(sum);
@@ -49,9 +50,9 @@ float leaving_density(vec3 way, vec3 w, float eta, Facets facets) {
     return refracted_density(way, w, eta, facets.alpha) * pow(1.0 - facets.level, lambda);
 }
 
-// Estimates the share of random walks from `from` whose last facet sends the light to `to`. Walks over two or more facets could
-// come from the other end, too: the balance heuristic combines both. `reversal`: density from -> to over density to -> from.
-// `first`: walks over one facet count, too.
+// Estimates the share of random walks from `from` whose last facet sends the light to `to`. Walks over two or more
+// facets can also start at the other end; the balance heuristic combines both. `reversal`: density from -> to over
+// density to -> from. `first`: include walks over one facet.
 float walk_towards(vec3 from, vec3 to, float eta, float reversal, bool first, inout Facets facets) {
     bool beyond = from.z < 0.0;
     vec3 way = beyond ? to_other_side(-from) : -from;
@@ -68,7 +69,7 @@ float walk_towards(vec3 from, vec3 to, float eta, float reversal, bool first, in
     return sum;
 }
 
-// BSDF times |cos theta_i| of radiance over n^2, per steradian: an unbiased estimate.
+// BSDF times |cos theta_i| for radiance over n^2, per steradian: an unbiased estimate.
 float facet_scattering(vec3 wo, vec3 wi, float eta, inout Facets facets) {
     float n = wi.z > 0.0 ? 1.0 : 1.0 / eta;
     float reversal = n * n * abs(wi.z) / wo.z;
@@ -76,14 +77,15 @@ float facet_scattering(vec3 wo, vec3 wi, float eta, inout Facets facets) {
     return forward + reversal * walk_towards(wi, wo, eta, 1.0 / reversal, false, facets);
 }
 
-// Stands for the density of sampled directions in the power heuristic, which allows any positive function.
+// Substitute for the density of sampled directions in the power heuristic, which allows any positive function.
 float stand_in_density(vec3 wo, vec3 wi, float eta, float alpha) {
     float single = wi.z > 0.0 ? reflected_density(-wo, wi, eta, alpha) : refracted_density(-wo, wi, eta, alpha);
     float hidden_o = 1.0 + smith_lambda(wo, alpha), hidden_i = smith_lambda(wi, alpha);
     return single * hidden_o / (hidden_o + hidden_i) + 1.0 / (3.14159265 * alpha);
 }
 
-// Weight of a direction chosen with density `pdf` that `other` might have chosen, too (Veach 1997, section 9.2.4).
+// MIS weight of a direction sampled with density `pdf`, which the other strategy samples with density `other` (Veach
+// 1997, section 9.2.4).
 float power_heuristic(float pdf, float other) {
     float ratio = other / pdf;
     return 1.0 / (1.0 + ratio * ratio);

@@ -1,10 +1,11 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_FILLING_BODY_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_FILLING_BODY_GLSL
 
-// Which medium a path is in. Needs: path_state.glsl, materials, slots (SlotRecord[]).
+// The medium of a path. Needs: path_state.glsl, materials, slots (SlotRecord[]).
 #include "gpu/object_traits.glsl"
 
-// The body that fills the place, by its first slot: of those around the path the one that displaces the others.
+// The body that fills the path's position, by its first slot: of the bodies around the path, the one that displaces
+// the others.
 uint filling_body(Media media) {
     for (uint w = kMediumWords; w-- > 0u;) {
         uint bits = media.words[w];
@@ -16,7 +17,7 @@ uint filling_body(Media media) {
             for (uint s = record.first; s < record.first + record.count; ++s)
                 if (is_inside(media, s)) winding += (slots[s].medium & kCavitySlot) != 0u ? -1 : 1;
             if (winding > 0) return record.first;
-            // On to the next body: its slots are lower.
+            // Continue with the next body, whose slots are lower.
             bits = record.first <= w * 32u ? 0u : bits & ((1u << (record.first - w * 32u)) - 1u);
         }
     }
@@ -39,7 +40,7 @@ MaterialRecord filling_material(uint body) {
     return materials[kOneObject ? objects[0].material : slots[body].material & ~kReplacedSolid];
 }
 
-// Per channel; without dispersion all are alike.
+// Indices per channel; equal without dispersion.
 vec3 filling_iors(uint body) {
     if (body == kAir) return vec3(1.0);
     MaterialRecord material = filling_material(body);

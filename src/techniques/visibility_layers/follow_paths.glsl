@@ -1,8 +1,8 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_FOLLOW_PATHS_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_FOLLOW_PATHS_GLSL
 
-// Takes every path on to the next surface, or the next few, and past them if they are glass; where there is none, or an
-// opaque one, the path ends. Programs that define PELLUCID_HELD_VOLUMES know of solids that hold volumes.
+// Advances every path by one or a few surfaces, across glass. A path ends at an opaque surface, or if it hits nothing.
+// Programs that define PELLUCID_HELD_VOLUMES support solids that contain volumes.
 #include "techniques/visibility_layers/visibility_bindings.glsl"
 #include "gpu/vertices.glsl"
 #include "techniques/visibility_layers/path_walk.glsl"
@@ -11,17 +11,17 @@
 // Twin of ObjectBox in scene_topology.cpp.
 struct ObjectBox {
     vec3 low;
-    float radius;  // from the middle of the box to the farthest vertex
+    float radius;  // m, from the box's centre to the farthest vertex
     vec3 high;
     float contact;  // m, see contact_distance()
 };
-layout(std430, set = 0, binding = 27) readonly buffer Boxes { ObjectBox boxes[]; };  // per object, world
+layout(std430, set = 0, binding = 27) readonly buffer Boxes { ObjectBox boxes[]; };  // per object, in world space
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
 
 #include "volume/volume_record.glsl"
 layout(std430, set = 0, binding = 30) readonly buffer Volumes { VolumeRecord volumes[]; };
-// Paths that enter volumes, or are to be finished by another map; never both.
+// Paths that enter volumes, or that another map must finish; never both in one program.
 PELLUCID_APPENDED_LIST(SetAside, 31, aside_groups, aside_length, aside_pixels, append_set_aside)
 #include "volume/volume_boxes.glsl"
 
@@ -30,7 +30,7 @@ layout(set = 0, binding = 5) uniform texture3D volume_index;
 layout(set = 0, binding = 38) uniform texture3D volume_bricks;
 #include "volume/volume_field.glsl"
 
-// Indices of refraction of a body, at a place on its surface.
+// Indices of refraction of a body at a position on its surface.
 vec3 iors_at(uint body, vec3 place) {
     if (proxy != kSharpInterfaces || !in_replaced(body)) return filling_iors(body);
     for (uint i = 0u; i < volume_count; ++i) {
@@ -51,17 +51,17 @@ vec3 iors_at(uint body, vec3 place) { return filling_iors(body); }
 #endif
 
 layout(constant_id = 10) const uint kSurfacesPerPass = 1u;
-layout(constant_id = 7) const bool kOpaqueObjects = false;  // there are some
-layout(constant_id = 28) const bool kFinished = false;  // paths that the map loses are finished by another
+layout(constant_id = 7) const bool kOpaqueObjects = false;  // the scene has opaque objects
+layout(constant_id = 28) const bool kFinished = false;  // another map finishes paths that this map loses
 
-// A pane that bends no light: its two faces and the reflections between them are one factor.
+// Passes a pane, which bends no light. Its two faces and the reflections between them are one factor.
 void pass_pane(inout Path path, Surface surface) {
     float once = fresnel_dielectric(abs(dot(path.direction, surface.normal)), 1.0 / materials[surface.material].ior);
     vec4 tint = surface_tint(surface);
     path.transmittance *= mix(vec3(1.0), (1.0 - 2.0 * once / (1.0 + once)) * tint.rgb, tint.a);
 }
 
-// A photon passes a pane or is reflected by it, at random.
+// Transmits or reflects a photon at a pane, at random.
 void pass_pane_as_photon(inout PathState state, Surface surface) {
     float cosine = abs(dot(state.path.direction, surface.normal));
     float once = fresnel_dielectric(cosine, 1.0 / materials[surface.material].ior);
@@ -78,7 +78,7 @@ void pass_pane_as_photon(inout PathState state, Surface surface) {
     }
 }
 
-// Whether the way goes on through an object's box, and the ball around it, beyond the edge of the view's map.
+// True if the ray hits an object's box, and the ball around it, beyond the edge of the view's map.
 bool meets_boxes(vec3 position, vec3 direction) {
     bool any_met = false;
     for (uint i = 0u; i < frame.object_count; ++i) {
@@ -96,13 +96,13 @@ bool meets_boxes(vec3 position, vec3 direction) {
     return any_met;
 }
 
-// Surfaces of two objects no farther apart are at the same place; m.
+// Distance, m, below which surfaces of two objects count as touching.
 float contact_distance(uint object_a, uint object_b, vec3 place) {
-    float spacings = max(max(abs(place.x), abs(place.y)), abs(place.z)) * 4.8e-7;  // four spacings of a float
+    float spacings = max(max(abs(place.x), abs(place.y)), abs(place.z)) * 4.8e-7;  // four float spacings
     return max(max(boxes[object_a].contact, boxes[object_b].contact), spacings);
 }
 
-// A surface that a path meets.
+// A surface hit by a path.
 struct MetSurface {
     SurfaceHit hit;
     uint object;
@@ -114,13 +114,13 @@ MetSurface met_surface(SurfaceHit hit, vec3 origin, vec3 direction) {
     return MetSurface(hit, object, surface_at(hit.triangle, object, origin, direction));
 }
 
-// A surface at the same place as another, of the kind that is wanted.
+// Finds a surface of the wanted kind that touches another.
 bool find_touching(MetSurface other, vec3 direction, Search search, out MetSurface touching) {
-    const float kGrazing = 512.0;  // along a ray that lies flatter than one in so many, surfaces are not seen to touch
-    const float kBehind = 32.0;    // rounding puts places on a flat ray as far off
+    const float kGrazing = 512.0;  // rays with a smaller slope than 1 in 512 do not detect contact
+    const float kBehind = 32.0;  // rounding of positions along a flat ray, in contact distances
     vec3 place = other.surface.position;
     float t_end, apart = contact_distance(other.object, other.object, place);
-    for (int k = 0; k < 2; ++k) {  // the one that is found may be the larger
+    for (int k = 0; k < 2; ++k) {  // the other object may have the larger contact distance
         search.visits = 0u;
         search.limit = kGrazing * apart;
         touching.hit = find_next(place, direction, -kBehind * apart, search, t_end);
@@ -134,26 +134,26 @@ bool find_touching(MetSurface other, vec3 direction, Search search, out MetSurfa
     return abs(touching.hit.t) * across <= contact_distance(other.object, touching.object, place);
 }
 
-// Of the bodies whose media meet, the one that displaces the other has the boundary.
+// True if `body` has the boundary: of two bodies whose media meet, the one that displaces the other has it.
 bool has_boundary(uint body, uint other, uint before, uint beyond) {
     bool meets = body == before || body == beyond, other_meets = other == before || other == beyond;
     return meets && (!other_meets || body > other);
 }
 
-// Whether a path starts at an opaque surface, which its triangle's neighbours continue.
+// True if a path starts at an opaque surface, which neighbouring triangles continue.
 bool leaves_opaque(PathState state) {
     return has_mark(state, kToLight | kBounced) && state.standing != PELLUCID_NO_TRIANGLE &&
            (traits[object_of(state.standing)] & kKindMask) == kOpaqueKind;
 }
 
-// The next surface on a path.
+// Finds the next surface on a path.
 SurfaceHit find_ahead(PathState state, bool in_body, inout Search search, out float t_end) {
     SurfaceHit hit;
     float t_min = -coincidence;
     for (int attempt = 0; attempt < 2; ++attempt) {
         hit = find_next(state.path.position, state.path.direction, t_min, search, t_end);
-        // Reflected where its solid touches something opaque, which the path then has behind it. And of a shell that
-        // crosses itself, neighbours of the triangle that the path stands on are that surface still.
+        // Skip opaque surfaces behind a path that was reflected where its solid touches them. Also skip neighbouring
+        // triangles of a shell that crosses itself: they continue the path's surface.
         bool opaque = (hit.traits & kKindMask) == kOpaqueKind;
         bool behind = opaque && (in_body || leaves_opaque(state));
         bool crossed = kCrossing && (hit.traits & kCrossesItself) != 0u && state.standing != PELLUCID_NO_TRIANGLE;
@@ -163,8 +163,8 @@ SurfaceHit find_ahead(PathState state, bool in_body, inout Search search, out fl
     return hit;
 }
 
-// Whether a path enters a volume before a surface at `t`, and if so takes it there. It enters the one that it meets first,
-// in the open or of the solid that it is in; where it stands at a surface, it crosses that before.
+// Moves a path to the first volume before a surface at `t`, and returns true if there is one. The volume lies outside
+// all solids, or in the path's solid. A path at a surface crosses the surface first.
 bool enters_volume(inout PathState state, uint body, float t) {
     if (!(body == kAir || in_replaced(body)) || t <= kApart * coincidence) return false;
     float straight;
@@ -175,7 +175,7 @@ bool enters_volume(inout PathState state, uint body, float t) {
     return true;
 }
 
-// Of a path that meets nothing.
+// Status of a path that hits nothing.
 uint status_of_end(Path path, bool in_body, bool gave_up, float t_end) {
     if (gave_up) return kStatusStepLimit;
     if (!kMapPerMesh && t_end < kFarthest && meets_boxes(path.position + t_end * path.direction, path.direction))
@@ -183,15 +183,15 @@ uint status_of_end(Path path, bool in_body, bool gave_up, float t_end) {
     return in_body ? kStatusMissingLayer : path.status;
 }
 
-// What a solid stands on is outside of it: a path in it that has found something opaque leaves the solid first.
+// An object that supports a solid lies outside of it: a path in the solid that hits the object leaves the solid first.
 void take_wall_first(vec3 direction, Search search, inout MetSurface met) {
     MetSurface wall;
     search.wanted = kFindShells;
     if (find_touching(met, direction, search, wall) && wall.hit.leaving) met = wall;
 }
 
-// Crosses all boundaries that lie at one place: the order in which they are found is chance. `met` becomes the one that
-// parts the media of both sides, or what is opaque where the path cannot go on.
+// Crosses all boundaries that touch at one position, since their order is arbitrary. `met` becomes the boundary
+// between the media of both sides, or the opaque surface that stops the path.
 void cross_touching(vec3 direction, Search search, Media here, inout MetSurface met, inout Media media) {
     const int kMostTouching = 16;
     uint before = filling_body(here);
@@ -208,12 +208,12 @@ void cross_touching(vec3 direction, Search search, Media here, inout MetSurface 
     }
     search.wanted = kFindOpaque;
     if (kOpaqueObjects && !leaves && find_touching(at, direction, search, other)) {
-        met = other;  // the solid stands on that
+        met = other;  // an opaque object supports the solid
         copy_media(here, media);
     }
 }
 
-// Takes a path that has met glass to its other side, which may be no boundary of media.
+// Moves a path across a surface of glass, which may be no boundary of media.
 void pass_glass(inout PathState state, MetSurface met, Media here, uint before, uint beyond) {
     state.mark &= ~(kUnbent | kFromGlass);
     Crossing crossing;
@@ -227,7 +227,7 @@ void pass_glass(inout PathState state, MetSurface met, Media here, uint before, 
     cross_boundary(state, crossing);
 }
 
-// Takes a shadow ray straight through glass, or lets the glass block it.
+// Passes a shadow ray straight through glass, or blocks it.
 void pass_shadow(inout PathState state, MetSurface met, uint before, uint beyond) {
     vec3 normal = met.hit.leaving ? -met.surface.normal : met.surface.normal;
     float n_i = filling_iors(before).g, n_t = filling_iors(beyond).g;
@@ -237,7 +237,7 @@ void pass_shadow(inout PathState state, MetSurface met, uint before, uint beyond
     ++state.path.events;
 }
 
-// Whether a lamp of some size lies on the way to a surface at `t`, and if so ends the path there.
+// Ends the path at a lamp with a size before a surface at `t`, and returns true if there is one.
 bool meets_lamp(inout PathState state, uint body, float t) {
     if (kVisibleLights == 0u || has_mark(state, kToLight | kBounced) || spread_of(state.mark) > 0.0) return false;
     if (kPhotons && has_mark(state, kFromDiffuse)) return false;
@@ -251,7 +251,7 @@ bool meets_lamp(inout PathState state, uint body, float t) {
     return true;
 }
 
-// Takes a path to the next surface, and past it. False: it ends there, or nowhere, or enters a volume.
+// Advances a path to the next surface and across it. Returns false if the path ends or enters a volume.
 bool go_on(inout PathState state) {
     uint body = filling_body(state.media);
     if (in_replaced(body) && proxy != kSharpInterfaces) {

@@ -1,19 +1,19 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_MICROFACETS_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_MICROFACETS_GLSL
 
-// Random choices of a path, and the facets of rough glass: Heitz, "Sampling the GGX distribution of visible normals",
-// JCGT 2018. Needs: frame, optics/interface.glsl.
+// Random decisions of a path, and the facets of rough glass: Heitz, "Sampling the GGX distribution of visible
+// normals", JCGT 2018. Needs: frame, optics/interface.glsl.
 #include "gpu/hash.glsl"
 #include "gpu/tangent_frame.glsl"
 
 uint sample_seed(ivec2 texel) { return hash(uvec3(texel + first_pixel(), 1u)).x; }
 
-// 0 to below 1; every event of every sample has its own, so that choices along a path do not depend on each other.
+// Random numbers in [0, 1). Every event of every sample has its own, so decisions along a path are independent.
 vec2 random_numbers(uint seed, uint event) {
     return vec2(hash(uvec3(seed, event, 2u * frame.sample_index)).xy >> 8u) / 16777216.0;
 }
-// The same, but spread evenly over the numbers, or samples, of a seed and event (a Kronecker sequence; powers of 1/1.16730398 by Roberts,
-// "The unreasonable effectiveness of quasirandom sequences", 2018).
+// Random numbers in [0, 1), well distributed over the indices, or samples, of a seed and event (a Kronecker sequence;
+// powers of 1/1.16730398 by Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 vec2 spread_numbers(uint seed, uint event, uint number) {
     uvec2 bits = hash(uvec3(seed, event, 0x51f15e5du)).xy + uvec2(number) * uvec2(3679390609u, 3152041523u);
     return vec2(bits >> 8u) / 16777216.0;
@@ -23,17 +23,17 @@ float random_number(uint seed, uint event) {
     return float(hash(uvec3(seed, event, 2u * frame.sample_index + 1u)).z >> 8u) / 16777216.0;
 }
 
-// Where light is between the facets of a rough boundary (Heitz, Hanika, d'Eon & Dachsbacher, "Multiple-scattering
+// State of light between the facets of a rough boundary (Heitz, Hanika, d'Eon & Dachsbacher, "Multiple-scattering
 // microfacet BSDFs with the Smith model", 2016). Twin of Ray in src/reference/rough_interface.h.
 struct Facets {
-    mat3 world_from_surface;  // z: the macroscopic normal on the side that the path comes from
+    mat3 world_from_surface;  // z: the macroscopic normal on the path's incident side
     float alpha;
-    float level;              // share of the surface that lies lower, 0..1, seen from the side that the light is on
-    uint seed, event;         // of the path; and how many random numbers it has taken
+    float level;  // share of the surface that lies lower, 0..1, seen from the light's current side
+    uint seed, event;  // seed and event of the path; `draws`: random numbers taken so far
     uint draws;
 };
 const int kMostFacets = 64;
-const float kLowestLevel = 1e-7;  // about the distance from 1 to the float below
+const float kLowestLevel = 1e-7;  // about one rounding unit of 1
 
 float facet_alpha(float roughness) { return max(roughness * roughness, 1e-4); }
 
@@ -42,7 +42,7 @@ float next_random(inout Facets facets) {
     return float(hash(uvec3(facets.seed ^ facets.draws * 0x9e3779b9u, facets.event, 2u * frame.sample_index)).z >> 8u) / 16777216.0;
 }
 
-// A facet's normal that is visible along w, whose z may have either sign; in the surface's frame.
+// Samples a facet normal visible along w, whose z may have either sign, in the surface's frame.
 vec3 visible_normal(vec3 w, float alpha, vec2 u) {
     vec3 stretched = normalize(vec3(alpha * w.xy, w.z));
     float squared = dot(stretched.xy, stretched.xy);
@@ -59,17 +59,17 @@ vec3 visible_normal(vec3 w, float alpha, vec2 u) {
 float smith_lambda(vec3 w, float alpha) {
     float cos2 = max(w.z * w.z, 1e-20);
     float t = alpha * alpha * max(1.0 - cos2, 0.0) / cos2;
-    return 0.5 * t / (sqrt(1.0 + t) + 1.0);  // (sqrt(1 + t) - 1) / 2 without the cancellation
+    return 0.5 * t / (sqrt(1.0 + t) + 1.0);  // (sqrt(1 + t) - 1) / 2 without cancellation
 }
 
-// What one facet of a mirror reflects.
+// Reflection by one facet of a mirror.
 struct FacetReflection {
     vec3 direction;  // unit, away from the surface
-    float cosine;    // to the facet's normal
-    float visible;   // share that no other facet catches; 0: the facet sends it into the surface
+    float cosine;  // cosine to the facet's normal
+    float visible;  // share that no other facet blocks; 0: the facet reflects into the surface
 };
 
-// A facet is chosen among those that are visible from `towards`, unit and away from the surface. alpha 0: the surface is flat.
+// Samples a facet visible from `towards`, unit and away from the surface. alpha 0: the surface is flat.
 FacetReflection reflect_by_facet(vec3 normal, vec3 towards, float alpha, vec2 u) {
     mat3 world_from_surface = tangent_frame(normal);
     vec3 wo = towards * world_from_surface;
@@ -80,7 +80,7 @@ FacetReflection reflect_by_facet(vec3 normal, vec3 towards, float alpha, vec2 u)
                            wi.z > 0.0 ? (1.0 + hidden_o) / (1.0 + hidden_o + hidden_i) : 0.0);
 }
 
-// Moves light to the next facet on its way. False: it leaves the surface.
+// Moves light along `way` to the next facet. Returns false if it leaves the surface.
 bool reaches_facet(vec3 way, inout Facets facets) {
     float clear = 1.0 - next_random(facets);
     float lambda = smith_lambda(way, facets.alpha);
@@ -94,8 +94,8 @@ bool reaches_facet(vec3 way, inout Facets facets) {
     return true;
 }
 
-// Takes a path to the first facet that it meets; its normal, in the world. False: it comes from below the surface, which
-// the interpolated normal may say.
+// Finds the first facet that a path hits, and its normal in world space. Returns false if the path comes from below
+// the surface, which an interpolated normal may cause.
 bool first_facet(vec3 normal, Path path, uint seed, float roughness, out Facets facets, out vec3 facet_normal) {
     facets = Facets(tangent_frame(normal), facet_alpha(roughness), 1.0, seed, path.events, 0u);
     vec3 way = path.direction * facets.world_from_surface;
@@ -106,7 +106,7 @@ bool first_facet(vec3 normal, Path path, uint seed, float roughness, out Facets 
     return true;
 }
 
-// Reflects or refracts light at one of the facets that it sees.
+// Reflects or refracts light at a facet visible to it.
 void scatter_at_facet(inout vec3 way, inout float eta, inout Facets facets, inout bool beyond) {
     vec2 u = vec2(next_random(facets), next_random(facets));
     vec3 m = visible_normal(-way, facets.alpha, u), refracted;
@@ -121,11 +121,11 @@ void scatter_at_facet(inout vec3 way, inout float eta, inout Facets facets, inou
     beyond = !beyond;
 }
 
-// The direction in which light leaves the surface that a facet has sent on in `direction`. `beyond`: it is on the other
-// side of the surface. eta = n_incident / n_transmitted on the side that the path comes from.
+// Direction in which light leaves the surface, after a facet has sent it along `direction`. `beyond`: it is on the
+// other side of the surface. eta = n_incident / n_transmitted on the path's incident side.
 vec3 leave_facets(vec3 direction, float eta, Facets facets, inout bool beyond) {
     vec3 way = direction * facets.world_from_surface;
-    // Beyond, the frame is turned over, so that z always points away from the surface.
+    // Beyond the surface the frame is flipped, so that z always points away from the surface.
     if (beyond) {
         way.z = -way.z;
         facets.level = max(1.0 - facets.level, kLowestLevel);

@@ -1,9 +1,8 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_PATH_WALK_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_PATH_WALK_GLSL
 
-// The surfaces that paths meet: who finds them, and which of them a path can meet. Programs that define PELLUCID_RAY_QUERY
-// walk no maps: the device's ray tracing finds surfaces.
-// Needs: visibility_bindings.glsl.
+// Search for the surfaces that paths hit, and the conditions for a hit. Programs that define PELLUCID_RAY_QUERY use
+// the device's ray tracing instead of maps. Needs: visibility_bindings.glsl.
 #include "layers/surface_map.glsl"
 #include "gpu/object_traits.glsl"
 
@@ -20,34 +19,34 @@ layout(set = 0, binding = 22) uniform utextureBuffer pyramid;
 #include "techniques/visibility_layers/path_state.glsl"
 #include "techniques/visibility_layers/cross_surface.glsl"
 
-// Surfaces for which a volume stands (kReplaced).
+// Hits on surfaces that a volume replaces (kReplaced).
 const uint kMeetNone = 0u, kMeetEntering = 1u, kMeetAll = 2u;
-// What is looked for: all surfaces; closed shells of glass alone; what is opaque alone.
+// Kinds of surfaces searched: all; closed shells of glass only; opaque surfaces only.
 const uint kFindAll = 0u, kFindShells = 1u, kFindOpaque = 2u;
 
-// A path that looks for a surface.
+// A search for a path's next surface.
 struct Search {
-    Media media;         // of the path,
-    uint standing;       // the triangle on which it stands,
-    uint pixel;          // its number
-    uint wanted;         // kFindAll, ...
-    uint replaced;       // kMeetNone, ...
-    Media crossed_here;  // shells that cross themselves which it has crossed here, by their first slots: their surfaces at
-                         // this place are one, and are not met again
-    bool deciding;       // what it is inside of is not known yet,
-    Media decided;       // but of these slots,
-    uint decided_shell;  // or it is looked for of this shell alone, which crosses itself: all its surfaces
-    float limit;         // m, how far it looks
-    uint visits, most_visits;  // nodes and records looked at
-    bool gave_up;              // as there were too many
-    uint object_traits, first_triangle;  // of the object whose maps are walked: what its records leave out
+    Media media;  // solids around the path
+    uint standing;  // triangle on which the path stands
+    uint pixel;  // index of the path's pixel
+    uint wanted;  // kFindAll, ...
+    uint replaced;  // kMeetNone, ...
+    // self-crossing shells crossed at this position, by first slot; their other surfaces here are not hit again
+    Media crossed_here;
+    bool deciding;  // true: the search determines the media around the start
+    Media decided;  // slots whose state is known
+    uint decided_shell;  // restricts the search to all surfaces of this self-crossing shell
+    float limit;  // m, longest distance
+    uint visits, most_visits;  // nodes and records visited
+    bool gave_up;  // true if there were too many
+    uint object_traits, first_triangle;  // of the object whose maps are searched; its records omit them
 };
 
 void note_crossed(inout Search search, uint traits) {
     if (kCrossing && (traits & kCrossesItself) != 0u) set_inside(search.crossed_here, slot_of(traits), true);
 }
 
-// Rays enter and leave a shell in turn, so a surface that the path stands on is never met again.
+// Rays enter and leave a shell alternately, so the path's own surface is never hit again.
 bool can_meet(Search search, uint traits, bool leaving, uint triangle) {
     bool closed_shell = (traits & (kKindMask | kClosed)) == (kRefractiveKind | kClosed);
     bool crosses_itself = kCrossing && closed_shell && (traits & kCrossesItself) != 0u;
@@ -65,7 +64,7 @@ bool can_meet(Search search, uint traits, bool leaving, uint triangle) {
     return is_inside(search.media, slot_of(traits)) == (leaving != ((traits & kCavity) != 0u));
 }
 
-// Whether what fills the place is drawn by a volume.
+// True if a volume draws the body.
 bool in_replaced(uint body) { return kVolumes && body != kAir && (slots[body].material & kReplacedSolid) != 0u; }
 
 #ifdef PELLUCID_RAY_QUERY
@@ -92,9 +91,9 @@ void begin_search(Media media, uint standing, uint pixel, out Search search) {
     search.object_traits = search.first_triangle = 0u;
 }
 
-const float kApart = 16.0;  // coincidences along a ray, which may graze
+const float kApart = 16.0;  // tolerance along a ray, in coincidence distances; the ray may graze
 
-// The nearest surface beyond `t_min`, m; `t_end`: where what is known of the scene ends on the way.
+// Finds the nearest surface beyond `t_min`, m. `t_end`: distance at which the known part of the scene ends.
 SurfaceHit find_next(vec3 origin, vec3 direction, float t_min, inout Search search, out float t_end) {
     t_end = kFarthest;
 #ifdef PELLUCID_RAY_QUERY
@@ -106,7 +105,7 @@ SurfaceHit find_next(vec3 origin, vec3 direction, float t_min, inout Search sear
 #endif
 }
 
-// Counts all surfaces of a shell that crosses itself which are on a ray: what it winds around the start.
+// Finds the winding number of a self-crossing shell around the start, by counting all its surfaces along a ray.
 void find_winding(uint shell, vec3 origin, vec3 direction, Search search, inout Media media) {
     search.decided_shell = shell;
     search.visits = 0u;
@@ -122,7 +121,7 @@ void find_winding(uint shell, vec3 origin, vec3 direction, Search search, inout 
     for (; winding < 0; ++winding) step_across(media, kCrossesItself | shell << kSlotShift, true);
 }
 
-// What a ray is inside of where it starts: of each slot, the first surface on its way says it.
+// Finds the solids around the start of a ray: the first surface of each slot along the ray determines its state.
 void find_media(vec3 origin, vec3 direction, out Media media) {
     clear_media(media);
     Search search;

@@ -1,14 +1,14 @@
 #ifndef PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_SHADOW_RAYS_GLSL
 #define PELLUCID_TECHNIQUES_VISIBILITY_LAYERS_SHADOW_RAYS_GLSL
 
-// What shadow rays aim at. Needs: path_state.glsl, microfacets.glsl and what emitters.glsl needs.
+// Targets of shadow rays. Needs: path_state.glsl, microfacets.glsl and the includes of emitters.glsl.
 #include "techniques/visibility_layers/path_lights.glsl"
 #include "techniques/visibility_layers/emitters.glsl"
 
-// Lights, and all that emits as one more.
+// Number of sources: the lights, and one for all emissive surfaces together.
 uint source_count() { return direct_lights + (emitter_count > 0u ? 1u : 0u); }
 
-// A point of source `number`, as the end of a path sees it.
+// A sampled point of source `number`, seen from the end of a path.
 LightSample sample_source(uint number, Path path, uint seed) {
     vec2 u = spread_numbers(seed, path.events);
     if (number < direct_lights) return sample_light(scene_lights[number], path.position, u);

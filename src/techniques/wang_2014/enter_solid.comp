@@ -1,23 +1,23 @@
 #version 460
-// Rays outside the object look for a way in through one layer: again into the object that they have left (3.5), or
-// from object to object (3.7).
+// Rays outside the object search one layer for an entry: again into the object that they have left (3.5), or from
+// object to object (3.7).
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/wang_2014/ray_state.glsl"
 #include "techniques/wang_2014/search.glsl"
 
 #include "techniques/wang_2014/first_surface.glsl"
 
-layout(constant_id = 0) const bool kNextObject = false;  // layer 1 of an object is searched, not a deeper entry
+layout(constant_id = 0) const bool kNextObject = false;  // search layer 1 of an object, not a deeper entry
 
 PELLUCID_APPENDED_LIST(Inside, 17, inside_groups, inside_length, inside_pixels, append_inside)
 
-// A ray that has left a solid goes on to this one; true if it is inside now.
+// Continues a ray that has left a solid to this object. Returns true if it is now inside.
 bool meet_surface_ahead(inout Path path) {
-    if (path.status != kStatusOk) return false;  // it was lost before
-    // It stands on the layer that it searches if it has left this object.
+    if (path.status != kStatusOk) return false;  // the path was lost before
+    // A ray that has left this object starts on the searched layer.
     Hit hit = search(path.position, path.direction, !kNextObject, kNextObject);
     if (hit.distance < 0.0) {
-        // Most paths meet no further glass. Over glass at the edge of the picture nobody knows.
+        // Most paths hit no further glass. Over glass at the image border the result is unknown.
         if (hit.status == kStatusLeftScreen) path.status = hit.status;
         return false;
     }

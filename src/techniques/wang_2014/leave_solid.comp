@@ -1,11 +1,11 @@
 #version 460
-// Rays inside the object look for their way out through one layer (sections 3.3 to 3.6).
+// Rays inside the object search one layer for their exit (sections 3.3 to 3.6).
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/wang_2014/ray_state.glsl"
 #include "techniques/wang_2014/search.glsl"
 #include "techniques/wang_2014/first_surface.glsl"
 
-layout(constant_id = 0) const bool kFromEye = false;  // the rays are view rays that have yet to come in
+layout(constant_id = 0) const bool kFromEye = false;  // the rays are view rays before the first surface
 
 PELLUCID_APPENDED_LIST(Outside, 17, outside_groups, outside_length, outside_pixels, append_outside)
 PELLUCID_APPENDED_LIST(Reflected, 18, reflected_groups, reflected_length, reflected_pixels, append_reflected)
@@ -19,7 +19,7 @@ void main() {
         store_world_refraction(texel, path);
         return;
     }
-    // A ray that was reflected stands on the layer that it searches, one that has come in does not.
+    // A reflected ray starts on the searched layer, a ray that has just entered does not.
     bool reflected = path.status == kStatusEventLimit;
     Hit hit = search(path.position, path.direction, reflected, false);
     if (hit.distance < 0.0) {
@@ -30,7 +30,7 @@ void main() {
     MaterialRecord material = object_material();
     travel(path, hit.distance, material.sigma_a.rgb);
     bool leaves = cross_interface(path, normal_at(world_pixel(path.position)), true, material.ior);
-    path.status = leaves ? kStatusOk : kStatusEventLimit;  // which a further search may still resolve
+    path.status = leaves ? kStatusOk : kStatusEventLimit;  // a further search may still resolve kStatusEventLimit
     store_world_refraction(texel, path);
 
     if (leaves) append_outside(texel);

@@ -1,8 +1,8 @@
 #ifndef PELLUCID_TECHNIQUES_WANG_2014_MERGED_LAYERS_GLSL
 #define PELLUCID_TECHNIQUES_WANG_2014_MERGED_LAYERS_GLSL
 
-// Reading the layer that is searched, as merge_layers.comp has left it: depths and normals under a pixel coordinate.
-// Needs: technique_bindings.glsl, fault_size().
+// Reads the searched layer, as written by merge_layers.comp: depths and normals at a pixel coordinate. Needs:
+// technique_bindings.glsl, fault_size().
 
 layout(set = 0, binding = 10, r32f) readonly uniform image2D merged_depth;
 layout(std430, set = 0, binding = 13) readonly buffer EntryLimit { uint farthest_entry; };  // depth, as bits
@@ -14,9 +14,8 @@ float stored_depth(vec2 pixel) {
     return texel_depth(clamp(ivec2(pixel), ivec2(0), ivec2(frame.width, frame.height) - 1));
 }
 
-// The four texels around a pixel coordinate with their bilinear weights (low x first, then low y), and the
-// depth they give. A texel across a fault zone from the nearest one shows another surface and has
-// no weight.
+// The four texels around a pixel coordinate with bilinear weights (low x first, then low y), and their weighted depth.
+// Texels across a fault zone from the nearest texel show another surface and have weight 0.
 struct Footprint {
     ivec2 low, high;
     vec4 weights;
@@ -43,14 +42,14 @@ vec3 texel_normal(ivec2 texel) {
     return unpack_unit_vector(imageLoad(merged_normal, texel).r);
 }
 
-// In world space.
+// Interpolated unit normal in world space.
 vec3 normal_at(vec2 pixel) {
     Footprint around = footprint(pixel);
     vec3 sum = around.weights.x * texel_normal(around.low) +
                around.weights.y * texel_normal(ivec2(around.high.x, around.low.y)) +
                around.weights.z * texel_normal(ivec2(around.low.x, around.high.y)) +
                around.weights.w * texel_normal(around.high);
-    // Opposite normals may cancel out; then any of them will do.
+    // If opposite normals cancel out, use one of them.
     return dot(sum, sum) > 1e-12 ? normalize(sum) : texel_normal(around.low);
 }
 

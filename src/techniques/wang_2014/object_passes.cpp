@@ -17,7 +17,7 @@ ObjectPasses::MergedLayers ObjectPasses::merge_layers(Recorder& recorder, const 
     const GpuImage& depth = workspace.image("merged layer depth", vk::Format::eR32Sfloat, frame.extent, layers.count);
     const GpuImage& normal = workspace.image("merged layer normal", vk::Format::eR32Uint, frame.extent, layers.count);
     const Buffer& entry_limit = workspace.buffer("farthest entry", sizeof(std::uint32_t));
-    // Beside the object there is neither entry nor exit; a ray there counts as outside: in front of entries and
+    // Beside the object there is neither entry nor exit. A ray there must count as outside: in front of entries and
     // behind exits.
     for (std::uint32_t layer = 0; layer < layers.count; ++layer) {
         const float beside = layer % 2 == 0 ? float(PELLUCID_EMPTY_DEPTH) : -float(PELLUCID_EMPTY_DEPTH);

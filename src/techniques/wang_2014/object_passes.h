@@ -4,7 +4,7 @@
 
 namespace pellucid {
 
-/// Twin of Push in ray_state.glsl: the object, and how it is searched.
+/// Twin of Push in ray_state.glsl: the object, and the search settings.
 struct ObjectSearch {
     glm::vec4 box_low, box_high;  ///< x and y in view space, depth, m
     std::uint32_t object;
@@ -13,21 +13,21 @@ struct ObjectSearch {
     std::uint32_t last_reflection = 0;
 };
 
-/// The passes of Wang 2014 over one object: from the rays that may meet it to those that have passed it.
+/// The passes of Wang 2014 for one object, from its candidate rays to the rays that have passed it.
 class ObjectPasses {
 public:
-    /// `seen` are layers of all solids together, `layers` of the object alone.
+    /// `seen`: layers of all solids together; `layers`: layers of the object alone.
     ObjectPasses(Recorder& recorder, const Frame& frame, const Layers& seen, const Layers& layers,
                  const Refraction& refraction, const ObjectSearch& search);
 
-    /// Rays of `pixels` look for a way in through a layer; returns the pixels of those that find one.
+    /// Searches a layer for entries of the rays of `pixels`. Returns the pixels of rays that found one.
     const Buffer& enter(const Buffer& pixels, std::uint32_t layer);
-    /// Rays of `pixels` look for their way out through a layer, with total reflections in between; returns the
-    /// pixels of those that find it. `from_eye`: they are view rays that have yet to pass the first surface.
+    /// Searches a layer for exits of the rays of `pixels`, with total reflections in between. Returns the pixels of
+    /// rays that found one. `from_eye`: they are view rays before the first surface.
     const Buffer& leave(const Buffer& pixels, std::uint32_t layer, std::uint32_t reflections, bool from_eye);
 
 private:
-    /// Section 3.5.2: a deeper layer that is empty takes the layer of its kind before it.
+    /// Section 3.5.2: empty texels of a deeper layer take the previous layer of the same kind.
     struct MergedLayers {
         const GpuImage& depth;
         const GpuImage& normal;

@@ -1,9 +1,8 @@
 #ifndef PELLUCID_TECHNIQUES_WANG_2014_RAY_STATE_GLSL
 #define PELLUCID_TECHNIQUES_WANG_2014_RAY_STATE_GLSL
 
-// What the passes of this technique share: the object that they are about, and the rays, which live in the images
-// of the result from pass to pass (the exit position P2 and direction T2 of section 3.7). Rays are in world space
-// here, and searched for in view space.
+// State shared by the passes of this technique: the object, and the rays, stored in the result images between passes
+// (the exit position P2 and direction T2 of section 3.7). Rays are stored in world space and searched in view space.
 #extension GL_GOOGLE_include_directive : require
 #define PELLUCID_RESULT_ACCESS
 #include "techniques/technique_bindings.glsl"
@@ -11,15 +10,15 @@
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-// Twin of Push in wang_2014.cpp.
+// Twin of ObjectSearch in object_passes.h.
 layout(push_constant) uniform Push {
-    vec4 box_low;  // of the object: x and y in view space, depth, m
+    vec4 box_low;  // the object's box: x and y in view space, depth, m
     vec4 box_high;
     uint object;
-    uint layer;  // that is searched
+    uint layer;  // the searched layer
     uint linear_steps;
     uint binary_steps;
-    uint last_reflection;  // 1: a further total reflection ends the path
+    uint last_reflection;  // 1: another total reflection ends the path
 };
 
 Path load_path(ivec2 texel) {

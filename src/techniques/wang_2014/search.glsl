@@ -1,22 +1,21 @@
 #ifndef PELLUCID_TECHNIQUES_WANG_2014_SEARCH_GLSL
 #define PELLUCID_TECHNIQUES_WANG_2014_SEARCH_GLSL
 
-// Search of a layer along a ray: Wang 2014, sections 3.3 and 3.5.
-// Needs: technique_bindings.glsl; linear_steps, binary_steps, box_low, box_high.
+// Search of a layer along a ray: Wang 2014, sections 3.3 and 3.5. Needs: technique_bindings.glsl; linear_steps,
+// binary_steps, box_low, box_high.
 
-// SIZE of the thesis in metres of depth: depths on one surface change by no more than this from
-// texel to texel, or between the two ends of a binary search.
+// SIZE of the thesis, in metres of depth. Larger depth differences between neighbouring texels, or between the two
+// ends of a binary search, mean different surfaces.
 float fault_size() { return (box_high.z - box_low.z) / float(linear_steps); }
 
 #include "techniques/ray_range.glsl"
 #include "techniques/wang_2014/merged_layers.glsl"
 
-// How much of a linear step a ray takes first, to get clear of the surface it starts from (3.6).
-// Anything from 0.02 to 0.5 is as accurate.
+// First step of a ray, in linear steps, to clear its own surface (3.6). Values from 0.02 to 0.5 are equally accurate.
 const float kFirstStep = 0.1;
 
-// A ray of view space as the search sees it, linear in the distance along it: the homogeneous pixel coordinate
-// (x, y, w) and the depth.
+// A view-space ray in screen coordinates, linear in its distance: the homogeneous pixel coordinate (x, y, w) and the
+// depth.
 struct ScreenRay {
     vec3 pixel, pixel_rate;
     float depth, depth_rate;
@@ -37,7 +36,7 @@ vec2 pixel_at(ScreenRay ray, float distance) {
 
 float depth_at(ScreenRay ray, float distance) { return ray.depth + distance * ray.depth_rate; }
 
-// Where the ray is within the object's box, with a step to spare all around; x >= 0, and x > y where it never is.
+// Range of distances in the object's box, extended by a step on all sides; x >= 0. x > y if the ray misses the box.
 vec2 distances_in_box(vec3 origin, vec3 direction) {
     origin.z = -origin.z;
     direction.z = -direction.z;
@@ -51,12 +50,12 @@ vec2 distances_in_box(vec3 origin, vec3 direction) {
 }
 
 struct Hit {
-    float distance;  // negative: none
-    uint status;     // why there is none
+    float distance;  // negative: no hit
+    uint status;  // reason for a missing hit
 };
 
-// Narrows the way between a point in front of the layer and one behind it; returns the last distance in front.
-// `jump` is how far apart the layer's depths on the two sides lie.
+// Narrows the interval between a point in front of the layer and one behind it. Returns the last distance in front.
+// `jump`: difference of the layer's depths at both ends.
 float binary_search(ScreenRay ray, float before, float after, out float jump) {
     float depth_before = footprint(pixel_at(ray, before)).depth;
     float depth_after = footprint(pixel_at(ray, after)).depth;
@@ -75,12 +74,12 @@ float binary_search(ScreenRay ray, float before, float after, out float jump) {
     return before;
 }
 
-// The pixel coordinate under a point of the world.
+// Pixel coordinate of a point in world space.
 vec2 world_pixel(vec3 position) { return project((frame.view_from_world * vec4(position, 1.0)).xyz); }
 
-// Searches the layer along a ray of world space, first in linear, then in binary steps (3.3, 3.5). Entries and exits
-// alike are met from in front: a ray that comes up from behind comes out from below a fault zone.
-// `on_layer`: it starts on the searched layer; `from_afar`: it starts anywhere; neither: in front of it.
+// Searches the layer along a world-space ray, first in linear, then in binary steps (3.3, 3.5). Both entries and exits
+// are hit from the front: a ray that appears from behind leaves a fault zone. `on_layer`: the ray starts on the
+// searched layer. `from_afar`: it starts anywhere. Neither: it starts in front of the layer.
 Hit search(vec3 world_origin, vec3 world_direction, bool on_layer, bool from_afar) {
     vec3 origin = (frame.view_from_world * vec4(world_origin, 1.0)).xyz;
     vec3 direction = mat3(frame.view_from_world) * world_direction;
@@ -90,34 +89,34 @@ Hit search(vec3 world_origin, vec3 world_direction, bool on_layer, bool from_afa
     float start = from_afar ? in_box.x : 0.0;
     float last = min(to_screen_edge, in_box.y);
     if (!(start < last)) return Hit(-1.0, kStatusMissingLayer);
-    // Behind the farthest entry of the picture there is none to be met.
+    // Beyond the farthest entry of the image there is nothing to hit.
     bool entries = layer % 2u == 0u;
     float end = entries ? min(last, reach_zero(uintBitsToFloat(farthest_entry) + fault_size() - ray.depth, -ray.depth_rate)) : last;
     float step_length = max((last - start) / float(linear_steps), fault_size());
 
-    // Which side of the layer the ray is on; "-" of the thesis is true. A ray that starts on layer 1
-    // is in front of layer 2. A ray that starts on the searched layer takes a small step first.
+    // True if the ray is behind the layer, "-" in the thesis. A ray that starts on layer 1 is in front of layer 2. A
+    // ray that starts on the searched layer takes a small step first.
     float before = on_layer ? kFirstStep * step_length : start;
     bool behind = (on_layer || from_afar) && depth_at(ray, before) > stored_depth(pixel_at(ray, before));
 
-    // The binary search stands beside the linear one, not in it: on some drivers what stands in a loop costs its
-    // time at every turn, taken or not.
+    // The binary search stays outside the linear loop: some drivers spend its time in every iteration, executed or
+    // not.
     float after = before;
     for (uint i = 1u; after < end;) {
-        bool passed = false;  // from in front of the layer to behind it
+        bool passed = false;  // from the front of the layer to behind it
         for (; !passed && after < end; ++i) {
             before = after;
             after = min(start + float(i) * step_length, end);
             bool now_behind = depth_at(ray, after) > stored_depth(pixel_at(ray, after));
             passed = now_behind && !behind;
-            behind = now_behind;  // false: out from under a fault zone, if it was below one
+            behind = now_behind;  // false: in front, or out of a fault zone
         }
         if (!passed) break;
         float jump;
         float hit = binary_search(ray, before, after, jump);
-        if (jump <= fault_size()) return Hit(hit, kStatusOk);  // case 3; case 2: below the fault
+        if (jump <= fault_size()) return Hit(hit, kStatusOk);  // case 3; otherwise case 2: below the fault
     }
-    // Beside the object nothing is missing from the picture: the ray has left unseen.
+    // Beside the object the image lacks nothing: the ray has left the object.
     bool over_glass = abs(stored_depth(pixel_at(ray, last))) < PELLUCID_EMPTY_DEPTH;
     return Hit(-1.0, to_screen_edge <= last && over_glass ? kStatusLeftScreen : kStatusMissingLayer);
 }

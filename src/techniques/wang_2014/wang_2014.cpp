@@ -20,12 +20,12 @@ constexpr std::array kParameters = {
     ParameterInfo{"reflections", "", 1, 0, 16, true, "total internal reflections followed per exit"},
 };
 
-/// Axis-aligned in view space: x and y, and depth, m.
+/// Axis-aligned box in view space: x, y and depth, m.
 struct ViewBox {
     glm::vec3 low, high;
 };
 
-/// Around `corners` of the world, kept in front of the camera.
+/// Box around `corners` in world space, limited to the space in front of the camera.
 ViewBox view_box(const gpu::FrameConstants& view, std::span<const glm::vec3> corners) {
     ViewBox box{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
     for (const glm::vec3& corner : corners) {
@@ -40,7 +40,7 @@ ViewBox view_box(const gpu::FrameConstants& view, std::span<const glm::vec3> cor
 
 std::uint32_t layer_count(const ParameterValues& parameters) { return parameters.whole("layers"); }
 
-/// A solid of the scene by its number, and how far the middle of its box is from the eye along the view, m.
+/// Index of a solid in the scene, and the view depth of its box centre, m.
 struct SortedSolid {
     std::size_t number;
     float depth;
@@ -50,7 +50,7 @@ std::span<const glm::vec3> box_corners(const GpuScene& scene, std::size_t solid)
     return std::span(scene.refractive_corners).subspan(8 * solid, 8);
 }
 
-/// Section 3.7: nearest first; of equals the first in the file.
+/// Section 3.7: nearest solid first; ties keep the order of the file.
 std::vector<SortedSolid> sort_solids(const GpuScene& scene, const gpu::FrameConstants& view) {
     std::vector<SortedSolid> solids;
     for (std::size_t i = 0; i < scene.refractive.size(); ++i) {
@@ -67,11 +67,11 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
     const Refraction refraction = clear_refraction(recorder, frame);
     const gpu::FrameConstants& view = frame.view;
     const GpuScene& scene = frame.scene;
-    // Layers of all solids are those of the only one, unless something opaque hides a part of them.
+    // The layers of all solids serve a single solid, unless opaque objects hide a part of it.
     const bool alone = scene.refractive.size() == 1 && !frame.has_opaque();
     for (const SortedSolid& solid : sort_solids(scene, view)) {
         const DrawCall& call = scene.refractive[solid.number];
-        // Seen through glass, a surface may lie where something opaque hides it from the eye.
+        // Through glass, surfaces may be visible that opaque objects hide from the eye.
         const Layers own = alone ? layers
                                  : layers.source.build(recorder, frame, layers.opaque,
                                                        {.solids = std::span(&call, 1),

@@ -20,7 +20,7 @@ namespace {
 /// Twin of BakedObject in baked_distances.glsl.
 struct BakedObject {
     glm::mat4 baked_from_world;
-    glm::vec4 center;  ///< of the table's directions, baked frame; w: metres of the world per unit there
+    glm::vec4 center;  ///< centre of the table's directions, baked frame; w: metres in world space per baked unit
     std::uint32_t first_value;
     std::uint32_t reserved[3];
 };
@@ -33,7 +33,7 @@ std::string objects_name(Distances distances, std::uint32_t side) {
     return values_name(distances, side) + " of objects";
 }
 
-/// By how much a transform stretches, if it does so alike in all directions; otherwise 0.
+/// Scale factor of a transform with a uniform scale; otherwise 0.
 float uniform_scale(const glm::mat3& linear) {
     const glm::dmat3 m(linear);
     const glm::dmat3 metric = glm::transpose(m) * m;
@@ -47,7 +47,7 @@ float uniform_scale(const glm::mat3& linear) {
     return deviation <= 1e-5 * square ? float(std::sqrt(square)) : 0.0f;
 }
 
-/// `mesh` as the transform leaves it, without what is not baked.
+/// Applies the transform to `mesh`, without attributes that baking does not need.
 Mesh transformed(const Mesh& mesh, const glm::mat3& linear) {
     Mesh result;
     result.name = mesh.name;
@@ -135,7 +135,7 @@ private:
         BakedObject& record = records_.back();
         record.baked_from_world = glm::inverse(world_from_baked);
         record.center = glm::vec4(bake::mesh_sphere(mesh).center, scale);
-        // Shaders count vertices over all meshes; the difference may wrap around.
+        // Shaders index vertices over all meshes. The unsigned difference may wrap around.
         const std::uint32_t skipped =
             distances_ == Distances::kPerVertex ? first_vertex_[std::size_t(object.mesh)] : 0u;
         record.first_value = std::uint32_t(first) - skipped;
@@ -144,8 +144,8 @@ private:
     const Preparation& preparation_;
     Distances distances_;
     std::uint32_t side_;
-    std::vector<std::uint32_t> first_vertex_;  ///< per mesh, in GpuScene::vertices
-    std::map<int, std::size_t> in_own_frame_;  ///< mesh -> its first value
+    std::vector<std::uint32_t> first_vertex_;  ///< per mesh, first index in GpuScene::vertices
+    std::map<int, std::size_t> in_own_frame_;  ///< mesh index -> index of its first value
     std::vector<float> values_;
     std::vector<BakedObject> records_;
 };

@@ -1,19 +1,19 @@
 #ifndef PELLUCID_TECHNIQUES_WYMAN_2005_BAKED_DISTANCES_GLSL
 #define PELLUCID_TECHNIQUES_WYMAN_2005_BAKED_DISTANCES_GLSL
 
-// Distances through the solids, baked; see baked_distances.h.
-// Needs: objects (ObjectRecord[]), gpu/vertices.glsl, layers/surface_normal.glsl.
+// Baked distances through solids; see baked_distances.h. Needs: objects (ObjectRecord[]), gpu/vertices.glsl,
+// layers/surface_normal.glsl.
 
 struct BakedObject {
     mat4 baked_from_world;
-    vec4 center;  // of the table's directions, baked frame; w: metres of the world per unit there
+    vec4 center;  // centre of the table's directions, baked frame; w: metres in world space per baked unit
     uint first_value;
     uint reserved0, reserved1, reserved2;
 };
 layout(std430, set = 0, binding = 12) readonly buffer BakedObjects { BakedObject baked_objects[]; };
 layout(std430, set = 0, binding = 13) readonly buffer Distances { float distances[]; };
 
-// d_N: through the solid against the normal, metres of the world.
+// d_N: distance through the solid against the normal, metres in world space.
 float inward_distance(SurfacePoint at, uint object) {
     BakedObject baked = baked_objects[object];
     vec3 of_corners = vec3(distances[baked.first_value + at.corners.x], distances[baked.first_value + at.corners.y],
@@ -27,7 +27,7 @@ struct MapTexels {
     float weights[4];
 };
 
-// Texels beyond an edge of the map continue on the same edge, on the other side of its middle.
+// Texels beyond an edge of the map wrap to the same edge, mirrored about its middle.
 uint map_texel(ivec2 texel, int side) {
     if (texel.x < 0 || texel.x >= side) texel = ivec2(clamp(texel.x, 0, side - 1), side - 1 - texel.y);
     if (texel.y < 0 || texel.y >= side) texel = ivec2(side - 1 - texel.x, clamp(texel.y, 0, side - 1));
@@ -45,7 +45,7 @@ MapTexels map_texels(vec3 direction, int side) {
                      float[4](rest.x * rest.y, share.x * rest.y, rest.x * share.y, share.x * share.y));
 }
 
-// The table's distance through the solid from a point of its surface, all in the world; negative: it has none there.
+// The table's distance through the solid from a surface point, in world space; negative: no value there.
 float sampled_distance(uint object, vec3 position, vec3 direction, uint side) {
     BakedObject baked = baked_objects[object];
     vec3 outwards = (baked.baked_from_world * vec4(position, 1.0)).xyz - baked.center.xyz;

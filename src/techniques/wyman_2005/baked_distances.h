@@ -4,11 +4,11 @@
 
 namespace pellucid::wyman_2005 {
 
-/// Where d comes from.
+/// Source of the distance d.
 enum class Distances : std::uint32_t {
-    kPerVertex,  ///< d_N of the vertices, and the distance of the faces along the view ray
-    kSampled,    ///< the table over the surface and all directions
-    kAlongView,  ///< the distance of the faces along the view ray alone; nothing is baked
+    kPerVertex,  ///< d_N of the vertices, and the distance between faces along the view ray
+    kSampled,    ///< table over the surface and all directions
+    kAlongView,  ///< distance between faces along the view ray only; nothing is baked
 };
 
 /// Baked distances on the device.
@@ -17,11 +17,11 @@ struct BakedDistances {
     const Buffer& objects;  ///< BakedObject[], one per object; see baked_distances.glsl
 };
 
-/// Bakes what is not there yet, of every refracting object. `side` is that of the table.
+/// Bakes the missing distances of every refracting object. `side`: size of the table.
 void bake(const Preparation& preparation, Distances distances, std::uint32_t side);
 
-/// What bake() has left. A buffer of floats in the mesh's own frame serves all its placements that turn, move and scale
-/// it alike in all directions; any other placement is baked for itself, in the world's units.
+/// The distances baked by bake(). One buffer in the mesh's own frame serves all placements with rotation, translation
+/// and uniform scale. Any other placement is baked separately, in world units.
 BakedDistances baked_distances(const GpuScene& scene, Distances distances, std::uint32_t side);
 
 }  // namespace pellucid::wyman_2005

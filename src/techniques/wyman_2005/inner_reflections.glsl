@@ -1,12 +1,12 @@
-// Total internal reflection by bouncing between the picture of the first surfaces and that of the back faces (3.3). What
-// lies between the two counts as glass; its walls are found in linear, then in binary steps.
-// Included by wyman_2005.comp alone.
+// Total internal reflection between the image of the first surfaces and that of the back faces (3.3). The space in
+// between counts as glass. Its walls are found in linear, then in binary steps. Only wyman_2005.comp includes this
+// file.
 #include "gpu/stretch.glsl"
 
-// Which wall of the glass a point of a ray lies behind.
+// Side of the glass on which a point of a ray lies.
 const int kInGlass = 0, kBehindBack = 1, kBeforeFront = 2, kBesideGlass = 3;
 
-// Pixels within which the wall that the ray comes from may seem to lie before it: depths are those of texel centres.
+// Tolerance in pixels for the ray's own wall, since depths are those of texel centres.
 const float kClearance = 1.5;
 
 int side_at(Stretch s, float share) {
@@ -16,20 +16,21 @@ int side_at(Stretch s, float share) {
     return depth > back ? kBehindBack : depth < front ? kBeforeFront : kInGlass;
 }
 
-// Follows the ray to the wall that it meets, whose outward normal it gives. False: it leaves the picture before.
+// Follows the ray to the wall that it hits, and returns the wall's outward normal in `normal`. Returns false if the
+// ray leaves the image first.
 bool find_wall(inout Path path, vec3 view_direction, MaterialRecord material, out vec3 normal) {
     float depth = -path.position.z, rate = -path.direction.z;
-    // A little beyond the walls that bound the range, to see the ray pass them.
+    // Extend the range beyond its bounding walls, so that the ray passes them.
     float beyond = 0.01 * (frame.glass_far - frame.glass_near) + 1e-4 * frame.glass_far;
     float reach = rate > 0.0 ? frame.glass_far + beyond - depth
                              : depth - max(frame.glass_near - beyond, frame.near_plane);
-    // Along the picture the ray ends at its border.
+    // A ray parallel to the image plane ends at the border.
     float range = min(max(reach, 0.0) / max(abs(rate), 1e-6), 1e3 * frame.glass_far);
     Stretch s = stretch_of(path.position, path.position + range * path.direction);
     float end = share_within_picture(s);
     if (end < 0.0) return false;
     float inside = 0.0, outside = -1.0;
-    bool clear = false;  // of the wall that has reflected the ray
+    bool clear = false;  // true once the ray has left the reflecting wall
     for (uint i = 1u; i <= linear_steps && outside < 0.0; ++i) {
         float share = end * float(i) / float(linear_steps);
         if (side_at(s, share) == kInGlass) {
@@ -58,8 +59,8 @@ bool find_wall(inout Path path, vec3 view_direction, MaterialRecord material, ou
     return true;
 }
 
-// Follows total reflections until one refracts. False: the last of those that are followed is still reflected, or the
-// picture ends; then `normal` is the one to leave by.
+// Follows total reflections until the ray refracts. Returns false if the last reflection is still total, or the ray
+// leaves the image; `normal` is then the normal for leaving.
 bool bounce(inout Path path, vec3 view_direction, inout vec3 normal, MaterialRecord material) {
     for (uint i = 0u; i < kInnerReflections; ++i) {
         Path next = path;
@@ -67,7 +68,7 @@ bool bounce(inout Path path, vec3 view_direction, inout vec3 normal, MaterialRec
             path = next;
             return true;
         }
-        // The exit was guessed: the picture knows where its wall is.
+        // The exit was a guess; move it to the wall in the image.
         vec2 pixel = project(next.position);
         if (i == 0u) next.position = view_position(pixel, back_depth_at(ivec2(floor(pixel))));
         vec3 met;

@@ -1,8 +1,8 @@
 #version 460
-// Wyman, "Interactive Image-Space Refraction of Nearby Geometry", GRAPHITE 2005: refracted rays meet the opaque surfaces
-// that the picture shows. A ray is followed over the picture and compared with the depth there, first in linear, then
-// in binary steps. It starts at the first interface, since the exit was only guessed and may lie behind what
-// touches the glass.
+// Wyman, "Interactive Image-Space Refraction of Nearby Geometry", GRAPHITE 2005: refracted rays hit the opaque
+// surfaces that the image contains. A ray is followed across the image and compared with the stored depth, first in
+// linear, then in binary steps. It starts at the first interface, because the exit is a guess and may lie behind an
+// object that touches the glass.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "layers/layers.glsl"
@@ -17,7 +17,8 @@ layout(set = 0, binding = 3, r32f) readonly uniform image2DArray layer_depth;
 layout(set = 0, binding = 4, r32ui) readonly uniform uimage2DArray layer_triangle;
 layout(set = 0, binding = 5, rgba32f) uniform image2DArray exit_direction;
 layout(set = 0, binding = 6, rgba32f) uniform image2DArray exit_position;
-layout(set = 0, binding = 7, rgba32f) uniform image2DArray transmittance;  // a: of the first interface alone
+// a: transmittance of the first interface alone
+layout(set = 0, binding = 7, rgba32f) uniform image2DArray transmittance;
 layout(set = 0, binding = 8, r32ui) uniform uimage2DArray path_events;
 layout(set = 0, binding = 9, rgba32f) readonly uniform image2DArray opaque_radiance;
 layout(set = 0, binding = 10, r32f) readonly uniform image2DArray opaque_depth;
@@ -33,7 +34,7 @@ layout(push_constant) uniform Push {
 float stored_depth(ivec2 texel) { return imageLoad(opaque_depth, ivec3(texel, 0)).r; }
 #include "gpu/depth_search.glsl"
 
-// Where a ray from `from` ends at the latest: the depth range of the scene.
+// Farthest end of a ray from `from`: limited by the scene's depth range.
 vec3 ray_end(vec3 from, vec3 direction) {
     float depth = -from.z, rate = -direction.z;
     float far = frame.far_plane < PELLUCID_EMPTY_DEPTH ? frame.far_plane : 1e6 * max(depth, frame.glass_far);
@@ -48,7 +49,7 @@ void store_hit(ivec3 at, ivec2 seen, vec3 position, vec3 share) {
     imageStore(path_radiance, at, vec4(share * imageLoad(opaque_radiance, ivec3(seen, 0)).rgb, 1.0));
 }
 
-// The path ends on something that touches the glass or lies in it, before the exit.
+// Ends the path on an object that touches the glass or lies in it, before the exit.
 void end_inside(ivec3 at, ivec2 seen, vec3 position, vec3 entry, vec3 direction) {
     vec3 sigma_a = materials[objects[find_object(triangle_index(imageLoad(layer_triangle, at).r))].material].sigma_a.rgb;
     float length_inside = distance(entry, position);
@@ -68,10 +69,9 @@ void main() {
     imageStore(path_radiance, at, vec4(0.0));
     vec3 entry = view_position(vec2(texel) + 0.5, imageLoad(layer_depth, at).r);
     vec3 exit = (frame.view_from_world * vec4(imageLoad(exit_position, at).xyz, 1.0)).xyz;
-    if (-exit.z < frame.near_plane) return;  // behind the eye nothing is known
-    bool behind = false;  // nothing opaque hides the entry
-    // A path that ends at its first interface has no way inside.
-    // Inside reflections bend it.
+    if (-exit.z < frame.near_plane) return;  // the image contains nothing behind the eye
+    bool behind = false;  // nothing opaque occludes the entry
+    // A path that ends at its first interface has no segment inside. Inner reflections bend it.
     uint events = imageLoad(path_events, at).r;
     bool straight = (events & 0xfffu) > 1u && (events >> 12 & 0xfffu) == 0u;
     bool goes_inside = straight && distance(entry, exit) > 1e-6 * -entry.z;

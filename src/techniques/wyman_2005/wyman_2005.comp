@@ -1,7 +1,7 @@
 #version 460
-// Wyman, "An Approximate Image-Space Approach for Interactive Refraction", SIGGRAPH 2005: two interfaces. How far the
-// refracted ray runs to the second one is guessed from two distances that are known; its normal is then found in
-// a picture of the back faces. Section numbers are the paper's.
+// Wyman, "An Approximate Image-Space Approach for Interactive Refraction", SIGGRAPH 2005: two interfaces. The length
+// of the refracted ray is estimated from two known distances. The second normal is then read from an image of the back
+// faces. Section numbers are the paper's.
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/technique_bindings.glsl"
 
@@ -12,19 +12,19 @@
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(constant_id = 0) const bool kSampled = false;    // the table of distances instead of d_N
-layout(constant_id = 1) const bool kAlongView = false;  // d_V alone
+layout(constant_id = 0) const bool kSampled = false;  // use the table of distances instead of d_N
+layout(constant_id = 1) const bool kAlongView = false;  // use d_V alone
 layout(constant_id = 2) const uint kInnerReflections = 0u;
 
 layout(set = 0, binding = 10, r32f) readonly uniform image2DArray back_depth;
 layout(set = 0, binding = 11, r32ui) readonly uniform uimage2DArray back_normal;
 layout(push_constant) uniform Push {
     uint table_side;
-    uint linear_steps;  // of the search for the wall behind a reflection
+    uint linear_steps;  // for the wall after an inner reflection
     uint binary_steps;
 };
 
-const float kSmallAngle = 1e-3;  // radians; the ratio of the angles differs from its limit by less than 1e-6 below
+const float kSmallAngle = 1e-3;  // radians; below, the ratio of angles differs from its limit by less than 1e-6
 
 bool within_picture(ivec2 texel) {
     return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(frame.width, frame.height)));
@@ -32,13 +32,13 @@ bool within_picture(ivec2 texel) {
 
 float back_depth_at(ivec2 texel) { return imageLoad(back_depth, ivec3(texel, 0)).r; }
 
-// theta_t / theta_i at the entry.
+// Ratio theta_t / theta_i at the entry.
 float angle_ratio(vec3 incident, vec3 normal, float eta) {
     float sin_i = min(length(cross(incident, normal)), 1.0);
     return sin_i < kSmallAngle ? eta : asin(min(eta * sin_i, 1.0)) / asin(sin_i);
 }
 
-// Distance from the entry to the exit, d (3.1); negative: none is known.
+// Distance d from the entry to the exit (3.1); negative: unknown.
 float guess_distance(Path path, vec2 pixel, Fragment first, vec3 incident, vec3 normal, float eta) {
     uint object = find_object(triangle_index(first.triangle));
     if (kSampled) {
@@ -54,7 +54,7 @@ float guess_distance(Path path, vec2 pixel, Fragment first, vec3 incident, vec3 
     return mix(inward_distance(entry, object), along_view, angle_ratio(incident, normal, eta));
 }
 
-// Depth and normal of the back faces, or of the first surface.
+// Depth of the back faces, or of the first surface.
 float wall_depth(ivec2 texel, bool front) {
     return front ? imageLoad(layer_depth, ivec3(texel, 0)).r : back_depth_at(texel);
 }
@@ -63,8 +63,8 @@ vec3 wall_normal(ivec2 texel, bool front) {
     return unpack_unit_vector(packed);
 }
 
-// Outward normal of the wall where a point projects to (3.2), between the four texels around; false: it projects
-// beside the wall.
+// Outward normal of the wall at a point's projection (3.2), interpolated between four texels. Returns false if the
+// projection lies beside the wall.
 bool exit_normal(vec3 position, bool front, out vec3 normal) {
     vec2 pixel = project(position);
     ivec2 texel = ivec2(floor(pixel));
@@ -79,13 +79,13 @@ bool exit_normal(vec3 position, bool front, out vec3 normal) {
         vec2 weights = mix(1.0 - share, share, vec2(step));
         normal += weights.x * weights.y * wall_normal(low + step, front);
     }
-    // Opposite normals may cancel out; then that of the nearest texel will do.
+    // If opposite normals cancel out, use the nearest texel's normal.
     normal = mat3(frame.view_from_world) * (dot(normal, normal) > 1e-12 ? normalize(normal) : nearest);
     return true;
 }
 
-// Leaves the solid. The angle of incidence is kept to the critical one (3.3): where the ray would be reflected totally
-// it leaves along the surface, with all its light, as a reflection would have it.
+// Leaves the solid. The angle of incidence is limited to the critical angle (3.3): a totally reflected ray leaves
+// along the surface instead, with all its light.
 void leave(inout Path path, vec3 normal, float ior) {
     vec3 incident = path.direction;
     if (cross_interface(path, normal, true, ior)) return;
@@ -95,7 +95,7 @@ void leave(inout Path path, vec3 normal, float ior) {
     path.direction = dot(along, along) > 1e-12 ? normalize(along) : incident;
 }
 
-// The edge of the object: its normals there are perpendicular to the view ray (3.3).
+// Normal for rays beside the object: at its edge, normals are perpendicular to the view ray (3.3).
 vec3 edge_normal(vec3 direction, vec3 view_direction) {
     vec3 across = direction - dot(direction, view_direction) * view_direction;
     return dot(across, across) > 1e-12 ? normalize(across) : direction;
@@ -103,7 +103,7 @@ vec3 edge_normal(vec3 direction, vec3 view_direction) {
 
 #include "techniques/wyman_2005/inner_reflections.glsl"
 
-// What the second interface does to a path that has crossed the first one.
+// Crosses the second interface.
 void cross_second(inout Path path, vec3 view_direction, MaterialRecord material) {
     if (-path.position.z <= 0.0 && frame.orthographic == 0u) {  // behind the eye
         path.status = kStatusLeftScreen;
@@ -149,6 +149,6 @@ void main() {
         }
     }
     store_refraction(texel, path);
-    // For nearby_geometry.comp: what is left behind the first interface.
+    // For nearby_geometry.comp: alpha is the transmittance after the first interface.
     imageStore(transmittance, ivec3(texel, 0), vec4(path.transmittance, first_transmittance));
 }

@@ -4,7 +4,7 @@
 
 namespace pellucid {
 
-/// Refraction at two interfaces: the far one is guessed from baked distances.
+/// Refraction at two interfaces; the second is estimated from baked distances.
 extern const Technique kWyman2005;
 
 }  // namespace pellucid
