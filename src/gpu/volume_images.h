@@ -7,8 +7,8 @@
 namespace pellucid {
 
 /// Volumes of a scene in device memory. All volumes share the images, each with its own box. volume/upload_volumes.h
-/// fills the images, volume/volume_field.glsl reads them. Lengths are in voxels, so a placement that scales its volume
-/// also scales its optical depth. An image of a property that no volume has is one texel of zeros.
+/// fills the images, volume/volume_field.glsl reads them. Lengths are in voxels, so a scaled placement keeps the
+/// optical depth across its volume. An image of a property that no volume has is one texel of zeros.
 struct VolumeImages {
     GpuImage index;           ///< RGBA32F: index of four voxels along x, the second is the texel's own
     GpuImage bricks;          ///< RG32F per 8^3 cells. r: index if uniform, else 0; g: 1 if the media are uniform

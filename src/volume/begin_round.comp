@@ -1,5 +1,5 @@
 #version 460
-// Between two rounds: what was written becomes what is read, and says how many groups are needed.
+// Runs between two rounds. The patches written become those to read, and their number sets the workgroup counts.
 #extension GL_GOOGLE_include_directive : require
 
 layout(local_size_x = 1) in;
@@ -14,7 +14,7 @@ layout(std430, set = 0, binding = 2) writeonly buffer LandGroups { uint land_gro
 const uint kGroup = 64u;  // of step_light and land_light
 
 void main() {
-    // Extra patches had the room that those of the round before left.
+    // Extra patches could use the capacity that the patches of the previous round left.
     uint room = capacity - min(capacity, state.in_kept + state.in_extra);
     state.in_kept = min(state.kept, capacity);
     state.in_extra = min(state.extra, room);

@@ -3,7 +3,8 @@
 
 #include "volume/volume_record.glsl"
 
-// The part of a ray inside the box of a volume, in the unit of d; near > far where there is none. Behind x counts not.
+// Clips a ray from x on to the box of a volume. `near` and `far` are in units of d; near > far if the ray misses the
+// box.
 void clip_to_box(VolumeRecord volume, vec3 x, vec3 d, out float near, out float far) {
     near = 0.0;
     far = 1e30;
@@ -18,9 +19,9 @@ void clip_to_box(VolumeRecord volume, vec3 x, vec3 d, out float near, out float 
     }
 }
 
-const float kLeastCrossing = 1e-3;  // voxels; less of a box is not met
+const float kLeastCrossing = 1e-3;  // voxels; a shorter passage through a box is a miss
 
-// How far away a straight ray meets the box of a volume, m; 1e30 if it does not.
+// Distance along a straight ray to the box of a volume, m; 1e30 if it misses.
 float box_distance(VolumeRecord volume, vec3 position, vec3 direction) {
     float near, far;
     clip_to_box(volume, (volume.voxel_from_world * vec4(position, 1.0)).xyz,

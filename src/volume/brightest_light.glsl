@@ -1,17 +1,17 @@
 #ifndef PELLUCID_VOLUME_BRIGHTEST_LIGHT_GLSL
 #define PELLUCID_VOLUME_BRIGHTEST_LIGHT_GLSL
 
-// Voxels keep the brightest light that passes them, and its way (Ihrke et al. 2007, section 4.2). Needs:
+// Voxels keep the brightest light that passes them, and its direction (Ihrke et al. 2007, section 4.2). Needs:
 // volume/step_bindings.glsl, volume/light_key.glsl; 64-bit integers and atomics.
 
-layout(constant_id = 6) const uint kTally = 0u;  // 1: adds up what voxels get; 2: of it, what goes the main way
+layout(constant_id = 6) const uint kTally = 0u;  // 1: add up the light of each voxel; 2: that of its main direction
 
 layout(std430, set = 0, binding = 11) buffer Keys { uint64_t keys[]; };
-layout(std430, set = 0, binding = 12) buffer Tally { uint64_t tally[]; };  // two per voxel: all, what goes the main way
+layout(std430, set = 0, binding = 12) buffer Tally { uint64_t tally[]; };  // two per voxel: all light, light in the main direction
 
-const float kMainWay = 0.9659258;  // cosine of the 15 degrees within which light goes the same way
+const float kMainWay = 0.9659258;  // cosine of 15 degrees, the largest angle to the main direction
 
-// To the voxel under the middle of the patch.
+// Writes the light of a step to the voxel at the patch's centre.
 void keep_light(VolumeRecord volume, LightPlacement placement, PassingLight light) {
     vec3 centre = 0.5 * (middle(light.from) + middle(light.to));
     if (!in_box(centre, volume.size)) return;

@@ -1,17 +1,17 @@
 #version 460
-// Adds up where columns of a grid enter and leave a solid: one invocation for a block of columns under one triangle. A
-// column that enters at height z covers the rest of z's voxel and all voxels above; what is added are the differences from
-// voxel to voxel, which the host sums along the column (mesh_coverage.cpp).
+// Adds up where columns of a grid enter and leave a solid. An invocation processes a block of columns under one
+// triangle. A column that enters at height z covers the rest of z's voxel and all voxels above. The shader adds
+// differences from voxel to voxel, and the host sums them along the column (mesh_coverage.cpp).
 //
-// Corners lie on a lattice of 1/256 of a column's width, and on which side of an edge a column is follows from whole numbers
-// of 64 bits: columns neither miss nor double the triangles around an edge.
+// Corners lie on a lattice of 1/256 of a column's width, and edge tests use exact 64-bit integers. So a column at an
+// edge crosses exactly one of the two triangles.
 layout(local_size_x = 64) in;
 
 struct Block {
     ivec4 corners_ab;       // x and y of two corners, counter-clockwise, in 1/256 column
     ivec2 corner_c;
     ivec2 first_column;
-    ivec2 last_column;      // included
+    ivec2 last_column;      // inclusive
     ivec2 sign_and_unused;  // 1: columns enter the solid, -1: they leave it
     vec4 heights;           // of the three corners, voxels
 };
@@ -19,17 +19,17 @@ layout(std430, set = 0, binding = 0) readonly buffer Blocks { Block blocks[]; };
 layout(std430, set = 0, binding = 1) buffer Differences { int differences[]; };  // x, then y, then z
 layout(push_constant) uniform Push {
     uint block_count;
-    uint samples;    // columns to a voxel along x and y
-    uint first_row;  // voxels along y that the differences begin with
-    uint width;      // voxels of the differences
+    uint samples;    // columns per voxel along x and y
+    uint first_row;  // first row of voxels along y in the differences
+    uint width;      // size of the differences, voxels
     uint rows;
     uint height;
 };
 
 const int kColumn = 256;        // twin of kLattice in mesh_coverage.cpp
-const float kFull = 65536.0;    // a column through a voxel; twin of kFull
+const float kFull = 65536.0;    // units of a column through a whole voxel; twin of kFull
 
-// Twice the area of (a, b, p), positive if it is counter-clockwise, exactly: high and low word.
+// Exactly twice the signed area of (a, b, p), positive if counter-clockwise, as high and low word.
 void edge_side(ivec2 a, ivec2 b, ivec2 p, out int high, out uint low) {
     ivec2 along = b - a, to = p - a;
     int high1, low1, high2, low2;
@@ -39,7 +39,7 @@ void edge_side(ivec2 a, ivec2 b, ivec2 p, out int high, out uint low) {
     high = high1 - high2 - (uint(low1) < uint(low2) ? 1 : 0);
 }
 
-// Whether p lies left of the edge; one that lies on it belongs to one of the two triangles there.
+// Whether p lies left of the edge. A point on an edge belongs to exactly one of its two triangles.
 bool inside_edge(ivec2 a, ivec2 b, ivec2 p, out float weight) {
     int high;
     uint low;

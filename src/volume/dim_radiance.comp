@@ -1,5 +1,5 @@
 #version 460
-// What lies behind wavefronts is dimmed.
+// Dims the image behind wavefronts.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) uniform image2DArray radiance;
 layout(push_constant) uniform Push { float factor; };

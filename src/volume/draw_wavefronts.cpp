@@ -6,7 +6,7 @@
 namespace pellucid {
 namespace {
 
-constexpr float kDimmed = 0.25f;  // share of the scene's radiance that is left
+constexpr float kDimmed = 0.25f;  // remaining share of the scene's radiance
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void draw_wavefronts(Recorder& recorder, const Frame& frame, const Buffer& shown
                                               .colors = {vk::Format::eR32G32B32A32Sfloat},
                                               .depth = true});
     const GpuImage& nearest = workspace.image("wavefront depth test", vk::Format::eD32Sfloat, frame.extent);
-    // Patches that are not there have no area.
+    // Unused patches have no area, so the draw covers the whole buffer.
     const DrawCall all{0, std::uint32_t(6 * (shown.size() / sizeof(gpu::ShownPatch))), 0};
     recorder.draw(draw, {frame.bindings(), reads("Shown", shown), reads("opaque_depth", opaque_depth)}, exposure,
                   RenderTarget{.extent = frame.extent,

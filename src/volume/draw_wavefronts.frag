@@ -1,5 +1,5 @@
 #version 460
-// Patches of wavefronts, coloured by their irradiance.
+// Colours patches of wavefronts by their irradiance.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "gpu/fragment_depth.glsl"
@@ -16,10 +16,10 @@ layout(location = 1) flat in vec3 irradiance;
 layout(location = 0) out vec4 radiance;
 
 void main() {
-    // Faint light, as of reflections, would hide all else.
+    // Discard faint light, such as reflections, because it would hide everything else.
     if (luminance(exposure * irradiance) < kFaintest) discard;
     if (eye_depth() > imageLoad(opaque_depth, ivec3(gl_FragCoord.xy, 0)).r) discard;
-    // Shaded by its slope, so that its shape is seen.
+    // Shade the patch by its slope, so that its shape is visible.
     vec3 normal = normalize(cross(dFdx(world_position), dFdy(world_position)));
     vec3 way = normalize(mat3(frame.world_from_view) * camera_ray(gl_FragCoord.xy).direction);
     radiance = vec4(front_color(exposure * irradiance) * (0.4 + 0.6 * abs(dot(normal, way))), 1.0);

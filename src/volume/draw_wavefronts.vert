@@ -1,5 +1,5 @@
 #version 460
-// Two triangles per patch of a wavefront.
+// Draws a patch of a wavefront as two triangles.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "volume/light_records.h"

@@ -1,6 +1,6 @@
 #version 460
-// Emits the patches of one front: what heads for the box of its volume and for no box of a volume before it, which has
-// a front of its own. Patches begin where the light is; a directional light begins before all volumes.
+// Emits the patches of one front towards the box of its volume. Light towards the box of an earlier volume is left to
+// that volume's own front. Patches begin at the light; those of a directional light begin in front of all volumes.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 
@@ -15,7 +15,7 @@ layout(std430, set = 0, binding = 2) buffer State { LightState state; };
 #include "volume/light_power.glsl"
 layout(std430, set = 0, binding = 3) writeonly buffer PatchesOut { LightPatch patches_out[]; };
 
-const int kRays = 4;  // along a side of a patch
+const int kRays = 4;  // rays along a side of a patch
 const uint kDirectionalLight = 0u, kSpotLight = 2u;  // pellucid::Light::Kind
 
 void main() {
@@ -34,7 +34,7 @@ void main() {
     vec2 at = vec2(cell) + 0.5;
     vec3 place = own.corner.xyz + at.x * own.side.xyz + at.y * own.up.xyz;
     vec3 way = directional ? own.direction.xyz : normalize(place);
-    // The part of the patch that heads there, from rays: where fronts meet, each patch has its part of the power.
+    // Estimate the part of the patch that heads for the box by rays. Where fronts meet, their patches share the power.
     uint wanted = floatBitsToUint(own.cone.z);
     float part = 0.0;
     for (int ray = 0; ray < kRays * kRays; ++ray) {
@@ -49,8 +49,8 @@ void main() {
     }
 
     vec3 square = cross(own.side.xyz, own.up.xyz);
-    float share = length(square);  // m^2, or on the plane at distance 1
-    if (!directional) {            // steradians
+    float share = length(square);  // area of the patch: m^2, or on the plane at distance 1
+    if (!directional) {            // convert to steradians
         float squared = dot(place, place);
         share /= squared * sqrt(squared);
         if (uint(own.direction.w) == kSpotLight) {
@@ -66,8 +66,8 @@ void main() {
     quad.coarse = false;
     quad.optical = directional ? 0.0 : own.position.w;
     quad.surface = vec4(0.0);
-    if (!(max(quad.power.r, max(quad.power.g, quad.power.b)) > 0.0)) return;  // none of it heads there
+    if (!(max(quad.power.r, max(quad.power.g, quad.power.b)) > 0.0)) return;  // no light heads for the box
     add_power(PELLUCID_LIGHT_EMITTED, quad.power);
-    uint slot = atomicAdd(state.kept, 1u);  // fronts have no more patches than a list has room for
+    uint slot = atomicAdd(state.kept, 1u);  // the patches of all fronts fit into the list
     if (slot < capacity) patches_out[slot] = pack_patch(quad);
 }

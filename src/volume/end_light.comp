@@ -1,5 +1,5 @@
 #version 460
-// Counts the power of the patches that were still on their way when the rounds ended.
+// Counts the power of the patches that remain when the rounds end.
 #extension GL_GOOGLE_include_directive : require
 
 layout(local_size_x = 64) in;

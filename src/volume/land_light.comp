@@ -1,9 +1,9 @@
 #version 460
-// Puts the light of patches that have left the volumes onto opaque surfaces: every patch as a grid of rays, so that its
-// power is spread over what it covers and none is lost. A ray leaves a photon where it ends.
+// Lands patches that have left the volumes on opaque surfaces. Each patch is a grid of rays, which spreads all of its
+// power over the area that it covers. A ray leaves a photon where it ends.
 //
-// With kStraight, what lights send towards volumes leaves photons of negative flux on all surfaces along the straight way:
-// they take away what a surface would get without volumes and shadows.
+// With kStraight, the patches are those that lights emit towards volumes. Their straight rays leave photons of negative
+// flux on all surfaces. These subtract the light that a surface would get without volumes and shadows.
 #extension GL_GOOGLE_include_directive : require
 
 layout(local_size_x = 64) in;
@@ -23,10 +23,10 @@ layout(std430, set = 0, binding = 3) buffer Photons { uint photon_count, photon_
 
 layout(std430, set = 0, binding = 5) readonly buffer Fronts { LightFront fronts[]; };
 
-layout(constant_id = 0) const bool kStraight = false;  // patches as the light emits them
+layout(constant_id = 0) const bool kStraight = false;  // trace patches as the light emits them
 
-const uint kMostSurfaces = 16u;  // along a straight way
-const float kKernelWidth = 2.0;  // radius of a kernel, of the spacing of photons
+const uint kMostSurfaces = 16u;  // most surfaces along a straight ray
+const float kKernelWidth = 2.0;  // radius of a kernel, in spacings of photons
 const float kLeastCosine = 0.1;
 
 // Lengths of the sides of a patch, at the distance t from its corners.
@@ -40,7 +40,8 @@ float cosine_of(OpaqueHit hit, vec3 direction) {
     return max(abs(dot(normalize(hit.normal), direction)), kLeastCosine);
 }
 
-// As many rays as keep photons photon_spacing apart where the middle of the patch lands, if its power is worth them.
+// The number of rays along both sides that spaces photons by photon_spacing where the patch's centre lands. A patch of
+// little power gets fewer rays.
 ivec2 rays_of(Quad quad, float slack) {
     if (opaque_count == 0u) return ivec2(1);
     float most = most_photons * max(quad.power.r, max(quad.power.g, quad.power.b)) / fronts[quad.front].intensity.w;
@@ -52,7 +53,7 @@ ivec2 rays_of(Quad quad, float slack) {
     return ivec2(max(ceil(wanted * min(1.0, sqrt(most / (wanted.x * wanted.y))) - 1e-3), vec2(1.0)));
 }
 
-// A number that no order of photons changes: it tells them apart where slots of the grid are crowded.
+// A number of a photon that does not depend on the order of photons. Crowded slots of the grid select photons by it.
 uint number_of(vec3 position, vec3 flux) {
     uvec3 bits = hash(floatBitsToUint(position));
     return hash(bits ^ floatBitsToUint(flux)).x;
@@ -60,7 +61,7 @@ uint number_of(vec3 position, vec3 flux) {
 
 void add_photon(vec3 position, vec3 direction, OpaqueHit hit, float spacing, vec3 flux) {
     uint number = atomicAdd(photon_count, 1u);
-    if (number >= uint(photons.length())) return;  // counted: the light is traced again
+    if (number >= uint(photons.length())) return;  // the photon is counted, so the light is traced again
     float radius = kKernelWidth * spacing * inversesqrt(cosine_of(hit, direction));
     radius = clamp(radius, least_radius, least_radius * float(1 << (kPhotonLevels - 1)));
     vec3 normal = normalize(faceforward(hit.normal, direction, hit.normal));
@@ -68,7 +69,7 @@ void add_photon(vec3 position, vec3 direction, OpaqueHit hit, float spacing, vec
                              number_of(position, flux), 0u);
 }
 
-// Leaves negative photons on what a ray meets.
+// Leaves negative photons on all surfaces that a ray meets.
 void land_straight(Quad quad, ivec2 rays, vec3 position, vec3 direction, vec3 power) {
     float from = 0.0;
     for (uint i = 0u; i < kMostSurfaces; ++i) {
@@ -80,7 +81,7 @@ void land_straight(Quad quad, ivec2 rays, vec3 position, vec3 direction, vec3 po
     }
 }
 
-// False: the ray meets nothing.
+// Leaves a photon on the first surface that a ray meets. False if it meets none.
 bool land(Quad quad, ivec2 rays, vec3 position, vec3 direction, float slack, vec3 power) {
     OpaqueHit hit = first_opaque(position, direction, -slack, 1e30);
     if (hit.t >= 1e30) return false;

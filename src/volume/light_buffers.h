@@ -8,12 +8,12 @@
 
 namespace pellucid {
 
-/// Of what the tracing of light keeps.
+/// Usage of the buffers of light tracing.
 inline constexpr vk::BufferUsageFlags kStorage =
     vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
     vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eIndirectBuffer;
 
-/// A buffer of these values, or of one that is undefined where there are none.
+/// A buffer with these values; one undefined value if there are none.
 template <class T>
 Buffer filled(const Device& device, const char* name, const std::vector<T>& values) {
     Buffer buffer(device, name, std::max<std::size_t>(1, values.size()) * sizeof(T), kStorage);

@@ -1,4 +1,5 @@
-// The first wavefronts of lights: a plane, or a sphere in parts of the faces of a cube (Ihrke et al. 2007, section 4.2).
+// The first wavefronts of lights (Ihrke et al. 2007, section 4.2). A front is a plane, or a part of a sphere as seen
+// through the face of a cube.
 #include "volume/light_fronts.h"
 
 #include <algorithm>
@@ -32,14 +33,14 @@ std::array<glm::dvec3, 8> corners_of(const VolumeRecord& volume) {
 
 double brightest(glm::vec3 color) { return double(std::max({color.r, color.g, color.b})); }
 
-/// A front before its patches are counted.
+/// A front without a patch count.
 struct Draft {
     const Light* light;
     std::uint32_t volume;
     glm::dvec3 corner, side, up;  // of the whole front
     double width, height;         // lengths of side and up
-    double cell;                  // wanted, alike
-    double start = 0.0;           // m from a point
+    double cell;                  // wanted side of a patch, in the same unit
+    double start = 0.0;           // distance from a point light at which patches begin, m
 };
 
 double floats(double x) { return std::max(1.0, std::ceil(x)); }
@@ -74,7 +75,7 @@ std::vector<Draft> drafts_of(const Light& light, std::span<const VolumeRecord> v
         const glm::dvec3 at = glm::dvec3(glm::dmat4(volume.voxel_from_world) * glm::dvec4(origin, 1.0));
         const glm::dvec3 beside = glm::max(glm::max(-at, at - glm::dvec3(volume.size)), 0.0);
         const bool inside = glm::length(beside) < 1.0;
-        // Inside, patches are small where they begin, and are split as they grow.
+        // A light inside the box emits patches that are small at first and are split as they grow.
         const double angle = inside ? 2.0 / 48.0 : cell / std::max(distance, radius),
                      start = inside ? 0.5 * voxel : 0.0;
         const auto face = [&](const Basis& b, double reach) {

@@ -1,9 +1,11 @@
 #ifndef PELLUCID_VOLUME_LIGHT_KEY_GLSL
 #define PELLUCID_VOLUME_LIGHT_KEY_GLSL
 
-// What a voxel remembers of the brightest light in it, in 64 bits that grow with its brightness: 24 bits of brightness
-// (the sum of the colours, a float without its sign and last 7 bits: 1 in 2^16), 24 bits of direction (octahedral, 2 x 12
-// bits, within 0.06 degrees), 16 bits of the shares of red and green. Needs: gpu/octahedral.glsl; 64-bit integers.
+// The brightest light of a voxel, in 64 bits that grow with its brightness. From the top:
+// - 24 bits of brightness: the sum of the colours, a float without its sign and last 7 bits (1 in 2^16).
+// - 24 bits of direction: octahedral, 2 x 12 bits, within 0.06 degrees.
+// - 16 bits: shares of red and green.
+// Needs: gpu/octahedral.glsl; 64-bit integers.
 
 uint64_t light_key(vec3 irradiance, vec3 way) {
     float sum = irradiance.r + irradiance.g + irradiance.b;

@@ -1,7 +1,7 @@
 #ifndef PELLUCID_VOLUME_LIGHT_LOOKUP_GLSL
 #define PELLUCID_VOLUME_LIGHT_LOOKUP_GLSL
 
-// The light that was traced through volumes (wavefront.h), at a place in a volume.
+// Look-ups of the light that was traced through volumes (wavefront.h).
 //
 // Needs: #extension GL_EXT_samplerless_texture_functions : require; texture3D light_irradiance, light_direction; buffer
 // Placements { LightPlacement placements[]; }.
@@ -9,13 +9,14 @@
 #include "optics/phase.glsl"
 #include "volume/light_records.h"
 
-// Light at a place in a volume, which is in voxels: fluence rate, W/m2, and the mean of its ways, shorter than 1 where they
-// differ. Interpolated linearly between the middles of the voxels of light.
+// Light at a position in a volume: fluence rate, W/m2, and mean direction, which is shorter than 1 if directions
+// differ.
 struct PlaceLight {
     vec3 fluence;
     vec3 way;
 };
 
+// Interpolates linearly between the centres of the voxels of light. `x`: voxels.
 PlaceLight light_at(LightPlacement placement, vec3 x) {
     vec3 size = vec3(placement.size_x, placement.size_y, placement.size_z);
     vec3 position = clamp(x / float(1u << placement.halvings) - 0.5, vec3(0.0), size - 1.0);
@@ -34,9 +35,9 @@ PlaceLight light_at(LightPlacement placement, vec3 x) {
     return light;
 }
 
-// Radiance that a voxel's length of medium scatters in a unit direction `way`, the way that the scattered light goes
-// (frame of the voxels). x: voxels of the volume `own`; scattering: sigma_s per voxel, and g, as the volume's image has
-// them. Light is scattered once. Of light that comes from several ways the mean cosine of what is scattered is exact.
+// Radiance that a voxel's length of medium scatters once into the unit direction `way`, in the frame of the voxels.
+// `x`: voxels of the volume `own`. `scattering`: sigma_s per voxel and g, from the volume's image. The mean cosine of
+// the scattered light is exact even if light comes from several directions.
 vec3 scattered_radiance(uint own, vec3 x, vec3 way, vec4 scattering) {
     PlaceLight light = light_at(placements[own], x);
     float agreement = min(length(light.way), 1.0);

@@ -1,7 +1,7 @@
 #ifndef PELLUCID_VOLUME_LIGHT_PATCH_GLSL
 #define PELLUCID_VOLUME_LIGHT_PATCH_GLSL
 
-// Pieces of wavefronts, and what the passes of the tracer share (Ihrke et al. 2007, section 4.2).
+// Patches of wavefronts, and data that the passes of the tracer share (Ihrke et al. 2007, section 4.2).
 
 #include "volume/box.glsl"
 #include "volume/light_records.h"
@@ -15,30 +15,30 @@ layout(push_constant) uniform Push {
     uint opaque_count;      // nodes of the tree of opaque triangles
     uint front;             // emit_light: index of the front
     float step_length;      // optical length of a step, voxels
-    float span;             // patches are split when a side is longer, voxels
-    float least_area;       // of a patch when its light is written to a voxel, voxels^2
+    float span;             // longest side of a patch before it is split, voxels
+    float least_area;       // least area of a patch when its light is written to a voxel, voxels^2
     uint steps_per_round;
     float power_scale;      // fixed-point units per W
     float finest;           // share of its first power below which a patch is not split
-    float weakest;          // below which it ends
-    uint reflections;       // one after another, that are followed
-    float shown_spacing;    // optical length between wavefronts that are shown, m
-    float photon_spacing;   // wanted where patches land, m
+    float weakest;          // share of its first power below which a patch ends
+    uint reflections;       // most successive reflections that are followed
+    float shown_spacing;    // optical length between shown wavefronts, m
+    float photon_spacing;   // wanted spacing of photons where patches land, m
     float least_radius;     // of photons' kernels, m
-    float most_photons;     // of a patch with all its first power; of others in proportion
+    float most_photons;     // most photons of a patch with all its first power; proportional to power for others
 };
 
 struct Quad {
     vec3 x[4];
     vec3 v[4];
     vec3 power;       // W
-    vec3 unabsorbed;  // W, if nothing had been absorbed
-    uint volume;      // that v belongs to
+    vec3 unabsorbed;  // power without absorption, W
+    uint volume;      // the volume to which v belongs
     uint front;
-    uint reflections; // that lie behind it
-    bool coarse;      // a split has found no room
-    float optical;    // length since the light, m
-    vec4 surface;     // that it is in: LightPatch::surface
+    uint reflections; // number of reflections so far
+    bool coarse;      // a split failed for lack of capacity
+    float optical;    // optical length from the light, m
+    vec4 surface;     // as LightPatch::surface
 };
 
 Quad unpack_patch(LightPatch patch_) {

@@ -1,7 +1,7 @@
 #ifndef PELLUCID_VOLUME_LIGHT_POWER_GLSL
 #define PELLUCID_VOLUME_LIGHT_POWER_GLSL
 
-// Counts what becomes of light. Needs: volume/light_patch.glsl; buffer State { LightState state; }.
+// Counts the power of light by its fate. Needs: volume/light_patch.glsl; buffer State { LightState state; }.
 void add_power(uint fate, vec3 power) {
     for (int c = 0; c < 3; ++c)
         if (power[c] > 0.0) {

@@ -1,4 +1,4 @@
-// Structs of the wavefront tracer that C++ and GLSL share; laid out as gpu/structs.h says.
+// Structs of the wavefront tracer that C++ and GLSL share. Their layout follows the rules in gpu/structs.h.
 #ifndef PELLUCID_VOLUME_LIGHT_RECORDS_H
 #define PELLUCID_VOLUME_LIGHT_RECORDS_H
 
@@ -13,17 +13,21 @@ using uint = std::uint32_t;
 // NOLINTEND(readability-identifier-naming)
 #endif
 
-// A patch's tag: which volume its v belongs to, its front, reflections behind it, and whether a split has found no room.
+// A patch's tag: the volume of its v, its front, its reflections so far, and whether a split has failed for lack of
+// capacity.
 #define PELLUCID_NO_VOLUME 0xffffu
 #define PELLUCID_MOST_FRONTS 0xfffu
 #define PELLUCID_MOST_REFLECTIONS 7u
 
-// Four corners of a piece of a wavefront, in order around it.
+// A patch of a wavefront: four corners in order around it.
 struct LightPatch {
     vec4 position[4];  // xyz: world, m. w: power, W (three colours); last: bits of the tag
-    // xyz: v, n times the unit direction, world. w: power if nothing had been absorbed; last: optical length, m
+    // xyz: v, n times the unit direction, world. w: power without absorption, W (three colours); last: optical length,
+    // m
     vec4 direction[4];
-    vec4 surface;  // that it is in: way before it, packed; 0: none; n before it; highest and lowest of its field
+    // The surface that the patch is in: packed direction before it (0: none), n before it, highest and lowest field
+    // value.
+    vec4 surface;
 };
 
 // A patch that View::kWavefront shows.
@@ -35,29 +39,29 @@ struct ShownPatch {
 struct LightFront {
     vec4
         corner;  // directional: world; else a direction from `position`, on a plane at distance 1. w: patches along side
-    vec4 side;   // from one patch to the next, w: patches along up
-    vec4 up;     // with side and the way of the light right-handed
-    vec4 position;   // point and spot: world, m; w: how far from it patches begin, m
+    vec4 side;   // step from one patch to the next; w: patches along up
+    vec4 up;     // side, up and the light's direction are right-handed
+    vec4 position;   // point and spot: world, m; w: distance from there at which patches begin, m
     vec4 direction;  // directional and spot: unit, world; w: pellucid::Light::Kind
     vec4 intensity;  // rgb: per steradian, or irradiance; w: first power of a patch, W
-    vec4 cone;  // x, y: cosine of the inner and outer angle of a spot; z: bits of the volume; w: of the colour, 0: all
+    vec4 cone;  // x, y: cosines of a spot's inner and outer angle; z: bits of the volume; w: bits of the colour, 0: all
 };
 
 // A triangle that stops light.
 struct OpaqueTriangle {
     vec4 corner;          // world, m; w: bits of its object
-    vec4 edge_b, edge_c;  // from there to the others
+    vec4 edge_b, edge_c;  // from `corner` to the other two corners
 };
 
 // A box around opaque triangles.
 struct OpaqueNode {
     vec4 low;   // world, m; w: bits of the node after its subtree
-    vec4 high;  // w: bits of how many triangles it has itself, and of 8 times the first; 0: nodes follow that have some
+    vec4 high;  // w: bits of 8 * first triangle + number of triangles; 0 for inner nodes
 };
 
-// Where the light of a volume's placement is kept.
+// Storage of the light in a placed volume.
 struct LightPlacement {
-    uint first_key;                  // of its voxels among the keys
+    uint first_key;                  // its first voxel in the buffer of voxels
     uint size_x, size_y, size_z;     // voxels of light
     uint first_x, first_y, first_z;  // of its box in the images of light
     uint halvings;                   // a voxel of light is 2^halvings voxels wide

@@ -1,9 +1,10 @@
 #ifndef PELLUCID_VOLUME_LIGHT_SURFACE_GLSL
 #define PELLUCID_VOLUME_LIGHT_SURFACE_GLSL
 
-// What surfaces in volumes reflect of a patch, by its middle. Needs: gpu/octahedral.glsl, volume/smoothed_surface.glsl.
+// Reflection of patches by surfaces in volumes, computed at the patch's centre. Needs: gpu/octahedral.glsl,
+// volume/smoothed_surface.glsl.
 
-// A direction, within 0.01 degrees, in the bits of a float that is neither 0 nor infinite.
+// Packs a direction, within 0.01 degrees, into the bits of a float that is neither 0 nor infinite.
 float pack_way(vec3 way) {
     vec2 place = clamp(octahedral_from_direction(way) * 0.5 + 0.5, 0.0, 1.0);
     return uintBitsToFloat(1u << 30 | uint(place.x * 16383.0 + 0.5) << 15 | uint(place.y * 32767.0 + 0.5));
@@ -14,8 +15,8 @@ vec3 unpack_way(float packed) {
     return normalize(octahedron_point(place * 2.0 - 1.0));
 }
 
-// Share of the light that a surface has reflected: more than 0 in the step in which light leaves it. Light that it
-// turns back (total reflection) loses nothing. Places and v are those of the middle, before and after the step.
+// Share of the light that a surface has reflected. It is above 0 only in the step in which light leaves the surface,
+// and 0 for total reflection. Positions and v are those of the patch's centre, before and after the step.
 float crossed_surface(inout vec4 surface, float field, bool inside, vec3 x_before, vec3 v_before, vec3 x, vec3 v) {
     Boundary boundary = kNoBoundary;
     if (surface.x != 0.0) boundary = Boundary(true, unpack_way(surface.x) * surface.y, surface.y, surface.z, surface.w);

@@ -1,5 +1,5 @@
-// Coverage of voxels by solids: crossings along columns (after Eisemann & Decoret, Single-pass GPU solid voxelization for
-// real-time applications, 2008, who keep one bit a voxel), with exact coverage along the column.
+// Coverage of voxels by solids from crossings along columns, after Eisemann & Decoret, "Single-pass GPU solid
+// voxelization for real-time applications", 2008. They keep one bit per voxel; here coverage along the column is exact.
 #include "volume/mesh_coverage.h"
 
 #include "core/parallel.h"
@@ -14,11 +14,11 @@
 namespace pellucid {
 namespace {
 
-constexpr std::int64_t kLattice = 256;                    // of corners, in a column's width; twin of kColumn
-constexpr std::int32_t kFull = 65536;                     // a column through a voxel; twin of kFull
+constexpr std::int64_t kLattice = 256;                    // lattice units per column width; twin of kColumn
+constexpr std::int32_t kFull = 65536;                     // units of a column through a whole voxel; twin of kFull
 constexpr int kBlockSide = 16;                            // columns of a block along x and y
-constexpr std::size_t kMostBlocks = 1u << 17;             // in one submission
-constexpr vk::DeviceSize kMostBytes = 64u * 1024 * 1024;  // of differences at once
+constexpr std::size_t kMostBlocks = 1u << 17;             // blocks per submission
+constexpr vk::DeviceSize kMostBytes = 64u * 1024 * 1024;  // bytes of differences per slab
 
 /// Twin of Block in cover_columns.comp.
 struct Block {
@@ -34,7 +34,7 @@ struct Push {
     std::uint32_t block_count, samples, first_row, width, rows, height;
 };
 
-/// A grid's rows from `first` on.
+/// A range of rows along y of the grid.
 struct Slab {
     unsigned first, rows;
 };
@@ -71,7 +71,7 @@ public:
     }
 
 private:
-    /// Corners in the lattice, and their heights in voxels.
+    /// Rounds corners to the lattice, and computes their heights in voxels.
     void place(const Mesh& mesh, const glm::mat4& grid_from_mesh) {
         const glm::dmat4 m(grid_from_mesh);
         const double scale = double(kLattice) * samples_;
@@ -91,12 +91,12 @@ private:
         const auto ab = glm::i64vec2(block.b) - glm::i64vec2(block.a),
                    ac = glm::i64vec2(block.c) - glm::i64vec2(block.a);
         const std::int64_t area = ab.x * ac.y - ab.y * ac.x;
-        if (area == 0) return;  // along the columns
+        if (area == 0) return;  // parallel to the columns
         if (area < 0) {
             std::swap(block.b, block.c);
             std::swap(block.heights.y, block.heights.z);
         }
-        // Seen from the end of the columns, a triangle that is counter-clockwise shows its outside: columns leave.
+        // Seen from the end of the columns, a counter-clockwise triangle shows its outside, so columns leave there.
         block.sign = (area < 0) != mirrored_ ? 1 : -1;
         const glm::i64vec2 low = glm::min(glm::min(block.a, block.b), block.c);
         const glm::i64vec2 high = glm::max(glm::max(block.a, block.b), block.c);
@@ -127,7 +127,7 @@ private:
         block_count_ = 0;
     }
 
-    /// Sums along the columns.
+    /// Sums the differences along the columns.
     void sum(const Slab& slab) {
         const auto* const differences = reinterpret_cast<const std::int32_t*>(result_.mapped());
         const float scale = 1.0f / (float(kFull) * float(samples_ * samples_));
@@ -140,7 +140,7 @@ private:
                 float* const to = &coverage_[size_.x * (slab.first + row + std::size_t(size_.y) * z)];
                 for (unsigned x = 0; x < size_.x; ++x) {
                     so_far[x] += at(z)[x];
-                    // A column that is left open is looked at from both of its ends.
+                    // For a column that is left open, take the smaller count of both ends.
                     const std::int32_t inside = std::min(so_far[x], so_far[x] - total[x]);
                     to[x] = std::clamp(scale * float(inside), 0.0f, 1.0f);
                 }

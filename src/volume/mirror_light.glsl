@@ -1,18 +1,18 @@
 #ifndef PELLUCID_VOLUME_MIRROR_LIGHT_GLSL
 #define PELLUCID_VOLUME_MIRROR_LIGHT_GLSL
 
-// The light that a surface in a volume reflects becomes a patch of its own. It is known once the surface lies behind. Steps
-// of light can be reversed, so each corner goes back to where it met the surface. Had there been no surface, it would have
-// gone straight on from there; the mirror image of that is the corner of the new patch. All corners keep their optical time.
+// Light that a surface in a volume reflects becomes a new patch, once the old patch is behind the surface. Steps of
+// light are reversible, so each corner is traced back to where it met the surface. From there it continues straight on,
+// as if there were no surface, and is mirrored. All corners keep the same optical length.
 //
 // Needs: volume/step_bindings.glsl.
 
-const int kMostStepsBack = 96;   // through a surface; grazing rays take many
-const int kMostStepsTo = 32;     // back to it
-const float kLikeMiddle = 0.05;  // difference of n between a corner and the middle, as a share
+const int kMostStepsBack = 96;   // most steps back in all; grazing rays need many
+const int kMostStepsTo = 32;     // most steps back until the surface begins
+const float kLikeMiddle = 0.05;  // largest relative difference of n between a corner and the centre
 
-// Mirrors a ray at the surface behind it; false if there is none. `lag`: optical length, voxels, that the mirrored ray needs
-// to leave the surface.
+// Mirrors a ray at the surface behind it. False if there is none. `lag`: optical length, voxels, that the mirrored ray
+// needs to leave the surface.
 bool mirror_ray(inout vec3 x, inout vec3 v, out vec3 normal, out float lag) {
     Boundary boundary = kNoBoundary;
     vec3 x_before = x, v_back = -v, crossing = vec3(0.0);
@@ -41,8 +41,8 @@ bool mirror_ray(inout vec3 x, inout vec3 v, out vec3 normal, out float lag) {
     return true;
 }
 
-// The patch that is reflected of one behind a surface; false if the surface is not found. A corner whose surface is another
-// than that of the middle, as at silhouettes, goes as the middle does.
+// Mirrors a patch at the surface behind it. False if the surface is not found. A corner that meets another surface than
+// the centre, as at silhouettes, follows the centre.
 bool mirror_patch(inout Quad quad, float voxel) {
     vec3 behind = middle(quad.x), centre = behind, way = mean_v(quad.v), normal;
     float lag;
@@ -65,7 +65,7 @@ bool mirror_patch(inout Quad quad, float voxel) {
     }
     lag = max(lag, 0.0) + step_length;
     for (int k = 0; k < 4; ++k) {
-        int to = (4 - k) % 4;  // a mirror image turns the other way round
+        int to = (4 - k) % 4;  // mirroring reverses the order of corners
         quad.x[to] = x[k] + lag * v[k] / dot(v[k], v[k]);
         quad.v[to] = normalize(v[k]) * (in_box(quad.x[to], volume_size) ? index_field(quad.x[to]).w : 1.0);
     }

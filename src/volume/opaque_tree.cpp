@@ -1,5 +1,5 @@
-// A hierarchy of boxes that is split at the median of its longest side, with the order of nodes for a walk without a stack:
-// Smits, "Efficiency issues for ray tracing", Journal of Graphics Tools 3(2), 1998.
+// A hierarchy of boxes, split at the median along the longest side. The order of nodes allows a walk without a stack
+// (Smits, "Efficiency issues for ray tracing", Journal of Graphics Tools 3(2), 1998).
 #include "volume/opaque_tree.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace pellucid {
 namespace {
 
 constexpr std::size_t kMostInLeaf = 4;
-constexpr float kMargin = 1e-6f;  // of boxes, as a share of their coordinates, for what rounding does
+constexpr float kMargin = 1e-6f;  // of boxes, relative to their coordinates; covers rounding
 
 struct Box {
     glm::vec3 low{std::numeric_limits<float>::max()}, high{-std::numeric_limits<float>::max()};
@@ -38,7 +38,8 @@ Box box_around(std::span<const gpu::OpaqueTriangle> triangles) {
     return {box.low - margin, box.high + margin};
 }
 
-/// Orders the triangles so that the first half lies below the second along the axis in which their centres are widest apart.
+/// Orders the triangles so that the first half lies below the second. The axis is that of the largest extent of
+/// centres.
 void halve(std::span<gpu::OpaqueTriangle> triangles) {
     Box centers;
     for (const gpu::OpaqueTriangle& triangle : triangles) centers.add(center_of(triangle));

@@ -1,11 +1,12 @@
 #ifndef PELLUCID_VOLUME_OPAQUE_TREE_GLSL
 #define PELLUCID_VOLUME_OPAQUE_TREE_GLSL
 
-// The opaque surfaces that light meets (opaque_tree.h). Needs: volume/light_records.h; buffers OpaqueNodes { OpaqueNode
-// opaque_nodes[]; } and OpaqueTriangles { OpaqueTriangle opaque_triangles[]; }; uint opaque_count, of nodes.
+// Intersection of rays with opaque surfaces (opaque_tree.h). Needs: volume/light_records.h; buffers OpaqueNodes {
+// OpaqueNode opaque_nodes[]; } and OpaqueTriangles { OpaqueTriangle opaque_triangles[]; }; uint opaque_count, number of
+// nodes.
 
 struct OpaqueHit {
-    float t;      // along the direction; 1e30: nothing is met
+    float t;      // in units of the direction; 1e30: no hit
     vec3 normal;  // of the triangle, not of unit length
     uint object;
 };
@@ -17,9 +18,10 @@ bool meets_node(OpaqueNode node, vec3 position, vec3 inverse, float from, float 
     return max(max(near.x, near.y), max(near.z, from)) <= min(min(far.x, far.y), min(far.z, to));
 }
 
-// Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997. Replaces what it is nearer than.
+// Intersects a triangle (Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997). Replaces `hit`
+// if the triangle is nearer.
 void meet_triangle(OpaqueTriangle triangle, vec3 position, vec3 direction, float from, inout OpaqueHit hit) {
-    const float kEdge = 1e-5;  // by so much triangles overlap, so that light does not pass between them
+    const float kEdge = 1e-5;  // relative overlap of triangles, so that no light passes between them
     vec3 p = cross(direction, triangle.edge_c.xyz), apart = position - triangle.corner.xyz;
     float determinant_ = dot(triangle.edge_b.xyz, p);
     if (determinant_ == 0.0) return;
@@ -30,7 +32,7 @@ void meet_triangle(OpaqueTriangle triangle, vec3 position, vec3 direction, float
     hit = OpaqueHit(t, cross(triangle.edge_b.xyz, triangle.edge_c.xyz), floatBitsToUint(triangle.corner.w));
 }
 
-// The first surface with from <= t <= to, in units of `direction`.
+// The first surface with `from` <= t <= `to`, in units of `direction`.
 OpaqueHit first_opaque(vec3 position, vec3 direction, float from, float to) {
     OpaqueHit hit = kNoOpaqueHit;
     hit.t = to;

@@ -8,14 +8,14 @@
 
 namespace pellucid {
 
-/// Boxes around the opaque triangles of a scene, world, in which light finds the surface that it meets
+/// A hierarchy of boxes around the opaque triangles of a scene, in world space, for intersections with light
 /// (opaque_tree.glsl). A node is followed by its subtree.
 struct OpaqueTree {
     std::vector<gpu::OpaqueNode> nodes;
     std::vector<gpu::OpaqueTriangle> triangles;
 };
 
-/// A tree of all objects that are not transmissive. Triangles without an area are left out.
+/// Builds the tree from all objects that are not transmissive. Skips triangles without an area.
 OpaqueTree build_opaque_tree(const Scene& scene);
 
 }  // namespace pellucid

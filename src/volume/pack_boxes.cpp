@@ -12,14 +12,14 @@ namespace pellucid {
 PackedBoxes pack_boxes(const std::vector<glm::uvec3>& sizes, std::uint32_t limit) {
     std::vector<std::size_t> order(sizes.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    // Boxes of like width and height stand behind each other, the largest first.
+    // Boxes of equal width and height lie behind each other along z, the largest first.
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return std::pair(sizes[a].y, sizes[a].x) > std::pair(sizes[b].y, sizes[b].x);
     });
     PackedBoxes packed;
     packed.first.resize(sizes.size());
-    glm::uvec3 at(0);                     // where the next box goes
-    std::uint32_t width = 0, height = 0;  // of the row along z, and of the layer of rows along y
+    glm::uvec3 at(0);                     // position of the next box
+    std::uint32_t width = 0, height = 0;  // width of the layer of rows along y, height of the row along z
     for (const std::size_t box : order) {
         const glm::uvec3 size = sizes[box];
         if (at.z + size.z > limit) at = {at.x, at.y + height, 0}, height = 0;

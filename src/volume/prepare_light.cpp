@@ -1,4 +1,4 @@
-// What the tracing of light needs of volumes and opaque objects (wavefront.h).
+// Prepares volumes and opaque objects for light tracing (wavefront.h).
 #include "volume/light_buffers.h"
 #include "volume/opaque_tree.h"
 #include "volume/upload_volumes.h"
@@ -11,7 +11,7 @@
 namespace pellucid {
 namespace {
 
-constexpr std::size_t kSumBytes = 56, kKeyBytes = 8, kTallyBytes = 16;  // of a voxel
+constexpr std::size_t kSumBytes = 56, kKeyBytes = 8, kTallyBytes = 16;  // per voxel
 
 std::vector<VolumeRecord> download_records(const Device& device, const VolumeImages& volumes) {
     const std::size_t bytes = volumes.count * sizeof(VolumeRecord);
@@ -36,7 +36,7 @@ void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, const LightSe
         smallest_voxel_ = std::min(smallest_voxel_, record.voxel);
         sizes.emplace_back(record.size);
     }
-    // Where one buffer cannot hold all voxels, those of the largest volumes are joined, eight in one.
+    // If one buffer cannot hold all voxels, join eight voxels into one in the largest volumes.
     std::vector<std::uint32_t> halvings(sizes.size(), 0);
     const auto count = [](glm::uvec3 s) { return std::uint64_t(s.x) * s.y * s.z; };
     const auto total = [&] {
@@ -76,7 +76,7 @@ void WavefrontTracer::prepare_volumes(const VolumeImages& volumes, const LightSe
     if (settings.tally) tally_copy_ = Buffer(device_, "copy of the tally", tally_bytes, kStorage, true);
 }
 
-/// True if they have changed. `key`: of all that they depend on.
+/// Prepares the opaque triangles. True if they have changed. `key`: encodes everything on which they depend.
 bool WavefrontTracer::prepare_opaque(const Scene& scene, std::string key) {
     if (key == opaque_key_) return false;
     const OpaqueTree tree = build_opaque_tree(scene);
@@ -87,7 +87,8 @@ bool WavefrontTracer::prepare_opaque(const Scene& scene, std::string key) {
     return true;
 }
 
-/// For a capacity: a patch of the first wavefronts leaves some where it goes straight, and some where it lands.
+/// Initial capacity for photons. A patch of the first wavefronts leaves photons on its straight rays and where it
+/// lands.
 std::uint64_t WavefrontTracer::guessed_photons() const {
     constexpr double kPerPatch = 48.0, kLeast = 4096.0;
     double patches = 0.0;
@@ -97,7 +98,7 @@ std::uint64_t WavefrontTracer::guessed_photons() const {
 }
 
 void WavefrontTracer::prepare_lists(std::uint32_t capacity, bool shows) {
-    // Several wavefronts are shown at once.
+    // Several wavefronts are shown at once, so allocate more than one capacity of patches.
     const vk::DeviceSize most = device_.max_storage_binding() / sizeof(gpu::ShownPatch);
     const vk::DeviceSize shown = shows ? std::min<vk::DeviceSize>(4 * vk::DeviceSize(capacity), most) : 1;
     if (light_.shown.size() != shown * sizeof(gpu::ShownPatch))

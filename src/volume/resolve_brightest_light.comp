@@ -1,5 +1,5 @@
 #version 460
-// From the keys (brightest_light.glsl) of one placement's voxels to the images of its light.
+// Converts the keys (brightest_light.glsl) of one placement's voxels to the images of its light.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
@@ -25,7 +25,7 @@ void main() {
     uint own_key = placement.first_key + at.x + size.x * (at.y + size.y * at.z);
     uint64_t key = keys[own_key];
     vec3 irradiance = key_irradiance(key), way = key == 0ul ? vec3(0.0) : key_direction(key);
-    // The middles of patches may miss a voxel between lit ones: it is as those on both sides of it.
+    // The centres of patches may miss a voxel between lit ones. Such a voxel gets the mean of its lit neighbours.
     if (key == 0ul) {
         uint strides[3] = uint[](1u, size.x, size.x * size.y);
         float count = 0.0;

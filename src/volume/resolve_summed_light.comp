@@ -1,5 +1,5 @@
 #version 460
-// From the sums in one placement's voxels (sum_light.glsl) to the images of its light.
+// Converts the sums in one placement's voxels (sum_light.glsl) to the images of its light.
 #extension GL_GOOGLE_include_directive : require
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -25,7 +25,7 @@ void main() {
     uint voxel = placement.first_key + at.x + placement.size_x * (at.y + placement.size_y * at.z);
     float units[7];
     for (uint c = 0u; c < 7u; ++c) units[c] = wide_value(sums[14u * voxel + 2u * c], sums[14u * voxel + 2u * c + 1u]);
-    // A voxel that light passes by, but no point of it, is as grey light without a way.
+    // A voxel that gets interpolated light, but contains no point of a patch, gets grey light without a direction.
     vec3 color = vec3(1.0 / 3.0), way = vec3(0.0);
     if (units[1] > 0.0) {
         color = vec3(units[2], units[3], max(units[1] - units[2] - units[3], 0.0)) / units[1];

@@ -12,15 +12,15 @@
 
 namespace pellucid {
 
-/// The volumes of a scene on the device, those made from its glass included, and the light in them.
+/// The volumes of a scene on the device, including the volume of its voxelised glass, and the light in them.
 class SceneVolumes final : public PreparedState {
 public:
     explicit SceneVolumes(const Device& device) : device_(device), tracer_(device) {}
 
-    /// Brings the volumes up to date. `voxels`: with them all solids of glass become one more volume. Marks the objects
-    /// for which volumes stand in the scene's topology.
+    /// Brings the volumes up to date. `voxels`: if given, all solids of glass become one more volume. Marks the
+    /// replaced objects in the scene's topology.
     void bring_up_to_date(const Scene& scene, GpuScene& gpu_scene, const std::optional<VoxelSettings>& voxels);
-    /// Records the tracing of lights if something has changed; there are some, and volumes.
+    /// Records the tracing of lights if anything has changed. Needs lit().
     void light(Recorder& recorder, Workspace& workspace, const LightSettings& settings);
 
     const VolumeImages& images() const { return images_; }
@@ -29,9 +29,9 @@ public:
     const Buffer& lights() const { return lights_; }  ///< PunctualLight[] (gpu/punctual_light.glsl)
     const LightVolumes& light_volumes() const { return tracer_.light(); }
     const std::vector<Binding>& photons() const { return tracer_.photons(); }
-    /// As WavefrontTracer::must_repeat().
+    /// Like WavefrontTracer::must_repeat().
     bool must_repeat() const { return tracer_.must_repeat(); }
-    /// What did not go as it should, of the volumes and of the last tracing that has run.
+    /// Warnings of the volumes and of the last tracing that has run.
     std::vector<std::string> warnings() const;
 
 private:
@@ -44,7 +44,7 @@ private:
     VolumeImages images_;
     WavefrontTracer tracer_;
     Buffer lights_;
-    std::vector<std::byte> light_bytes_;  ///< what is in it
+    std::vector<std::byte> light_bytes_;  ///< contents of `lights_`
     std::vector<std::string> warnings_;
 };
 

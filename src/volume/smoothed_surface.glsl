@@ -1,37 +1,38 @@
 #ifndef PELLUCID_VOLUME_SMOOTHED_SURFACE_GLSL
 #define PELLUCID_VOLUME_SMOOTHED_SURFACE_GLSL
 
-// Surfaces in volumes, which are as thick as the index is smoothed (Volume::boundary). What one does is known once it lies
-// behind: its normal is the direction in which v has changed, and the indices on both sides say what it reflects
-// (Fresnel). Needs: volume_absorption, volume/volume_field.glsl, volume/box.glsl, optics/interface.glsl.
+// Surfaces in volumes, whose thickness is that of the smoothing of the index (Volume::boundary). The effect of a
+// surface is known once the ray is behind it. Its normal is the direction in which v has changed. The indices on both
+// sides give its reflectance (Fresnel). Needs: volume_absorption, volume/volume_field.glsl, volume/box.glsl,
+// optics/interface.glsl.
 
-const float kBoundaryEnds = 0.02;  // of the boundary field: below it a ray is in no surface
-const float kLeastTurn = 1e-3;     // change of v in a surface that is none, or lies along the ray
+const float kBoundaryEnds = 0.02;  // value of the boundary field below which a ray is outside all surfaces
+const float kLeastTurn = 1e-3;     // least change of v at a surface
 
 struct Boundary {
-    bool open;      // the ray is in one
-    vec3 v;         // before it
-    float n;        // likewise
-    float highest;  // of the boundary field since then
-    float lowest;   // since that
+    bool open;      // the ray is in a surface
+    vec3 v;         // before the surface
+    float n;        // before the surface
+    float highest;  // highest value of the boundary field in the surface so far
+    float lowest;   // lowest value since the highest
 };
 const Boundary kNoBoundary = Boundary(false, vec3(0.0), 1.0, 0.0, 0.0);
 
-// The index beside a surface, a voxel away from x: what a grid has next to a jump swings a little. Where another surface is
-// so near, at x.
+// The index beside a surface, at x + `away`, because a sampled index oscillates slightly next to a jump. The index at x
+// if another surface is at x + `away`.
 float index_beside(vec3 x, vec3 away) {
     vec3 beside = x + away;
     bool clear = in_box(beside, volume_size) && volume_value(volume_absorption, beside).a <= kBoundaryEnds;
     return interpolated(volume_index, index_first, clear ? beside : x).y;
 }
 
-// At x, where v is still what it was before.
+// Opens a boundary at x, where v has not changed yet.
 Boundary open_boundary(vec3 x, vec3 v, float field) {
     return Boundary(true, v, index_beside(x, -normalize(v)), field, field);
 }
 
-// Takes notice of the field at the end of a step. True: a surface lies behind. Of two that are so near to each other that
-// the field does not fall to nothing between them, each ends in the valley.
+// Updates the boundary with the field at the end of a step. True if the surface is now behind the ray. If two surfaces
+// are so near that the field does not vanish between them, the first ends in the minimum between them.
 bool passes_boundary(inout Boundary boundary, float field, bool inside) {
     if (!boundary.open) return false;
     if (field > boundary.highest) boundary.highest = boundary.lowest = field;
@@ -41,13 +42,13 @@ bool passes_boundary(inout Boundary boundary, float field, bool inside) {
 }
 
 struct Passage {
-    bool exists;        // else there was no surface
-    bool reflected;     // totally
-    vec3 normal;        // unit, against the ray that comes
-    float reflectance;  // 0..1, where the ray has passed
+    bool exists;        // false: there was no surface
+    bool reflected;     // total reflection
+    vec3 normal;        // unit, against the incident ray
+    float reflectance;  // 0..1, if the ray has passed
 };
 
-// `v`: behind the surface, at x. What of it lies along the surface is as before.
+// The passage of a ray through a surface. `v`: behind the surface, at x. Its tangential part is the same as before.
 Passage pass_surface(Boundary boundary, vec3 x, vec3 v) {
     Passage passage = Passage(false, false, vec3(0.0), 0.0);
     vec3 turned = v - boundary.v;

@@ -1,13 +1,13 @@
 #ifndef PELLUCID_VOLUME_STEP_BINDINGS_GLSL
 #define PELLUCID_VOLUME_STEP_BINDINGS_GLSL
 
-// What the two ways to keep light (sum_light.glsl, brightest_light.glsl) and the round itself (step_light.glsl) share.
+// Declarations that step_light.glsl and both kinds of light storage (sum_light.glsl, brightest_light.glsl) share.
 
 layout(local_size_x = 64) in;
 
-layout(constant_id = 0) const bool kMedium = false;       // something absorbs or scatters
+layout(constant_id = 0) const bool kMedium = false;       // a volume absorbs or scatters
 layout(constant_id = 1) const bool kScatters = false;
-layout(constant_id = 2) const bool kOverlapping = false;  // boxes
+layout(constant_id = 2) const bool kOverlapping = false;  // boxes of volumes overlap
 layout(constant_id = 3) const bool kOpaque = false;       // there are opaque surfaces
 layout(constant_id = 4) const bool kKeepFolds = true;
 layout(constant_id = 5) const bool kBoundary = false;     // surfaces reflect
@@ -42,15 +42,15 @@ layout(std430, set = 0, binding = 9) writeonly buffer PatchesOut { LightPatch pa
 layout(std430, set = 0, binding = 10) writeonly buffer Landed { LightPatch landed[]; };
 layout(std430, set = 0, binding = 14) writeonly buffer Shown { ShownPatch shown[]; };
 
-// What a patch leaves in the voxels that it passes in one step.
+// Light that a patch leaves in the voxels that it passes in one step.
 struct PassingLight {
     vec3 from[4], to[4];  // corners, voxels
     vec3 way;             // unit
-    float area;           // square to it, voxels^2; negative past a focus
+    float area;           // projected along `way`, voxels^2; negative past a focus
     vec3 power;           // W, at the end of the step
-    vec3 mean_power;      // over it
+    vec3 mean_power;      // W, mean over the step
     float length_m;
-    float first_share;    // of the power that patches of its front began with
+    float first_share;    // unabsorbed power, relative to the first power of patches of the front
     uint step_number;
 };
 

@@ -1,18 +1,18 @@
-// A round: every patch of the wavefronts goes on by some steps, until it has to be split, or ends. Patches need not keep
-// step with each other (Ihrke et al. 2007, section 4.2).
+// Runs a round: every patch of the wavefronts advances by some steps, until it must be split or ends. Patches may
+// advance by different lengths (Ihrke et al. 2007, section 4.2).
 //
-// Needs: volume/step_bindings.glsl; void keep_light(VolumeRecord, LightPlacement, PassingLight), which leaves the light of
-// a step in voxels.
+// Needs: volume/step_bindings.glsl; void keep_light(VolumeRecord, LightPlacement, PassingLight), which writes the light
+// of a step to voxels.
 
-// A patch that cannot be split, of which one corner goes round in a ball for ever and another has left it, goes straight on
-// from where its corners are: sides, in spans, from which on it does.
+// Side length, in spans, from which a patch that cannot be split leaves its volume and goes straight on. One corner of
+// such a patch may circle in a ball for ever while another has left it.
 const float kParted = 32.0;
-const float kShownSide = 8.0;  // from which on it is no piece of a wavefront to look at
+const float kShownSide = 8.0;  // side length, in spans, from which a patch is not shown
 
 void keep_patch(Quad quad) { patches_out[atomicAdd(state.kept, 1u)] = pack_patch(quad); }
 void land_patch(Quad quad) { landed[atomicAdd(state.landed, 1u)] = pack_patch(quad); }
 
-// The smallest volume that the middle of the patch is in, or else any of its corners.
+// The smallest volume that contains the patch's centre, or else any of its corners.
 uint volume_of(Quad quad) {
     vec3 centre = middle(quad.x);
     uint of_corner = PELLUCID_NO_VOLUME;
@@ -27,9 +27,10 @@ uint volume_of(Quad quad) {
     return of_corner;
 }
 
-// Outside all volumes: straight on to the first box that a corner meets, all corners as far.
+// Moves a patch outside all volumes straight on to the first box that a corner meets. All corners move by the same
+// length. A patch that meets an opaque surface first, or no box, lands.
 void jump(Quad quad) {
-    const float kInto = 0.02;  // voxels beyond its face
+    const float kInto = 0.02;  // voxels past the box's face
     float far = 1e30, voxel = 0.0;
     vec3 centre = middle(quad.x), way = normalize(middle(quad.v));
     for (int k = 0; k < 4; ++k) quad.v[k] = normalize(quad.v[k]);
@@ -59,9 +60,9 @@ bool meets_opaque(vec3 from, vec3 to, VolumeRecord volume) {
     return first_opaque(a, b - a, 0.0, 1.0).t <= 1.0;
 }
 
-// Adds a patch to those of this round; false if there is no room.
+// Adds an extra patch for the next round. False if the capacity is exhausted.
 bool add_patch(Quad quad) {
-    // Room for one more than there are is what the patches of this round leave.
+    // Every patch of this round reserves an entry. Extra patches share the rest of the capacity.
     uint room = capacity - (state.in_kept + state.in_extra);
     uint slot = atomicAdd(state.extra, 1u);
     if (slot < room)
@@ -75,7 +76,7 @@ void split(Quad quad, bool along_side) {
     Quad first = quad, second = quad;
     first.power = second.power = 0.5 * quad.power;
     first.unabsorbed = second.unabsorbed = 0.5 * quad.unabsorbed;
-    // Corners 0 1 / 3 2: the edges that are cut.
+    // The edges that are cut; corners lie as 0 1 / 3 2.
     int a0 = 0, a1 = along_side ? 1 : 3, b0 = along_side ? 3 : 1, b1 = 2;
     vec3 xa = 0.5 * (quad.x[a0] + quad.x[a1]), xb = 0.5 * (quad.x[b0] + quad.x[b1]);
     vec3 va = 0.5 * (quad.v[a0] + quad.v[a1]), vb = 0.5 * (quad.v[b0] + quad.v[b1]);
@@ -99,7 +100,7 @@ void into_world(VolumeRecord volume, inout Quad quad) {
     }
 }
 
-// From 0 to below 1, always the same for a place (PCG: Jarzynski and Olano 2020).
+// A random number in [0, 1) that depends only on the position (PCG: Jarzynski and Olano 2020).
 float random_of(vec3 place) {
     uint bits = 0u;
     for (int k = 0; k < 3; ++k) {
@@ -110,9 +111,9 @@ float random_of(vec3 place) {
     return float(bits >> 8u) / 16777216.0;
 }
 
-// Of a patch behind a surface: what the surface has reflected goes on by itself, or is counted.
-// Of patches that have less than half of the power at which others are split, some are left out at random, and the others
-// have their power as well.
+// Emits the light that a surface has reflected from a patch behind it as a new patch. The power is counted if that
+// fails. Russian roulette: a patch with less than half of the least power for splits is dropped at random. Surviving
+// patches get its power.
 void reflect_patch(VolumeRecord volume, Quad quad, vec3 power) {
     float share = max(power.r, max(power.g, power.b)) / (0.5 * finest * fronts[quad.front].intensity.w);
     if (share < 1.0) {
@@ -126,7 +127,7 @@ void reflect_patch(VolumeRecord volume, Quad quad, vec3 power) {
     if (!follows || !add_patch(quad)) add_power(PELLUCID_LIGHT_REFLECTED, power);
 }
 
-// Where a step brings a patch to a wavefront that is shown, it is kept as it is there.
+// Stores the patch as it is at a shown wavefront, if the step crosses one.
 void show_patch(VolumeRecord volume, vec3 from[4], vec3 to[4], float before, float after, vec3 irradiance) {
     float wavefront = floor(after / shown_spacing) * shown_spacing;
     if (before >= wavefront) return;
@@ -166,7 +167,7 @@ void main() {
     quad.coarse = false;
 
     bool going = true, wants_split = false, along_side = false, lands = false, parted = false, turned = false, weak = false;
-    vec3 mirrored = vec3(0.0);  // power that goes on as a patch of its own
+    vec3 mirrored = vec3(0.0);  // power that continues as a new patch
     for (uint s = 0u; s < steps_per_round && going; ++s) {
         float side = max(distance(quad.x[0], quad.x[1]), distance(quad.x[3], quad.x[2]));
         float up = max(distance(quad.x[0], quad.x[3]), distance(quad.x[1], quad.x[2]));
@@ -186,7 +187,7 @@ void main() {
             }
         }
         vec3 v_before = mean_v(quad.v);
-        // At a point where all light meets, both sides turn over at once.
+        // At a point focus both sides of the patch reverse at once.
         bool reversed = dot(x[1] - x[0], quad.x[1] - quad.x[0]) < 0.0 || dot(x[3] - x[0], quad.x[3] - quad.x[0]) < 0.0;
         vec3 old[4] = quad.x;
         quad.x = x;
@@ -202,7 +203,7 @@ void main() {
             vec4 absorption = volume_value(volume_absorption, half_way);
             vec3 extinction = absorption.rgb;
             if (kScatters) extinction += volume_value(volume_scattering, half_way).rgb;
-            float near, far;  // the part of the step that is in the box
+            float near, far;  // part of the step inside the box
             clip_to_box(volume, from, to - from, near, far);
             vec3 depth = extinction * travelled * max(min(far, 1.0) - near, 0.0);
             mean_power *= mean_transmittance(depth);

@@ -1,16 +1,17 @@
 #ifndef PELLUCID_VOLUME_SUM_LIGHT_GLSL
 #define PELLUCID_VOLUME_SUM_LIGHT_GLSL
 
-// Voxels add up all the light that passes them: power times length of way (divided by the content of a voxel, that is
-// fluence rate, W/m2), its mean colour and its mean way. Ours; needs: volume/step_bindings.glsl.
+// Voxels add up all light that passes them: power times path length, mean colour and mean direction. Divided by the
+// volume of a voxel, power times length is the fluence rate, W/m2. This method is ours. Needs:
+// volume/step_bindings.glsl.
 
-// Wide counters, seven per voxel. The first has shares of what passes by, as light_lookup.glsl interpolates. The others say
-// of what passes the voxel itself how much that is, red's and green's part, and the sum of (1 + way) / 2, which is never
-// negative: ratios of these do not depend on how many points fall into a voxel.
+// Wide counters, seven per voxel. The first sums trilinear shares of nearby light, as light_lookup.glsl interpolates
+// them. The others sum light inside the voxel: all of it, its red and green parts, and (1 + way) / 2, which is never
+// negative. Ratios of the latter do not depend on how many points fall into a voxel.
 layout(std430, set = 0, binding = 11) buffer Sums { uint sums[]; };
 
-const float kPointsPerVoxel = 2.0;  // along a patch
-const float kMostPoints = 16.0;     // of a patch with all its first power; of others in proportion
+const float kPointsPerVoxel = 2.0;  // points per voxel along a side of a patch
+const float kMostPoints = 16.0;     // most points of a patch with all its first power; proportional for others
 
 uint light_voxel(LightPlacement placement, ivec3 at) {
     ivec3 size = ivec3(placement.size_x, placement.size_y, placement.size_z);
@@ -39,8 +40,9 @@ void add_to_voxels(LightPlacement placement, vec3 x, vec3 amount, vec3 way) {
     for (uint k = 0u; k < 3u; ++k) add_to_sum(own + 4u + k, 0.5 * all * (1.0 + way[k]));
 }
 
-// By points on a grid across the patch, half-way through the step. The grid moves from step to step by a sequence of low
-// discrepancy (Roberts 2018, R2), and every second time the opposite way, so that it stays where the patch is.
+// Distributes the light of a step to a grid of points across the patch, half-way through the step. The grid shifts from
+// step to step by a low-discrepancy sequence (R2, Roberts 2018). Every second shift is the opposite of the one before,
+// so that their mean is the patch's centre.
 void keep_light(VolumeRecord volume, LightPlacement placement, PassingLight light) {
     vec3 x[4];
     for (int k = 0; k < 4; ++k) x[k] = 0.5 * (light.from[k] + light.to[k]);

@@ -20,11 +20,11 @@ constexpr vk::ImageUsageFlags kUsage =
     vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc;
 
 using Half4 = std::uint64_t;
-/// Largest finite half: thicker voxels let nothing through either.
+/// Clamps to the largest finite half. Voxels at that limit let no light through.
 Half4 half4(glm::vec4 v) { return glm::packHalf4x16(glm::min(v, glm::vec4(65504.0f))); }
 
-/// The index of the voxel before, the own, and the two behind it along x: what rows of four have in one texel, an
-/// interpolation reads at once. Beyond the faces the index goes on straight. An empty field is vacuum.
+/// Texels of the index. A texel holds four voxels along x: the one before its own, its own, and the next two. So an
+/// interpolation reads a row of four at once. Beyond the faces the index is extrapolated. An empty field is vacuum.
 std::vector<glm::vec4> index_texels(const Volume& volume, const std::vector<float>& n) {
     std::vector<glm::vec4> texels(volume.voxel_count(), glm::vec4(1.0f));
     if (n.empty()) return texels;
@@ -44,10 +44,10 @@ std::vector<glm::vec4> index_texels(const Volume& volume, const std::vector<floa
     return texels;
 }
 
-constexpr unsigned kBrick = 8;  // of volume_field.glsl
+constexpr unsigned kBrick = 8;  // twin of kBrick in volume_field.glsl
 glm::uvec3 bricks_of(glm::uvec3 size) { return (size + kBrick - 1u) / kBrick; }
 
-/// Whether a field is the same in a brick and in what interpolation looks at around it.
+/// Whether a field is uniform in a brick and in the voxels around it that interpolation reads.
 template <class T>
 bool is_even(const Volume& volume, const std::vector<T>& field, glm::uvec3 brick) {
     if (field.empty()) return true;
@@ -87,13 +87,13 @@ std::vector<Half4> half_texels(const Volume& volume, const Texel& texel) {
     return texels;
 }
 
-/// Value of a field at a voxel; of an empty one, 0.
+/// Value of a field at a voxel; 0 if the field is empty.
 template <class T>
 T value(const std::vector<T>& field, std::size_t i) {
     return field.empty() ? T(0) : field[i];
 }
 
-/// An image that boxes of texels fill, one by one; a single texel of zeros where there are none.
+/// An image for boxes of texels; a single texel of zeros if there are none.
 GpuImage image_of_boxes(const Device& device, const char* name, vk::Format format, const PackedBoxes& boxes) {
     const glm::uvec3 extent = boxes.first.empty() ? glm::uvec3(1) : boxes.extent;
     GpuImage image(device, name, format, vk::Extent3D{extent.x, extent.y, extent.z}, kUsage);
@@ -109,7 +109,7 @@ void fill_box(const Device& device, const GpuImage& image, glm::uvec3 first, glm
     upload_box(device, image, {at.x, at.y, at.z}, {size.x, size.y, size.z}, std::as_bytes(std::span(texels)));
 }
 
-/// The image of a field of the medium of all volumes, whose boxes lie in it alike; `wanted`: some volume has it.
+/// The image of a property of the medium for all volumes, at `boxes`. `wanted`: a volume has the property.
 template <class Texels>
 GpuImage medium_image(const Device& device, const Scene& scene, const char* name, const PackedBoxes& boxes, bool wanted,
                       const Texels& texels_of) {
@@ -119,12 +119,12 @@ GpuImage medium_image(const Device& device, const Scene& scene, const char* name
     return image;
 }
 
-/// Where the index of a volume lies: colours that do not part, at one place.
+/// Box numbers of a volume's index per colour. They are equal for a volume that does not disperse.
 struct IndexBoxes {
     std::size_t red, green, blue;
 };
 
-/// What of a volume's record does not depend on where it is placed.
+/// Positions of a volume's boxes in the images. All placements of the volume share them.
 struct VolumePlaces {
     glm::uvec3 medium, red, green, blue;
 };
@@ -150,7 +150,7 @@ double content(const VolumeRecord& record) {
     return double(record.size.x) * double(record.size.y) * double(record.size.z) * voxel * voxel * voxel;
 }
 
-/// Boxes along the world's axes around two placements: what is apart there is apart.
+/// Whether the world-space bounding boxes of two placements overlap. Placements with separate boxes never overlap.
 bool may_overlap(const VolumeRecord& a, const VolumeRecord& b) {
     const auto box = [](const VolumeRecord& record) {
         const glm::mat3 m(record.world_from_voxel);
@@ -182,7 +182,7 @@ VolumeImages upload_volumes(const Device& device, const Scene& scene) {
     }
     const std::uint32_t limit = device.limits().maxImageDimension3D;
     const PackedBoxes boxes = pack_boxes(sizes, limit), brick_places = pack_boxes(index_sizes, limit / kBrick);
-    PackedBoxes places = brick_places;  // of the index: as those of its bricks
+    PackedBoxes places = brick_places;  // boxes of the index, laid out like those of the bricks
     places.extent *= kBrick;
     for (glm::uvec3& first : places.first) first *= kBrick;
     VolumeImages result;

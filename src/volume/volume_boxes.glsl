@@ -1,7 +1,7 @@
 #ifndef PELLUCID_VOLUME_VOLUME_BOXES_GLSL
 #define PELLUCID_VOLUME_VOLUME_BOXES_GLSL
 
-// Where the boxes of placed volumes lie. Needs: volumes (VolumeRecord[], boxes of less content first), volume_count,
+// Look-ups of the boxes of placed volumes. Needs: volumes (VolumeRecord[], smaller boxes first), volume_count,
 // kSharpInterfaces.
 
 #include "volume/box.glsl"
@@ -9,16 +9,17 @@
 const uint kNoVolume = 0xffffffffu;
 
 vec3 voxel_position(VolumeRecord volume, vec3 world) { return (volume.voxel_from_world * vec4(world, 1.0)).xyz; }
-// Of a unit direction, a unit direction.
+// Transforms a unit direction to a unit direction in the voxels' frame.
 vec3 voxel_direction(VolumeRecord volume, vec3 world) { return mat3(volume.voxel_from_world) * world * volume.voxel; }
 
-// Which volumes a ray can meet: where solids hold some, those in these solids, and elsewhere the others.
+// The kind of volumes that a ray can meet. With kSharpInterfaces, solids hold volumes: a ray meets these inside the
+// solids, and the other volumes outside.
 const uint kAnyVolume = 0u, kFreeVolume = 1u, kHeldVolume = 2u;
 uint volumes_of(bool in_holder, uint proxy_mode) {
     return proxy_mode != kSharpInterfaces ? kAnyVolume : in_holder ? kHeldVolume : kFreeVolume;
 }
 
-// The volume that a straight ray meets next, the smallest of those that it is in, and how far away it is, m.
+// The next volume on a straight ray, and its distance, m. If the ray is inside volumes, the smallest of them.
 uint next_volume(vec3 position, vec3 direction, uint of_kind, out float distance_m) {
     uint found = kNoVolume;
     distance_m = 1e30;
@@ -34,7 +35,7 @@ uint next_volume(vec3 position, vec3 direction, uint of_kind, out float distance
     return found;
 }
 
-// Whether a place lies in a volume that counts for more than number `own`.
+// Whether a position lies in a smaller volume than number `own`, which takes precedence.
 bool inside_smaller(uint own, vec3 world) {
     for (uint i = 0u; i < own; ++i) {
         vec3 x = voxel_position(volumes[i], world);

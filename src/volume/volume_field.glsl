@@ -1,24 +1,25 @@
 #ifndef PELLUCID_VOLUME_VOLUME_FIELD_GLSL
 #define PELLUCID_VOLUME_VOLUME_FIELD_GLSL
 
-// What is at a place in a volume (gpu/volume_images.h). Places are in voxel coordinates of the volume that was entered
-// last. Beyond the middles of the voxels at its faces it is what is there.
+// Values of fields at positions in a volume (gpu/volume_images.h). Positions are voxel coordinates of the volume that
+// was entered last. Values are constant beyond the centres of the voxels at its faces.
 //
 // Needs: #extension GL_EXT_samplerless_texture_functions : require; volume_index, volume_bricks (texture3D).
 #include "volume/volume_record.glsl"
 
 vec3 volume_size;    // of the volume that was entered last
-ivec3 medium_first;  // texel of its box
-ivec3 index_first;
+ivec3 medium_first;  // first texel of its box in the images of media
+ivec3 index_first;   // first texel of its box in the image of the index
 
-// `channel`: 0 all (or green), else 1 red, 2 green, 3 blue.
+// Makes `record` the current volume. `channel`: 0 all (or green), 1 red, 2 green, 3 blue.
 void enter_volume(VolumeRecord record, uint channel) {
     volume_size = record.size;
     medium_first = record.first_texel;
     index_first = channel == 1u ? record.first_red.xyz : channel == 3u ? record.first_blue.xyz : record.first_index.xyz;
 }
 
-// By hand, because filtering of 32-bit float images is optional, and that of others has steps of 1/256 voxel.
+// Trilinear interpolation. The shader interpolates, because hardware filtering of 32-bit float images is optional, and
+// that of other formats has steps of 1/256 voxel.
 vec4 interpolated(texture3D image, ivec3 first, vec3 x) {
     vec3 position = clamp(x - 0.5, vec3(0.0), volume_size - 1.0);
     vec3 corner = min(floor(position), volume_size - 2.0);
@@ -32,14 +33,15 @@ vec4 interpolated(texture3D image, ivec3 first, vec3 x) {
 }
 vec4 volume_value(texture3D image, vec3 x) { return interpolated(image, medium_first, x); }
 
-// Of the index: 0 linear, value and central differences each by itself, as in the paper; 1 by uniform cubic B-splines,
-// with the gradient of the value. These smooth the index by a variance of 1/3 voxel^2.
+// Interpolation of the index. False: value and central differences are interpolated linearly, each by itself, as in the
+// paper. True: uniform cubic B-splines, with the gradient of the value. They smooth the index by a variance of 1/3
+// voxel^2.
 #ifndef PELLUCID_CUBIC_INDEX
 #define PELLUCID_CUBIC_INDEX false
 #endif
 
-// Of four voxels in a row, at f (0..1) between the second and the third: their shares of the value and of the slope.
-// What would lie beyond a face goes on as the two voxels there; along x the image has it.
+// Weights of four voxels in a row for the value and the slope at f (0..1) between the second and the third. Values
+// beyond a face are extrapolated from the two voxels there. Along x the image already contains them.
 void row_shares(float f, bool first, bool last, out vec4 value, out vec4 slope) {
     float g = 1.0 - f;
     if (PELLUCID_CUBIC_INDEX) {
@@ -59,14 +61,14 @@ void row_shares(float f, bool first, bool last, out vec4 value, out vec4 slope) 
     }
 }
 
-// Of the brick of 8^3 cells that a place is in: the index if it is the same in all of it, else 0; whether media are.
+// The brick of 8^3 cells at a position. x: index if uniform, else 0; y: 1 if the media are uniform, else 0.
 const int kBrick = 8;
 vec2 brick_at(vec3 x) {
     vec3 corner = min(floor(clamp(x - 0.5, vec3(0.0), volume_size - 1.0)), volume_size - 2.0);
     return texelFetch(volume_bricks, (index_first + ivec3(corner)) / kBrick, 0).xy;
 }
 
-// How far a ray may go on straight, voxels, because neither the index nor a medium changes; 0: not at all.
+// Length, voxels, over which neither the index nor a medium changes along a ray, so that it is straight; 0 if none.
 float even_way(vec3 x, vec3 way) {
     vec2 brick = brick_at(x);
     if (brick.x == 0.0 || brick.y == 0.0) return 0.0;
@@ -76,7 +78,7 @@ float even_way(vec3 x, vec3 way) {
     return max(min(until.x, min(until.y, until.z)), 0.0);
 }
 
-// Gradient per voxel, and the index; what optics/eikonal.glsl asks for.
+// Gradient per voxel (xyz) and index (w), as optics/eikonal.glsl needs them.
 vec4 index_field(vec3 x) {
     vec2 brick = brick_at(x);
     if (brick.x > 0.0) return vec4(0.0, 0.0, 0.0, brick.x);
@@ -97,7 +99,7 @@ vec4 index_field(vec3 x) {
                         share * along);
         }
     }
-    sum.xyz *= step(vec3(0.5), x) * step(x, volume_size - 0.5);  // beyond, the index is what it is at the face
+    sum.xyz *= step(vec3(0.5), x) * step(x, volume_size - 0.5);  // the index is constant beyond the outer centres
     return sum;
 }
 

@@ -7,13 +7,13 @@ struct VolumeRecord {
     mat4 world_from_voxel;
     vec3 size;           // voxels
     float voxel;         // edge of a voxel in the world, m
-    ivec3 first_texel;   // of its box in the images of media
+    ivec3 first_texel;   // first texel of its box in the images of media
     uint flags;
-    ivec4 first_index;   // of its box in the image of the index; green's
-    ivec4 first_red;     // where it disperses
+    ivec4 first_index;   // first texel of its box in the image of the index, for green
+    ivec4 first_red;     // likewise for red and blue; equal to first_index without dispersion
     ivec4 first_blue;
 };
 const uint kDispersiveVolume = 1u;
-const uint kMeshVolume = 2u;  // stands for objects of the scene
+const uint kMeshVolume = 2u;  // replaces objects of the scene
 
 #endif

@@ -1,4 +1,5 @@
-// Volumes from meshes (Ihrke et al., Eikonal rendering: efficient light transport in refractive objects, 2007, section 5.1).
+// Volumes from meshes (Ihrke et al., Eikonal rendering: efficient light transport in refractive objects, 2007, section
+// 5.1).
 #include "volume/voxelize.h"
 
 #include "core/fail.h"
@@ -94,7 +95,7 @@ public:
 private:
     const Material& material(const Solid& solid) const { return scene_.materials[std::size_t(solid.object->material)]; }
 
-    /// The box with room for what smoothing spreads.
+    /// Sets up the grid: the box of all solids, plus a margin for smoothing.
     void make_grid() {
         Box box;
         bool dispersive = false, absorbs = false;
@@ -119,7 +120,7 @@ private:
         volume_.size = glm::uvec3(glm::ceil(extent / voxel - 1e-6) + 2.0 * margin);
         volume_.low = glm::vec3(0.5 * (box.low + box.high) - 0.5 * voxel * glm::dvec3(volume_.size));
         const std::size_t scatters = settings_.scattering > 0.0f ? 1 : 0;
-        // Index, boundary, coverage and its smoothed copy; media.
+        // Count the floats per voxel: index, boundary, coverage, its smoothed copy, and media.
         const std::size_t numbers = 4 + (dispersive ? 2 : 0) + (absorbs ? 3 : 0) + 4 * scatters;
         check_volume_fits(scene_.source, volume_.size, numbers * sizeof(float));
         const std::size_t count = volume_.voxel_count();
@@ -143,7 +144,7 @@ private:
             "object {}: its mesh is not closed; columns of voxels through its holes are left empty", object.name)));
     }
 
-    /// What is inside displaces what was there.
+    /// Fills a solid with its material, which displaces earlier materials in proportion to the coverage.
     void fill(const Material& material, const std::vector<float>& coverage) {
         const Vec3<double> ior = ior_per_channel(double(material.ior), double(material.dispersion));
         const auto displace = [&](auto& field, const auto& value) {
@@ -161,15 +162,15 @@ private:
         displace(volume_.sigma_s, glm::vec3(settings_.scattering));
     }
 
-    /// The slope of what is inside, as a share of that of a plane through the voxel's middle. Larger solids' surfaces
-    /// inside a smaller one are none.
+    /// Adds the boundary of a solid: the slope of its smoothed coverage, relative to that of a plane through the
+    /// voxel's centre. Surfaces of larger solids vanish inside it.
     void add_boundary(std::vector<float> coverage, std::vector<float>& boundary) {
         Volume inside;
         inside.size = volume_.size;
         inside.n = std::move(coverage);
         smooth_index(inside, settings_.smoothing);
         const std::vector<float>& c = inside.n;
-        // Variances add up: of the Gaussian, of a voxel's width and of the two that the slope is taken over.
+        // Variances add up: those of the Gaussian, of a voxel's width and of the central difference.
         const double variance = double(settings_.smoothing) * double(settings_.smoothing) + 1.0 / 12.0 + 1.0 / 3.0;
         const float scale = float(0.5 * std::sqrt(2.0 * std::numbers::pi * variance));
         const glm::uvec3 size = volume_.size;

@@ -6,7 +6,7 @@ namespace pellucid {
 
 class Device;
 
-/// See pellucid/voxelize.h; on a device that is there.
+/// See pellucid/voxelize.h. Uses an existing device.
 VoxelizedScene voxelize(const Device& device, const Scene& scene, const VoxelSettings& settings);
 
 }  // namespace pellucid

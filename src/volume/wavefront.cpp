@@ -1,5 +1,5 @@
 // Adaptive wavefront tracing: Ihrke, Ziegler, Tevs, Theobalt, Magnor, Seidel: Eikonal Rendering, ACM Transactions on
-// Graphics 26(3), 2007, section 4.2. Differences are told in docs/eikonal.md.
+// Graphics 26(3), 2007, section 4.2. docs/eikonal.md describes the differences.
 #include "volume/wavefront.h"
 
 #include "volume/light_buffers.h"
@@ -35,10 +35,10 @@ struct SumPush {
     float irradiance_scale;
 };
 
-constexpr double kGuessedIndex = 2.0;  // optical length of a voxel, at most, when rounds are counted
-constexpr double kLeftUnsaid = 0.01;   // share of the power that may be on its way when the rounds end
-constexpr int kPowerBits = 44;         // of all light, in fixed point
-constexpr float kLeastRadius = 0.25f;  // of a photon, smallest voxels
+constexpr double kGuessedIndex = 2.0;  // assumed largest index, for the number of rounds
+constexpr double kLeftUnsaid = 0.01;   // share of the power that may remain in flight without a warning
+constexpr int kPowerBits = 44;         // bits of the power of all light in fixed point
+constexpr float kLeastRadius = 0.25f;  // of a photon's kernel, smallest voxels
 
 template <class T>
 void append(std::string& key, const T& value) {
@@ -99,7 +99,7 @@ std::vector<std::string> LightStatistics::warnings() const {
             fmt::format("light: {} patches of wavefronts are not shown, for want of room for more than {}; "
                         "raise the spacing or the capacity",
                         not_shown, shown));
-    // A little always goes round in solids by total reflection.
+    // A little light always circles in solids by total reflection.
     const double share = (left.x + left.y + left.z) / std::max(emitted.x + emitted.y + emitted.z, 1e-300);
     if (share > kLeftUnsaid)
         lines.push_back(
@@ -108,7 +108,7 @@ std::vector<std::string> LightStatistics::warnings() const {
     return lines;
 }
 
-/// What one tracing needs beside the members.
+/// State of one tracing.
 struct WavefrontTracer::Tracing {
     std::string key;
     LightSettings settings;
@@ -182,7 +182,7 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
     recorder.fill(voxel_light_, 0);
     recorder.fill(tally_, 0);
     recorder.fill(light_.shown, 0);
-    // What is shown stays until all slices have run.
+    // The photons that are shown stay until all slices have run.
     filled_ = at_once ? shown_ : 1 - shown_;
     begin(recorder, workspace, volumes, *tracing);
     if (!at_once) {
@@ -203,7 +203,7 @@ bool WavefrontTracer::update(Recorder& recorder, Workspace& workspace, const Sce
     return true;
 }
 
-/// What has been added up becomes what is seen.
+/// Makes the results of a tracing visible.
 void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
     lights_ = tracing.lights;
     resolve_voxels(recorder, workspace, tracing);
@@ -218,10 +218,10 @@ void WavefrontTracer::finish(Recorder& recorder, Workspace& workspace, const Tra
                                    });
 }
 
-/// Where the device has no room for the photons of a tracing, the next one's patches leave fewer.
+/// Reduces the photons per patch of the next tracing if the device does not have the memory for those of this one.
 void WavefrontTracer::leave_fewer_photons(PhotonStore& store) {
     constexpr double kMargin = 0.8;
-    constexpr float kLeast = 1e-3f;  // of a patch: below, patches themselves are too many
+    constexpr float kLeast = 1e-3f;  // photons per patch; below, the patches themselves are too many
     const double share = store.fit(device_);
     if (share < 1.0) most_photons_ *= float(kMargin * share);
     if (most_photons_ < kLeast)
@@ -250,7 +250,7 @@ void WavefrontTracer::resolve_voxels(Recorder& recorder, Workspace& workspace, c
             recorder.compute(resolve, bindings, i, threads);
             continue;
         }
-        // Sums are power times voxels' lengths.
+        // Sums are power times length in voxels.
         const float joined = std::exp2(3.0f * float(own.halvings)), voxel = records_[i].voxel;
         recorder.compute(resolve, bindings, SumPush{i, 1.0f / (tracing.push.power_scale * joined * voxel * voxel)},
                          threads);
@@ -263,7 +263,7 @@ void WavefrontTracer::begin_round(Recorder& recorder, Workspace& workspace, cons
                      tracing.push, {1, 1});
 }
 
-/// Emits, and takes from opaque surfaces what would get there without volumes.
+/// Emits the first patches, and subtracts the light that would reach opaque surfaces without volumes.
 void WavefrontTracer::begin(Recorder& recorder, Workspace& workspace, const VolumeImages& volumes,
                             const Tracing& tracing) {
     recorder.fill(state_, 0);
@@ -331,7 +331,7 @@ void WavefrontTracer::trace_rounds(Recorder& recorder, Workspace& workspace, con
     }
 }
 
-/// Counts what is still on its way.
+/// Counts the power of patches that remain.
 void WavefrontTracer::end(Recorder& recorder, Workspace& workspace, const Tracing& tracing) {
     recorder.compute_indirect(workspace.compute(shaders::end_light_comp),
                               {updates("State", state_), reads("PatchesIn", patches_[tracing.rounds_done % 2])},
@@ -356,7 +356,7 @@ void WavefrontTracer::read_statistics(const gpu::LightState& state, double power
                    .left = power(PELLUCID_LIGHT_LEFT),
                    .patches = state.peak,
                    .splits = state.splits,
-                   .rounds = state.rounds - (state.left > 0 ? 1u : 0u),  // what is left, was counted for a round more
+                   .rounds = state.rounds - (state.left > 0 ? 1u : 0u),  // remaining patches add a round
                    .refused = state.refused,
                    .shown = std::min(state.shown, std::uint32_t(light_.shown.size() / sizeof(gpu::ShownPatch))),
                    .patches_left = state.left,
@@ -372,7 +372,7 @@ void WavefrontTracer::read_statistics(const gpu::LightState& state, double power
         ++statistics_.lit_voxels;
         if (own > 0.99 * sum) continue;
         ++statistics_.multi_voxels;
-        all += 1.0;  // every such voxel counts alike
+        all += 1.0;  // every such voxel has the same weight
         main += own / sum;
     }
     if (all > 0.0) statistics_.main_share = main / all;

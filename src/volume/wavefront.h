@@ -19,48 +19,47 @@
 
 namespace pellucid {
 
-/// What the light of a scene leaves in its volumes; light_lookup.glsl reads it.
+/// The light in the volumes of a scene; light_lookup.glsl reads it.
 struct LightVolumes {
+    GpuImage irradiance;  ///< RGBA32F: fluence rate, W/m2 (for one beam, irradiance on a facing surface); a: 1 if lit
     GpuImage
-        irradiance;  ///< RGBA32F: fluence rate, W/m2 (of one beam: on a surface square to it); a: 1 where there is light
-    GpuImage
-        direction;  ///< RGBA16F: mean way of the light, in the frame of the voxels; shorter than 1 where ways differ
+        direction;  ///< RGBA16F: mean direction of the light, in the voxels' frame; shorter than 1 if directions differ
     Buffer placements;  ///< gpu::LightPlacement per volume record
-    Buffer shown;       ///< gpu::ShownPatch; all 0 where there is none
+    Buffer shown;       ///< gpu::ShownPatch[]; unused entries are 0
     std::vector<gpu::LightPlacement> placement_list;
 };
 
-/// Traces lights through the volumes of a scene, again when one of them has changed.
+/// Traces lights through the volumes of a scene, and again whenever lights or volumes change.
 class WavefrontTracer {
 public:
     explicit WavefrontTracer(const Device& device)
         : device_(device), photons_{KeptPhotons(device), KeptPhotons(device)} {}
 
-    /// Records the passes if light, volumes, opaque objects or settings have changed since the last time; false if not. Where
-    /// lights alone have changed, a slice of them: what is traced then is the lights of the first, and all of it is shown
-    /// at once after the last, so that what is seen is `slices` - 1 to 2 `slices` - 2 updates old.
-    /// `moves`: GpuScene::moves. Throws Error if the device lacks memory, or for KeptLight::kBrightest 64-bit atomics.
+    /// Records a tracing if lights, volumes, opaque objects or settings have changed since the last one. False if not.
+    /// If only lights have changed, an update records one of `slices` slices. All slices trace the lights of the first,
+    /// and the result is shown after the last. So visible light is `slices` - 1 to 2 `slices` - 2 updates old.
+    /// `moves`: GpuScene::moves. Throws Error if the device lacks memory, or 64-bit atomics for KeptLight::kBrightest.
     bool update(Recorder& recorder, Workspace& workspace, const Scene& scene, const VolumeImages& volumes,
                 const LightSettings& settings, std::uint64_t moves = 0);
 
-    /// Traces again at the next update(), at once.
+    /// Makes the next update() trace everything again, in one slice.
     void forget() {
         key_.clear();
         pending_.reset();
     }
 
-    /// After update() has run: true if photons did not fit. They will, once update() has run again.
+    /// Call after update() has run. True if photons did not fit; they will fit in the next update().
     bool must_repeat() const { return lacks_room_; }
 
     const LightVolumes& light() const { return light_; }
-    /// Of photons on opaque surfaces, for look-ups (light/photon_store.h): what arrives of the light that lights send to
-    /// volumes and, negative, what surfaces would get of it without volumes and shadows.
+    /// Bindings of the photons on opaque surfaces, for look-ups (light/photon_store.h). Positive photons are light that
+    /// has passed volumes. Negative ones are the light that surfaces would get without volumes and shadows.
     const std::vector<Binding>& photons() const { return photons_[shown_].store.bindings(); }
-    /// The photons that arrive. Waits for the device.
+    /// The photons of light that has passed volumes. Waits for the device.
     std::vector<LandedPhoton> landed_photons(Recorder& recorder) const;
-    /// Those that are shown: of the last tracing of which all slices were recorded.
+    /// The lights that are shown: those of the last tracing whose slices are all recorded.
     const std::vector<Light>& lights() const { return lights_; }
-    /// Of the last tracing that has run.
+    /// Statistics of the last tracing that has run.
     const LightStatistics& statistics() const { return statistics_; }
 
 private:
@@ -87,7 +86,7 @@ private:
 
     const Device& device_;
     std::string key_, volume_key_, opaque_key_;
-    std::shared_ptr<Tracing> pending_;  ///< of which slices are left
+    std::shared_ptr<Tracing> pending_;  ///< a tracing with remaining slices
     std::vector<VolumeRecord> records_;
     float smallest_voxel_ = 1.0f;
     bool coarse_voxels_ = false;
@@ -98,9 +97,9 @@ private:
     Buffer opaque_nodes_, opaque_triangles_;  ///< gpu::OpaqueNode, gpu::OpaqueTriangle
     std::uint32_t opaque_count_ = 0;          ///< nodes
     std::array<KeptPhotons, 2> photons_;
-    std::size_t shown_ = 0, filled_ = 0;  ///< of photons_: for look-ups; by the tracing
+    std::size_t shown_ = 0, filled_ = 0;  ///< indices into photons_: for look-ups, for the tracing
     bool lacks_room_ = false;
-    float most_photons_ = 16.0f;  ///< that a patch with all its first power leaves
+    float most_photons_ = 16.0f;  ///< most photons of a patch with all its first power
     LightFronts front_list_;
     LightVolumes light_;
     std::vector<Light> lights_;

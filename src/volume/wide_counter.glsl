@@ -1,16 +1,16 @@
 #ifndef PELLUCID_VOLUME_WIDE_COUNTER_GLSL
 #define PELLUCID_VOLUME_WIDE_COUNTER_GLSL
 
-// Sums in fixed point of 64 bits, in two words each, the lower first: they need no 64-bit integers, and do not depend on
-// the order in which amounts are added.
+// 64-bit fixed-point sums in two words each, the lower first. They need no 64-bit integers, and do not depend on the
+// order of additions.
 
-// An amount in units of the counter, >= 0, as two words.
+// Converts an amount in units of the counter, >= 0, to two words.
 uvec2 fixed_point(float units) {
     float high = floor(units / 4294967296.0);
     return uvec2(uint(min(units - high * 4294967296.0, 4294967040.0)), uint(high));
 }
 
-// Adds two words of an amount to counter number i of a buffer's words.
+// Adds an amount of two words to counter i in an array of words.
 #define PELLUCID_ADD_WIDE(words, i, amount)                                     \
     {                                                                           \
         uint before_ = atomicAdd(words[2u * (i)], amount.x);                    \
