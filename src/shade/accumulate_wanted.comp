@@ -1,5 +1,5 @@
 #version 460
-// Adds a sample to the mean of each pixel that still wants one.
+// Adds a sample to the mean of each pixel that still needs samples.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) readonly uniform image2DArray radiance;
 layout(set = 0, binding = 1, rgba32f) uniform image2DArray radiance_sum;

@@ -1,6 +1,6 @@
 #version 460
-// The log-average luminance of the picture, and what the eye has adapted to after seeing it for a time (Krawczyk et al.
-// 2005): an exponential approach in luminance, slower the more it is the rods that see.
+// Log-average luminance of the image, and the eye's adaptation after seeing it for a time (Krawczyk et al. 2005): an
+// exponential approach in luminance, slower where rods dominate.
 #extension GL_GOOGLE_include_directive : require
 #define PELLUCID_ADDS_UP
 #include "shade/adaptation.glsl"
@@ -13,7 +13,7 @@ layout(push_constant) uniform Push {
     uint tiles;
     float pixels;
     float elapsed_s;
-    uint first;  // 1: nothing has been seen before
+    uint first;  // 1: there was no earlier image
 };
 
 const float kConeTime = 0.1, kRodTime = 0.4;  // s

@@ -7,9 +7,9 @@
 namespace pellucid {
 namespace {
 
-constexpr std::uint32_t kGroupSide = 16;  // of sum_log_luminance.comp, invocations
-constexpr std::uint32_t kSide = 4;        // pixels of an invocation there
-constexpr float kLongest = 1e6f;          // s; nothing is left of what was seen then
+constexpr std::uint32_t kGroupSide = 16;  // workgroup side of sum_log_luminance.comp, invocations
+constexpr std::uint32_t kSide = 4;        // pixels per invocation along each axis
+constexpr float kLongest = 1e6f;          // s; adaptation is complete by then
 
 constexpr std::uint32_t divided(std::uint32_t count, std::uint32_t by) { return (count + by - 1) / by; }
 

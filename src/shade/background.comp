@@ -1,11 +1,11 @@
 #version 460
-// Radiance of every pixel as if there were no refracting glass; shade.comp then draws the pixels that have some.
+// Radiance of every pixel without refracting glass. shade.comp then overwrites the pixels with glass.
 #extension GL_GOOGLE_include_directive : require
 #include "shade/shade_bindings.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(constant_id = 3) const bool kOpaque = false;  // there are opaque objects
+layout(constant_id = 3) const bool kOpaque = false;  // the scene has opaque objects
 
 layout(set = 0, binding = 5, rgba32f) readonly uniform image2DArray opaque_radiance;
 layout(set = 0, binding = 6, r32f) readonly uniform image2DArray opaque_depth;

@@ -1,5 +1,5 @@
 #version 460
-// Pixels that a technique has shaded itself (Refraction::picture) take the place of what is there.
+// Copies the pixels that a technique has shaded itself (Refraction::picture) over the image.
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;
 

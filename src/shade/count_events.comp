@@ -3,7 +3,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, r32ui) readonly uniform uimage2DArray path_events;
 layout(std430, set = 0, binding = 1) buffer EventCounts {
-    uint conflicts;  // of the sides of shading and geometric normals
+    uint conflicts;  // disagreements of shading and geometric normals about the side
     uint statuses[7];
 };
 

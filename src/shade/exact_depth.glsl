@@ -1,15 +1,15 @@
 #ifndef PELLUCID_SHADE_EXACT_DEPTH_GLSL
 #define PELLUCID_SHADE_EXACT_DEPTH_GLSL
 
-// Depths of fragments of surface.vert, better than the rasteriser's. Needs: surface_fragment.glsl.
+// Depths of fragments of surface.vert, more exact than the rasteriser's. Needs: surface_fragment.glsl.
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
 #include "gpu/vertices.glsl"
 #include "layers/objects.glsl"
 
-const float kDepthRounding = 4e-6;  // of a depth, relative
+const float kDepthRounding = 4e-6;  // relative rounding of a depth
 
-// Depth of the triangle along the view ray, and whether it is seen from behind. What the rasteriser interpolates is too
-// coarse to say whether glass a hair's breadth before it is seen.
+// Depth of the triangle along the view ray, and whether its back is visible. The rasteriser's interpolated depth is
+// too coarse to order glass that lies just in front.
 float exact_depth(uint object, out bool behind) {
     ObjectRecord o = objects[object];
     uint corner = o.first_corner + 3u * (triangle - o.first_triangle);
@@ -23,7 +23,7 @@ float exact_depth(uint object, out bool behind) {
     float depth = -(ray.origin + dot(normal, v[0] - ray.origin) / along * ray.direction).z;
     vec3 depths = -vec3(v[0].z, v[1].z, v[2].z);
     float low = min(depths.x, min(depths.y, depths.z)), high = max(depths.x, max(depths.y, depths.z));
-    return depth >= low && depth <= high ? depth : clamp(eye_depth(), low, high);  // edge-on, it has no one depth
+    return depth >= low && depth <= high ? depth : clamp(eye_depth(), low, high);  // edge-on, the depth is undefined
 }
 
 #endif

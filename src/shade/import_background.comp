@@ -1,5 +1,5 @@
 #version 460
-// The caller's depths become distances along the view's axis.
+// Converts the caller's depths into distances along the view axis.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/frame.glsl"
@@ -9,8 +9,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, set = 0, binding = 1) readonly buffer CallersDepth { float callers_depth[]; };
 layout(set = 0, binding = 2, r32f) writeonly uniform image2DArray background_depth;
 layout(push_constant) uniform Push {
-    vec4 z_and_w;     // of the caller's projection: clip z is x z + y, w is z z + w, by z along the view's axis, negative ahead
-    float far_depth;  // of texels where nothing was drawn
+    // of the caller's projection: clip z = x z + y, clip w = z z + w, for z along the view axis, negative ahead
+    vec4 z_and_w;
+    float far_depth;  // depth of texels without geometry
 };
 
 void main() {

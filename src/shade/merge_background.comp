@@ -1,5 +1,5 @@
 #version 460
-// What the caller has drawn joins the opaque surfaces of the picture, where it lies before them.
+// Merges the caller's background into the opaque surfaces, where it lies in front of them.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/frame.glsl"

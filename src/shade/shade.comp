@@ -8,10 +8,11 @@
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(constant_id = 3) const bool kTextured = false;      // some glass varies in colour or transmission
-layout(constant_id = 4) const bool kPathRadiance = false;  // paths pick up radiance
-layout(constant_id = 5) const bool kReflected = false;     // and what the first surface reflects,
-layout(constant_id = 8) const bool kHighlights = false;    // of lights alone: rough glass reflects the environment besides
+layout(constant_id = 3) const bool kTextured = false;  // some glass varies in colour or transmission
+layout(constant_id = 4) const bool kPathRadiance = false;  // paths gather radiance
+layout(constant_id = 5) const bool kReflected = false;  // the technique supplies the reflection at the first surface
+// that reflection contains lights only; rough glass reflects the environment besides
+layout(constant_id = 8) const bool kHighlights = false;
 
 layout(std430, set = 0, binding = 5) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Materials { MaterialRecord materials[]; };
@@ -43,8 +44,8 @@ vec3 light_from_afar(vec3 position, vec3 direction, bool with_suns) {
     return with_suns ? radiance_from_afar(direction) : environment_radiance(direction);
 }
 
-// What comes through the glass: the end of the refracted path, and what it picked up on the way. Rough glass scatters the
-// light at both surfaces.
+// Light through the glass: from the end of the refracted path, and gathered along it. Rough glass scatters the light
+// at both surfaces.
 vec3 transmitted_radiance(ivec3 at, bool rough) {
     vec4 passes = imageLoad(transmittance, at);
     vec3 behind = passes.rgb * light_from_afar(imageLoad(exit_position, at).xyz, imageLoad(exit_direction, at).xyz, !kHighlights || passes.a > 0.0);
@@ -54,7 +55,7 @@ vec3 transmitted_radiance(ivec3 at, bool rough) {
     return behind * (1.0 - picked_up.a) + picked_up.rgb;
 }
 
-// What the textures at the pixel's centre multiply base colour and transmission (a) with.
+// Factors of base colour (rgb) and transmission (a) by the textures at the pixel's centre.
 vec4 texture_tint(ivec3 at, uint triangle, ObjectRecord object) {
     uint corner = object.first_corner + 3u * (triangle - object.first_triangle);
     Ray ray = camera_ray(vec2(at.xy) + 0.5);
@@ -81,7 +82,7 @@ vec3 glass_radiance(ivec3 at, vec3 view_direction, vec3 normal, uint triangle) {
     if (kTextured) tint *= texture_tint(at, triangle_index(triangle), object);
     bool rough = material.roughness > 0.0;
     vec3 transmitted = transmitted_radiance(at, rough);
-    if (back_face(triangle)) {  // seen from inside: no outer reflection but of paths that start at the eye
+    if (back_face(triangle)) {  // seen from inside: only paths from the eye have an outer reflection
         vec3 before = kReflected ? imageLoad(reflected_radiance, at).rgb : vec3(0.0);
         return before + tint.rgb * transmitted;
     }

@@ -9,51 +9,52 @@
 
 namespace pellucid {
 
-/// Draws opaque objects as glTF's metallic-roughness materials under the environment (gpu/opaque_surface.glsl), as if each
-/// point of a surface saw all of it: no shadows, no light from other surfaces. Unlit materials as they are, emission added.
+/// Draws opaque objects as glTF's metallic-roughness materials under the environment (gpu/opaque_surface.glsl),
+/// without shadows or light from other surfaces. Unlit materials show their colour unchanged. Emission is added.
 Opaque draw_opaque(Recorder& recorder, const Frame& frame);
 
-/// What the depths of the caller's depth image mean.
+/// Interpretation of the caller's depth image.
 struct CallersDepths {
-    glm::vec4 z_and_w;  ///< of the projection: clip z is x z + y, clip w is z z + w, by z along the view's axis, m
-    float far_depth;    ///< of texels where nothing was drawn
+    glm::vec4 z_and_w;  ///< of the projection: clip z = x z + y, clip w = z z + w, for z along the view axis, m
+    float far_depth;    ///< depth of texels without geometry
 };
-/// Distances along the view's axis, m (R32F), of depths that lie row by row in `stored`; PELLUCID_EMPTY_DEPTH where nothing was
-/// drawn.
+/// Distances along the view axis, m (R32F), of the depths in `stored`, which is in row order. PELLUCID_EMPTY_DEPTH
+/// where the caller has drawn nothing.
 const GpuImage& import_depth(Recorder& recorder, const Frame& frame, const Buffer& stored,
                              const CallersDepths& meaning);
 
-/// What thin walls in front do to light on its way.
+/// Effect of the thin walls in front on light from behind.
 struct ThinWalls {
-    const GpuImage& thin_tint;        ///< RGBA16F: transmittance of all of them
-    const GpuImage& thin_reflection;  ///< RGBA16F: environment that they reflect
+    const GpuImage& thin_tint;        ///< RGBA16F: transmittance of all panes
+    const GpuImage& thin_reflection;  ///< RGBA16F: environment reflected by the panes
 };
 
-/// Thin-walled glass does not bend light: its panes are multiplied together in any order. Their
-/// reflections are added, without the little that one pane takes from the reflection of another.
+/// Thin-walled glass does not bend light: the transmittances of panes are multiplied in any order. Their reflections
+/// are added; the attenuation of one pane's reflection by another is ignored.
 ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers);
 
-/// Scene-linear radiance (RGBA32F): glass lit through its refraction, plus the first interface's
-/// reflection of the environment; opaque surfaces; the environment behind.
+/// Scene-linear radiance (RGBA32F): glass by its refraction, plus the first interface's reflection of the environment;
+/// opaque surfaces; the environment behind.
 const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers,
                       const ThinWalls& walls, const Refraction& refraction, View view);
 
-/// Twin in count_events.comp. Pixels with glass, by Status, and those where shading and geometric normal disagreed about the side.
+/// Twin in count_events.comp. Counts of pixels with glass by Status, and of disagreements of shading and geometric
+/// normals about the side.
 struct EventCounts {
     std::uint32_t side_conflicts;
     std::uint32_t statuses[7];
 };
-/// Counts those of a frame; `then` gets them once it has run.
+/// Counts the events of a frame. `then` receives the counts after the frame has run.
 void count_events(Recorder& recorder, const Frame& frame, const Refraction& refraction,
                   std::function<void(const EventCounts&)> then);
 
-/// Adds `radiance` to the sum of the samples before it; `sample` 0 starts a new sum. Where pixels want different numbers
-/// of samples (`wanted`), to the mean of each. Sums of different names are apart.
+/// Adds `radiance` to the sum of the previous samples; `sample` 0 starts a new sum. With `wanted` (samples per pixel),
+/// adds to each pixel's mean instead. Sums of different names are separate.
 const GpuImage& accumulate(Recorder& recorder, const Frame& frame, const GpuImage& radiance, std::uint32_t sample,
                            const GpuImage* wanted = nullptr, std::string_view name = "radiance sum");
 
-/// Display values (RGBA8, sRGB-encoded) of `scale * radiance`, by a curve other than kKrawczyk (adaptation.h).
-/// `swap_red_blue`: as BGRA8.
+/// Display values (RGBA8, sRGB-encoded) of `scale * radiance`, by any curve except kKrawczyk (adaptation.h).
+/// `swap_red_blue`: output BGRA8.
 const GpuImage& tonemap(Recorder& recorder, const Frame& frame, const GpuImage& radiance, float scale, ToneMap curve,
                         bool swap_red_blue = false);
 

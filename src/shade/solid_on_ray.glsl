@@ -1,40 +1,40 @@
 #ifndef PELLUCID_SHADE_SOLID_ON_RAY_GLSL
 #define PELLUCID_SHADE_SOLID_ON_RAY_GLSL
 
-// How much solid lies on a ray of light before the point that it arrives at (Chen, translucency by measured thickness).
+// Thickness of solid on a light ray in front of its end point (Chen, translucency by measured thickness).
 //
-// A texel of a light's map names the triangles that the ray through its centre crosses. The ray that arrives at the
-// point passes beside that, by less than a texel: it is their planes that are crossed here by the ray itself, so that
-// depths are those of the point's own ray and no texel has to be told from its neighbour by a bias. All distances are
-// from the point, in metres along the light: what is in front of the point is negative.
-// Needs: objects, materials, gpu/vertices.glsl, layers/layers.glsl, layers/objects.glsl, layer_triangle, layer_count,
-// kOneObject.
+// A texel of a light's map names the triangles crossed by the ray through its centre. The ray to the point differs
+// from that by less than a texel. This file intersects the ray itself with the triangles' planes. Depths are therefore
+// exact for the point's own ray, and need no bias against neighbouring texels. All distances are relative to the
+// point, in metres along the light, negative in front of the point. Needs: objects, materials, gpu/vertices.glsl,
+// layers/layers.glsl, layers/objects.glsl, layer_triangle, layer_count, kOneObject.
 
-// A visible point, and the light that arrives there.
+// A visible point, and the light that arrives at it.
 struct LitPoint {
     vec3 world;
-    vec3 way;           // unit, the way the light goes
+    vec3 way;  // unit, direction of travel of the light
     uint object;
-    vec3 in_mesh;       // in the frame of the object's mesh
+    vec3 in_mesh;  // position in the frame of the object's mesh
     vec3 way_in_mesh;
-    uint triangle;      // that the point lies on
-    bool leaving;       // the light leaves the solid there
+    uint triangle;  // triangle that contains the point
+    bool leaving;  // the light leaves the solid at the point
 };
 
 struct SolidOnRay {
     float thickness;     // m
-    vec3 optical_depth;  // the sum of c d
-    bool shadowed;       // something opaque is in front
-    bool cut;            // there are more surfaces in front than layers
+    vec3 optical_depth;  // sum of c d
+    bool shadowed;  // an opaque object is in front
+    bool cut;  // more surfaces in front than layers
 };
 
-// Where the light crosses the plane of a triangle.
+// Intersection of the light ray with the plane of a triangle.
 struct Crossing {
     float at;         // m from the point
-    float tan_theta;  // of the angle between the plane and one that faces the light
+    float tan_theta;  // tangent of the angle between the plane and one facing the light
 };
 
-// Kept to once the triangle's own extent beyond it: seen edge-on, planes run far away.
+// Intersects the triangle's plane. The result is clamped to the triangle's range, extended by its length on both
+// sides, because edge-on planes intersect far away.
 Crossing crossing(uint triangle, uint object, LitPoint point) {
     vec3 from = point.in_mesh, way = point.way_in_mesh;
     if (!kOneObject && object != point.object) {
@@ -51,15 +51,15 @@ Crossing crossing(uint triangle, uint object, LitPoint point) {
     vec3 along = vec3(dot(a, way), dot(b, way), dot(c, way)) / dot(way, way);
     float low = min(along.x, min(along.y, along.z)), high = max(along.x, max(along.y, along.z));
     float extent = high - low;
-    at = at == at ? clamp(at, low - extent, high + extent) : low;  // 0 / 0: in the plane
+    at = at == at ? clamp(at, low - extent, high + extent) : low;  // 0 / 0: the ray lies in the plane
     return Crossing(at, length(cross(normal, way)) / max(abs(speed), 1e-30));
 }
 
-// Lengths of solid on the way, and the one that is open.
+// Accumulated lengths in solids, and the open solid.
 struct Tally {
     float thickness;
     vec3 optical_depth;
-    float entry;  // of the open one
+    float entry;  // entry into the open solid
     vec3 sigma;
 };
 void close_solid(inout Tally tally, float at) {
@@ -68,16 +68,16 @@ void close_solid(inout Tally tally, float at) {
     tally.optical_depth += inside * tally.sigma;
 }
 
-// By the layers of a texel. The light is in a solid while it has entered more than it has left. Entries and exits that
-// have no partner count nothing: those of open meshes, and those at silhouettes, where the texel's ray passes a solid
-// that the point's does not. An exit without an entry is passed over. Of an entry without an exit it is only known at
-// the end that it has none; `above` tallies the solids since the last time outside as if it were not there.
-// A visible point is where its light leaves the last solid that it is in, or is outside.
+// Thickness from the layers of a texel. The light is in a solid while its entries outnumber its exits. Unpaired
+// entries and exits contribute nothing. They occur on open meshes, and at silhouettes, where the texel's ray crosses a
+// solid that the point's ray misses. An unpaired exit is skipped. An unpaired entry is recognised only at the end;
+// `above` therefore sums the solids as if the outermost entry did not exist. A visible point lies where its light
+// leaves the last solid, or outside.
 //
-// No bias tells the point's own surface from others. Met a little before the point, it has no partner where the light
-// enters, and where it leaves the length is the same. Only on the lit side, in a crease, the exit of what is in front
-// may come to lie behind the point by less than a texel: `own` is what the point's surface itself, or one that meets
-// it, can be off by. An entry farther in front than that, and than the exit is behind, is that of a solid in front.
+// No bias separates the point's own surface from others. Where the light enters at the point, the own surface is
+// unpaired, and where it leaves, the length is the same. Only on the lit side, in a crease, may the exit of a solid in
+// front lie behind the point, by less than a texel. `own` bounds this error for the point's surface and for surfaces
+// that meet it. An entry farther in front than `own`, and than the exit lies behind, belongs to a solid in front.
 SolidOnRay solid_in_layers(ivec2 texel, LitPoint point, float width, float tan_theta) {
     SolidOnRay solid = SolidOnRay(0.0, vec3(0.0), false, false);
     Tally outer = Tally(0.0, vec3(0.0), 0.0, vec3(0.0)), above = outer;
@@ -127,9 +127,10 @@ SolidOnRay solid_in_layers(ivec2 texel, LitPoint point, float width, float tan_t
     return solid;
 }
 
-// By the first surface alone, as translucent shadow maps have it: whatever is behind it is solid. On the lit side that
-// surface is the point's own, or runs into it within a diagonal of a texel of `width` metres, over which a plane of slope
-// tan(theta) to the map rises by sqrt(2) width tan(theta). What is nearer than the steeper of the two rises is that.
+// Thickness behind the first surface, as in translucent shadow maps, where everything behind it is solid. On the lit
+// side that surface is the point's own, or meets it within a texel's diagonal of `width` metres. Over the diagonal, a
+// plane of slope tan(theta) to the map rises by sqrt(2) width tan(theta). Surfaces nearer than the steeper of the two
+// rises count as the point's own.
 SolidOnRay solid_behind_first(ivec2 texel, LitPoint point, float width, float tan_theta) {
     SolidOnRay solid = SolidOnRay(0.0, vec3(0.0), false, false);
     uint word = imageLoad(layer_triangle, ivec3(texel, 0)).r;

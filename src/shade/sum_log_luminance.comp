@@ -1,5 +1,5 @@
 #version 460
-// One sum of log luminance for every tile of the picture, for the log-average (adapt_luminance.comp).
+// One sum of log luminance per tile of the image, for the log-average (adapt_luminance.comp).
 #extension GL_GOOGLE_include_directive : require
 #define PELLUCID_ADDS_UP
 #include "shade/adaptation.glsl"
@@ -10,8 +10,8 @@ layout(set = 0, binding = 0, rgba32f) readonly uniform image2DArray radiance;
 layout(std430, set = 0, binding = 1) writeonly buffer TileSums { float tile_sums[]; };
 layout(push_constant) uniform Push {
     float unit_cd_m2;
-    int side;        // an invocation's share, pixels
-    uint first_sum;  // of this part of the picture
+    int side;  // pixels per invocation along each axis
+    uint first_sum;  // index of the first sum of this part of the image
 };
 
 void main() {

@@ -1,5 +1,5 @@
 #version 460
-// Transforms corners of triangles whose material is looked at.
+// Transforms corners of triangles for fragment shaders that evaluate materials.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };

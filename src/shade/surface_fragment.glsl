@@ -1,7 +1,7 @@
 #ifndef PELLUCID_SHADE_SURFACE_FRAGMENT_GLSL
 #define PELLUCID_SHADE_SURFACE_FRAGMENT_GLSL
 
-// What the fragments of surface.vert have in common: their material with its textures.
+// Shared by the fragment shaders of surface.vert: the material with its textures.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "gpu/frame.glsl"
@@ -25,7 +25,7 @@ float transmission(MaterialRecord material) {
     return material.transmission * sample_texture(material.transmission_texture, texcoords.xy, texcoords.zw).r;
 }
 
-// Interpolated normal on the side that the view ray comes from, and that ray; both in world space.
+// World-space view ray, and the interpolated normal on the side that the ray comes from.
 vec3 world_view_direction() {
     return mat3(frame.world_from_view) * camera_ray(gl_FragCoord.xy).direction;
 }

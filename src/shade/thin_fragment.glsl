@@ -1,7 +1,7 @@
 #ifndef PELLUCID_SHADE_THIN_FRAGMENT_GLSL
 #define PELLUCID_SHADE_THIN_FRAGMENT_GLSL
 
-// A pane of thin-walled glass in front of everything opaque and refracting.
+// A pane of thin-walled glass in front of all opaque and refracting surfaces.
 #extension GL_GOOGLE_include_directive : require
 #include "shade/surface_fragment.glsl"
 #include "optics/interface.glsl"
@@ -14,12 +14,12 @@ bool hidden() {
     return eye_depth() >= min(imageLoad(opaque_depth, at).r, imageLoad(layer_depth, at).r);
 }
 
-// Alpha, where that is how much of what lies behind the pane covers.
+// Coverage of the pane: alpha, if the material uses it as coverage, else 1.
 float coverage(MaterialRecord material, vec4 base) {
     return (material.flags & PELLUCID_MATERIAL_COVERAGE) != 0u ? base.a : 1.0;
 }
 
-// Both faces of the pane, all reflections between them: 2 R / (1 + R).
+// Reflectance of a pane with two faces and all reflections between them: 2 R / (1 + R).
 float pane_reflectance(vec3 normal, vec3 view_direction, float ior) {
     float r = fresnel_dielectric(-dot(view_direction, normal), 1.0 / ior);
     return 2.0 * r / (1.0 + r);

@@ -1,5 +1,5 @@
 #version 460
-// Scene-linear radiance to display values, by curves that do not look at the picture; see krawczyk.comp.
+// Scene-linear radiance to display values, by curves that do not depend on the image; see krawczyk.comp.
 #extension GL_GOOGLE_include_directive : require
 #include "shade/srgb.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -21,8 +21,8 @@ vec3 aces(vec3 c) {
     return (c * (2.51 * c + 0.03)) / (c * (2.43 * c + 0.59) + 0.14);
 }
 
-// Khronos PBR Neutral Tone Mapper, specification 1.0 (2024): a small offset for the surface's
-// reflection of white, then compression of what exceeds 0.8 towards a desaturated 1.
+// Khronos PBR Neutral Tone Mapper, specification 1.0 (2024): subtracts a small offset for the surface's reflection of
+// white, then compresses values above 0.8 towards a desaturated 1.
 vec3 neutral(vec3 c) {
     const float start = 0.8 - 0.04, desaturation = 0.15;
     float low = min(c.r, min(c.g, c.b));

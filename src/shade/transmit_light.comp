@@ -1,6 +1,7 @@
 #version 460
-// Adds the light of one light that translucent surfaces scatter: what arrives through the solids on its way,
-// I0 exp(-c d), on either side (KHR_materials_diffuse_transmission, KHR_materials_volume). Or writes d.
+// Adds the light of one light source that translucent surfaces scatter. The light arrives through the solids along its
+// ray, I0 exp(-c d), on either side (KHR_materials_diffuse_transmission, KHR_materials_volume). With kMeasures, writes
+// d instead.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };
@@ -12,7 +13,8 @@ layout(set = 0, binding = 6, rgba16f) readonly uniform image2DArray surface_refl
 layout(set = 0, binding = 7, rgba16f) readonly uniform image2DArray surface_transmitted;
 layout(set = 0, binding = 8, r32ui) readonly uniform uimage2DArray layer_triangle;
 layout(std430, set = 0, binding = 9) readonly buffer LocalThickness { float local_thickness[]; };
-layout(std430, set = 0, binding = 10) readonly buffer LocalObjects { uvec2 local_objects[]; };  // first value; scale, bits
+// first value; bits of the scale
+layout(std430, set = 0, binding = 10) readonly buffer LocalObjects { uvec2 local_objects[]; };
 layout(set = 0, binding = 11, rgba32f) uniform image2DArray radiance;
 layout(set = 0, binding = 12, r32f) writeonly uniform image2DArray thickness;
 layout(std430, set = 0, binding = 13) buffer LightCounters { uint cut_rays; };
@@ -27,13 +29,13 @@ layout(std430, set = 0, binding = 13) buffer LightCounters { uint cut_rays; };
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(constant_id = 0) const uint kMethod = 0u;  // of those below
+layout(constant_id = 0) const uint kMethod = 0u;  // kByLayers, kByFirst or kLocal
 const uint kByLayers = 0u, kByFirst = 1u, kLocal = 2u;
-layout(constant_id = 1) const bool kMeasures = false;  // writes d, adds no light
+layout(constant_id = 1) const bool kMeasures = false;  // write d, add no light
 layout(constant_id = 2) const bool kOneObject = false;
 layout(push_constant) uniform Push {
     PunctualLight light;
-    uint face;  // of a cube around the light that this is: +x, -x, +y, -y, +z, -z; 6: the one view of the light
+    uint face;  // face of a cube around the light: +x, -x, +y, -y, +z, -z; 6: the light's only view
     uint layer_count;
 };
 #include "shade/solid_on_ray.glsl"
@@ -90,8 +92,8 @@ void main() {
         float width = max(light_view.film.z, light_view.film.w) * (light_view.orthographic != 0u ? 1.0 : -in_view.z);
         float cos_theta = abs(dot(normalize(mat3(objects[object].world_from_object_normal) * outward), point.way));
         float tan_theta = sqrt(max(1.0 - cos_theta * cos_theta, 0.0)) / max(cos_theta, 1e-6);
-        // Between four texels, so that the edges of what is in front are one texel wide and not in steps. Where the
-        // light leaves a solid, those that look past that solid's edge know nothing of it.
+        // Interpolate between four texels, so that edges of occluders are one texel wide instead of stepped. Where the
+        // light leaves a solid, ignore texels beside that solid's silhouette.
         float known = 0.0;
         transmittance = vec3(0.0);
         for (int i = 0; i < 4; ++i) {
@@ -118,7 +120,7 @@ void main() {
         return;
     }
     vec3 normal = unpack_unit_vector(imageLoad(surface_normals, pixel).r);
-    float cos_theta = -dot(normal, point.way);  // to the light, from the viewer's side
+    float cos_theta = -dot(normal, point.way);  // cosine to the light, on the viewer's side
     vec3 scattered = cos_theta > 0.0 ? imageLoad(surface_reflected, pixel).rgb : imageLoad(surface_transmitted, pixel).rgb;
     vec3 added = scattered * (abs(cos_theta) / kPi * arriving.irradiance) * light.intensity * transmittance;
     vec4 before = imageLoad(radiance, pixel);

@@ -1,5 +1,5 @@
-// Chen, "Real-time transmission of translucent objects by depth peeling": thickness from layers that are peeled from
-// the light, in the frame that is drawn.
+// Chen, "Real-time transmission of translucent objects by depth peeling": thickness from layers peeled from the light,
+// in the same frame.
 #include "shade/transmitted_light.h"
 
 #include "gpu/punctual_light.h"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;
 
-/// As transmit_light.comp names them.
+/// Value of kMethod in transmit_light.comp.
 std::uint32_t method_constant(ThicknessMethod method) {
     if (method == ThicknessMethod::kLocalThickness) return 2;
     return method == ThicknessMethod::kTranslucentShadowMap ? 1 : 0;
@@ -26,7 +26,7 @@ std::uint32_t method_constant(ThicknessMethod method) {
 
 }  // namespace
 
-/// The nearest opaque surfaces where they are translucent; `pixels` lists those.
+/// The nearest opaque surfaces, where they are translucent. `pixels` lists their pixels.
 struct TransmittedLight::Surfaces {
     const GpuImage &triangle, &normal, &reflected, &transmitted;
     const Buffer& pixels;
@@ -104,7 +104,7 @@ void TransmittedLight::record_view(Recorder& recorder, const Frame& frame, const
     const Frame from_light = view_from(recorder, frame, number);
     const GpuImage& triangles = needs_layers() ? build_map(recorder, frame, opaque, number)
                                                : workspace_.image("no layers", vk::Format::eR32Uint, {1, 1});
-    // Something has to be bound where nothing is baked.
+    // Every binding needs a buffer, even if nothing is baked.
     const Buffer& nothing = workspace_.buffer("nothing baked", 16);
     struct Push {
         PunctualLight light;

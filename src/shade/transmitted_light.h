@@ -11,45 +11,46 @@
 
 namespace pellucid {
 
-/// Thickness that was baked per vertex.
+/// Thickness baked per vertex.
 struct LocalThickness {
-    Buffer values;   ///< float, m in the frame of each object's mesh
-    Buffer objects;  ///< uvec2 per object: its first value, less its mesh's first vertex; metres of the world per unit
+    Buffer values;  ///< float, m in the frame of each object's mesh
+    /// uvec2 per object: index of its first value minus its mesh's first vertex; metres in world space per unit
+    Buffer objects;
 };
 
-/// What lights a picture, and how its way through solids is found.
+/// Lights of an image, and the method that finds their thickness.
 struct TransmittedLightSetup {
     ThicknessMethod method = ThicknessMethod::kLayers;
-    LayerBuilder builder = LayerBuilder::kSinglePass;  ///< of the light's layers
+    LayerBuilder builder = LayerBuilder::kSinglePass;  ///< builder of the light's layers
     std::uint32_t layers = 8;
     std::uint32_t resolution = 1024;  ///< texels along a side of a map
     std::vector<Light> lights;
     std::vector<LightView> views;
-    const LocalThickness* local = nullptr;  ///< kLocalThickness needs it
+    const LocalThickness* local = nullptr;  ///< required by kLocalThickness
 };
 
-/// Light of lights that comes through translucent solids (Chen): layers from every light, in a frame of the light's own
-/// with a layer source of its own, and the way of the light through them. Opaque objects cast shadows on translucent
-/// ones; glass does not.
+/// Light through translucent solids (Chen). It builds layers from every light, in a frame and layer source of the
+/// light's own, and integrates absorption along the light rays. Opaque objects cast shadows on translucent ones; glass
+/// does not.
 class TransmittedLight {
 public:
     explicit TransmittedLight(const Device& device) : workspace_(device) {}
 
-    /// Before the frames of a picture, when none is in flight.
+    /// Call before the frames of an image, when no frame is in flight.
     void begin(TransmittedLightSetup setup);
-    /// Adds the light to `opaque.radiance` where a translucent surface is seen.
+    /// Adds the light to `opaque.radiance` at translucent surfaces.
     void add(Recorder& recorder, const Frame& frame, const Opaque& opaque);
-    /// The thickness (R32F) for the lights of the setup instead: m, kNotTranslucent or kShadowed.
+    /// Measures the thickness (R32F) for the lights of the setup: m, kNotTranslucent or kShadowed.
     const GpuImage& measure(Recorder& recorder, const Frame& frame, const Opaque& opaque);
-    /// Builds the lights' maps and nothing else, for timing; after a frame that need not be repeated.
+    /// Builds the lights' maps only, for timing. Call it after a frame that need not be repeated.
     void build_maps(Recorder& recorder, const Frame& frame, const Opaque& opaque);
     /// As LayerSource::must_repeat().
     bool must_repeat(const Frame& frame);
-    /// Of the frame that has run: pixels whose ray of light crosses more surfaces than there are layers.
+    /// Pixels of the last frame whose light ray crosses more surfaces than there are layers.
     std::uint64_t cut_rays() const { return cut_rays_; }
     std::uint32_t geometry_passes() const { return any_ ? source_.geometry_passes() : 0; }
     std::uint32_t view_count() const { return std::uint32_t(setup_.views.size()); }
-    /// Forgets what it has learnt of a scene.
+    /// Forgets everything learnt about a scene.
     void forget();
 
 private:
@@ -60,7 +61,7 @@ private:
                      const GpuImage& thickness, std::size_t view, bool measures);
     Frame view_from(Recorder& recorder, const Frame& frame, std::size_t number);
     const GpuImage& build_map(Recorder& recorder, const Frame& frame, const Opaque& opaque, std::size_t number);
-    /// A shadow map is the first layer.
+    /// Layers per light; a shadow map is the first layer.
     std::uint32_t layer_count() const {
         return setup_.method == ThicknessMethod::kTranslucentShadowMap ? 1 : setup_.layers;
     }
@@ -70,7 +71,7 @@ private:
     mutable Workspace workspace_;
     LayerSource source_;
     TransmittedLightSetup setup_;
-    bool any_ = false;  ///< in this frame
+    bool any_ = false;  ///< true if this frame has such light
     std::uint32_t cut_rays_ = 0;
 };
 
