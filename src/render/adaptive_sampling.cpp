@@ -7,9 +7,9 @@ namespace pellucid {
 namespace {
 
 constexpr float kMiddleGrey = 0.18f;
-constexpr int kAround = 2;  // pixels on each side
+constexpr int kAround = 2;  // filter radius, pixels
 
-/// Means of one channel over the pixels around each, across and then down.
+/// Box filter of one channel, separable.
 Image mean_around(const Image& image) {
     Image across(image.width, image.height, 1), around = across;
     const auto blur = [](const Image& from, Image& to, int step_x, int step_y) {
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> PixelNoise::samples_for(float error, float exposure_e
         const double luminance = 0.2126 * double(rgb[0]) + 0.7152 * double(rgb[1]) + 0.0722 * double(rgb[2]);
         const double allowed = double(error) * (luminance + double(grey));
         const double needed = double(std::max(variance.pixels[i], around.pixels[i])) / (allowed * allowed);
-        // Not a number, or infinite: light beyond what floats hold is as noisy as can be.
+        // NaN or infinity: light beyond the range of floats counts as maximally noisy.
         wanted[i] =
             needed < double(most) ? std::max(std::min(kFewestSamples, most), std::uint32_t(std::ceil(needed))) : most;
     }

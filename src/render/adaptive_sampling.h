@@ -1,6 +1,6 @@
 #pragma once
 
-// As many samples of every pixel as its noise asks for.
+// Adaptive sampling: the noise of each pixel determines its number of samples.
 #include <pellucid/image.h>
 
 #include <cstdint>
@@ -8,29 +8,30 @@
 
 namespace pellucid {
 
-/// Samples of every pixel that tell how noisy it is. They are no part of the picture: a pixel whose number of samples
-/// followed from these very samples would be biased, as it stops the sooner the less it has seen of rare light.
+/// Pilot samples per pixel that estimate its noise. They are not part of the image. If they were, a pixel would stop
+/// early when it had missed rare light, which would bias it.
 constexpr std::uint32_t kPilotSamples = 8;
-constexpr std::uint32_t kFewestSamples = 4;  ///< of a pixel
+constexpr std::uint32_t kFewestSamples = 4;  ///< least samples of a pixel
 
-/// Mean and variance of what single samples of every pixel differ by (Welford 1962).
+/// Mean and variance of single samples of every pixel (Welford 1962).
 class PixelNoise {
 public:
     PixelNoise() = default;
-    /// What a number of samples have for a mean and its standard error.
+    /// Starts from the mean and standard error of a number of samples.
     PixelNoise(const Image& mean, const Image& standard_error, std::uint32_t samples);
 
-    /// RGB, scene-linear, of equal size.
+    /// Adds a sample, RGB, scene-linear, of equal size.
     void add(const Image& sample);
 
-    /// How many samples take the standard error of each pixel to `error`, rows from the top: that of its noisiest channel,
-    /// as a share of its luminance and middle grey (0.18 at an exposure of 0). Variances are those of the pixel or of the
-    /// 5x5 pixels around it, whichever is more: few samples may have missed what is rare. kFewestSamples to `most`.
+    /// Samples that reduce the standard error of each pixel to `error`, rows from the top. The error is that of its
+    /// noisiest channel, as a share of luminance plus middle grey (0.18 at exposure 0). The variance is the larger of
+    /// the pixel's own and the mean over 5x5 pixels around it, since few samples may have missed rare light. Result:
+    /// kFewestSamples to `most`.
     std::vector<std::uint32_t> samples_for(float error, float exposure_ev, std::uint32_t most) const;
 
 private:
     std::uint32_t samples_ = 0;
-    Image mean_, deviations_;  // sum of the squared deviations from the mean
+    Image mean_, deviations_;  // `deviations_`: sum of squared deviations from the mean
 };
 
 }  // namespace pellucid

@@ -10,14 +10,14 @@
 
 namespace pellucid {
 
-/// Throws Error listing the known names if one of `names` is none.
+/// Throws Error listing the known names if one of `names` is unknown.
 void check_aov_names(const std::vector<std::string>& names);
 
-/// Whether it is one of kLightParts.
+/// True for names in kLightParts.
 bool is_light_part(const std::string& name);
 
-/// Reads back from a finished frame what `settings` ask for: the AOVs and paths, and the counts of `result`.
-/// `view` is what the frame was drawn with, `first_triangles` GpuScene::first_triangles.
+/// Reads back the AOVs and paths requested by `settings`, and the counts of `result`, from a finished frame. `view`:
+/// constants of the frame; `first_triangles`: GpuScene::first_triangles.
 void read_back(const Device& device, const FrameImages& images, const gpu::FrameConstants& view,
                const std::vector<std::uint32_t>& first_triangles, const RenderSettings& settings, RenderResult& result);
 

@@ -12,18 +12,18 @@
 
 namespace pellucid {
 
-/// Whether a light is seen itself: a sun with an angular diameter, a lamp or spot with a radius.
+/// True for visible lights: directional lights with an angular diameter, point and spot lights with a radius.
 bool has_size(const Light& light);
 
-/// What of `scene` the technique draws otherwise than it is: one line each, for the user. `photons`: it sends some.
+/// Approximations of `scene` by the technique: one line each, for the user. `photons`: the technique sends photons.
 std::vector<std::string> approximations(const Scene& scene, const TechniqueInfo& technique, const LightOptions& light,
                                         bool photons);
 
-/// The same of solids, for techniques that do not count what a ray is inside of.
+/// Approximations of solids, by techniques that do not track the solids around a ray.
 std::vector<std::string> unknown_solids(const SceneTopology& topology, const TechniqueInfo& technique);
 
-/// Adds what may be wrong in a picture, by its counts, to its warnings. `cut`: it was drawn in tiles and glass lies in
-/// several.
+/// Adds warnings about possible errors in an image, by its counts. `cut`: the image was drawn in tiles, and several
+/// contain glass.
 void warn_of(RenderResult& result, const FrameSettings& chosen, bool cut, const RenderSettings& settings);
 
 }  // namespace pellucid

@@ -15,8 +15,8 @@ namespace pellucid {
 namespace {
 
 constexpr std::uint32_t kMaxSamples = 1u << 20;
-constexpr std::uint32_t kMostBounces = 7;            ///< what a path has bits for
-constexpr std::uint32_t kLongestPicture = 1u << 20;  ///< pixels; single precision tells their halves apart
+constexpr std::uint32_t kMostBounces = 7;            ///< limit of the bits of a path
+constexpr std::uint32_t kLongestPicture = 1u << 20;  ///< pixels; single precision resolves half pixels up to here
 
 std::uint64_t result_bytes(const RenderSettings& settings) {
     std::uint64_t per_pixel = 2 * 3 * sizeof(float);  // radiance and display

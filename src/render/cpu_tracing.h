@@ -9,7 +9,7 @@
 
 namespace pellucid {
 
-/// The scene on the CPU, and the tracer of truths. Its hierarchy is built when it is first asked for.
+/// The scene on the CPU, and the tracer of reference techniques, built on first use.
 class CpuTracing {
 public:
     explicit CpuTracing(std::uint32_t threads) : threads_(threads) {}
@@ -17,10 +17,10 @@ public:
     CpuTracing& operator=(const CpuTracing&) = delete;
 
     void set_scene(Scene scene);
-    /// Throws Error, and moves nothing, if a mesh does not exist, the counts differ, or a number is not finite. The
-    /// hierarchy is built anew when it is next asked for.
+    /// Moves vertices; the hierarchy is rebuilt on next use. Throws Error and moves nothing if a mesh does not exist,
+    /// the counts differ, or a number is not finite.
     void set_positions(const std::vector<MovedMesh>& moved);
-    /// Throw Error, and change nothing, if what they give would be no valid scene.
+    /// Each setter throws Error and changes nothing if the scene would become invalid.
     void set_transforms(const std::vector<PosedObject>& moved);
     void set_material(int index, const Material& material);
     void set_lights(const std::vector<Light>& lights);
@@ -30,7 +30,7 @@ public:
 private:
     std::uint32_t threads_;
     Scene scene_;
-    std::optional<Tracer> tracer_;  // looks at scene_
+    std::optional<Tracer> tracer_;  // refers to scene_
 };
 
 }  // namespace pellucid

@@ -33,7 +33,7 @@ Image download_rgb(const Device& device, const GpuImage& image) {
 Image display_picture(Recorder& recorder, const Frame& frame, std::span<const Tile> tiles, const DrawnPicture& picture,
                       Adaptation& adaptation, const RenderSettings& settings) {
     const Device& device = recorder.device();
-    // Wavefronts are shown exposed already.
+    // Wavefronts already contain the exposure.
     const float exposure = settings.view == View::kWavefront ? 1.0f : std::exp2(settings.exposure_ev);
     const bool adapts = settings.tonemap == ToneMap::kKrawczyk;
     const Adaptation::Look look{.unit_cd_m2 = picture.scale * settings.unit_luminance_cd_m2,

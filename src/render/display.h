@@ -9,18 +9,18 @@
 
 namespace pellucid {
 
-/// Radiance that has been drawn: on the host, and on the device if the picture is one tile.
+/// Radiance of a drawn image: on the host, and for an image of one tile also on the device.
 struct DrawnPicture {
     Image& radiance;                      ///< RGB
     const GpuImage* on_device = nullptr;  ///< RGBA32F
-    float scale = 1.0f;                   ///< makes it the mean over the samples
+    float scale = 1.0f;                   ///< factor that converts it into the mean over the samples
 };
 
-/// Display values, RGB 0..1, tile by tile. What the eye adapts to is the whole picture.
+/// Display values, RGB 0..1, computed tile by tile. The eye adapts to the whole image.
 Image display_picture(Recorder& recorder, const Frame& frame, std::span<const Tile> tiles, const DrawnPicture& picture,
                       Adaptation& adaptation, const RenderSettings& settings);
 
-/// RGB of an RGBA32F image.
+/// Downloads the RGB of an RGBA32F image.
 Image download_rgb(const Device& device, const GpuImage& image);
 
 }  // namespace pellucid

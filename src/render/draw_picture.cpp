@@ -1,4 +1,4 @@
-// How a picture is drawn: tiles of it, samples of these, and frames, which are drawn again until what they gather fits.
+// Drawing of an image: tiles, samples of each tile, and frames, which are repeated until their buffers fit.
 #include "render/renderer_impl.h"
 
 #include "render/adaptive_sampling.h"
@@ -9,7 +9,7 @@
 namespace pellucid {
 namespace {
 
-/// Adds what an earlier attempt at the frame did and this one need not do again, as building a hierarchy.
+/// Adds passes of earlier attempts at the frame that this attempt did not repeat, such as building a hierarchy.
 std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std::vector<PassTime>& earlier) {
     for (const PassTime& pass : earlier) {
         const bool repeated =
@@ -19,7 +19,7 @@ std::vector<PassTime> with_missing_passes(std::vector<PassTime> times, const std
     return times;
 }
 
-constexpr double kPilotShare = 0.1;  ///< of the progress that is shown
+constexpr double kPilotShare = 0.1;  ///< share of pilot samples in the reported progress
 
 Image image_of(const std::vector<std::uint32_t>& counts, vk::Extent2D extent) {
     Image image(int(extent.width), int(extent.height), 1);
@@ -107,7 +107,7 @@ std::vector<std::uint32_t> Renderer::Impl::samples_for(Frame& frame, const Frame
     PixelNoise noise;
     for (std::uint32_t i = 0; i < kPilotSamples; ++i) {
         const Progress of_sample = part_of(progress, double(i) / kPilotSamples, double(i + 1) / kPilotSamples);
-        // Numbers that no sample of the picture has.
+        // Use sample indices that the image does not use.
         noise.add(
             download_rgb(device, draw_sample(frame, chosen, settings, settings.most_samples + i, of_sample, part)));
     }
@@ -117,7 +117,7 @@ std::vector<std::uint32_t> Renderer::Impl::samples_for(Frame& frame, const Frame
 const GpuImage* Renderer::Impl::render_samples(Frame& frame, const FrameSettings& chosen,
                                                const RenderSettings& settings, RenderResult& part) {
     const bool draws = draws_picture(chosen);
-    // The frame through pixel centres gives the AOVs and counts; alone, it is the picture too.
+    // The frame through pixel centres gives the AOVs and counts. With one sample it also is the image.
     std::optional<FrameImages> images;
     const bool adaptive = settings.error > 0.0f;
     const bool alone = draws && settings.samples == 1 && !adaptive;
@@ -132,7 +132,7 @@ const GpuImage* Renderer::Impl::render_samples(Frame& frame, const FrameSettings
         part.frames.push_back(std::move(times));
         part.radiance = download_rgb(device, *sum);
         if (std::any_of(settings.aovs.begin(), settings.aovs.end(), is_light_part)) {
-            sum = &accumulate(recorder, frame, *sum, 0);  // frames of parts take the image
+            sum = &accumulate(recorder, frame, *sum, 0);  // frames of light parts overwrite the image
             recorder.submit_and_wait();
         }
         for (const auto& [name, image] : draw_parts(frame, chosen, settings, std::nullopt, nullptr))
@@ -158,7 +158,7 @@ const GpuImage* Renderer::Impl::render_samples(Frame& frame, const FrameSettings
             sampled.wanted_samples.emplace(WantedSamples{*wanted, sample});
         sampled.sample = sample;
         const GpuImage& radiance = draw_sample(sampled, chosen, settings, sample, progress, part);
-        // Submitted apart: a frame that overflowed was drawn twice, and counts once.
+        // Submit separately: a frame that overflowed was drawn twice, but counts once.
         sum = &accumulate(recorder, frame, radiance, sample, wanted);
         for (PassTime& time : recorder.submit_and_wait()) part.frames.back().push_back(std::move(time));
         sums = draw_parts(sampled, chosen, settings, sample, wanted);
@@ -172,7 +172,7 @@ const GpuImage* Renderer::Impl::render_samples(Frame& frame, const FrameSettings
 Renderer::Impl::Drawn Renderer::Impl::draw_tiles(Frame frame, const FrameSettings& chosen,
                                                  const RenderSettings& settings, RenderResult& result) {
     const glm::uvec2 size(settings.width, settings.height);
-    // Paths have 16 bytes per pixel in one buffer; other techniques list the pixels with glass.
+    // Paths need 16 bytes per pixel in one buffer; other techniques list the pixels with glass.
     std::uint64_t most = most_tile_pixels(device, chosen.info.whole_scene ? 16 : 4);
     if (settings.tile_pixels > 0) most = std::min<std::uint64_t>(most, settings.tile_pixels);
     const std::optional<Tile> glass =

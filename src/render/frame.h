@@ -8,27 +8,27 @@
 
 namespace pellucid {
 
-/// What the caller chose for a frame.
+/// The caller's choices for a frame.
 struct FrameSettings {
     const TechniqueInfo& info;
-    const Technique* technique;  ///< null for a truth
-    const Truth* truth;          ///< null for a technique
+    const Technique* technique;  ///< null for a reference technique
+    const Truth* truth;          ///< null for other techniques
     ParameterValues parameters;
-    const Technique* caustics = nullptr;  ///< finds where photons leave glass; null: paths do
+    const Technique* caustics = nullptr;  ///< finds the exits of photons from glass; null: photons follow paths
     LayerBuilder layer_builder;
     View view;
-    std::uint32_t photons = 0;  ///< of every source in every frame
+    std::uint32_t photons = 0;  ///< photons per source and frame
 };
 
-/// What a frame leaves behind on the device.
+/// Images of a frame on the device.
 struct FrameImages {
     Layers layers;
     Refraction refraction;
     const GpuImage& radiance;  ///< RGBA32F, scene-linear
 };
 
-/// Records one frame: the whole renderer in a few lines. To be recorded again if `source` or `transmitted` must_repeat().
-/// `traced`: for truths.
+/// Records one frame: the whole renderer in a few lines. Record again if must_repeat() of `source` or `transmitted` is
+/// true. `traced`: for reference techniques.
 FrameImages record_frame(Recorder& recorder, const Frame& frame, const FrameSettings& settings, LayerSource& source,
                          TransmittedLight& transmitted, const TracedView* traced);
 

@@ -89,7 +89,7 @@ void FrameQueue::run_all(FrameRun& run) {
     }
     if (ended) return;
     try {
-        submit_part(run, {}, first, true, *run.fence);  // whoever waits for the frame goes on
+        submit_part(run, {}, first, true, *run.fence);  // release all waiters for the frame
     } catch (...) {
         run.failure = std::current_exception();
     }

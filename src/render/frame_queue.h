@@ -13,18 +13,18 @@
 
 namespace pellucid {
 
-/// A frame on its way through the device.
+/// A frame in the queue.
 struct FrameRun {
     explicit FrameRun(const Device& device) : fence(device.handle().createFence({})) {}
     std::vector<Recorder::Part> parts;
     std::vector<vulkan::SemaphoreValue> wait, signal;
     vk::raii::Fence fence;
-    bool submitted = false;  ///< all of it; of the FrameQueue
+    bool submitted = false;  ///< all parts submitted; guarded by FrameQueue
     std::exception_ptr failure;
 };
 
-/// Submits frames one after the other, and does not wait. Where the host has a part in one, a thread sees to it, and to the
-/// frames behind.
+/// Submits frames in order, without waiting. If the host has a part in a frame, a thread runs that frame and all
+/// frames behind it.
 class FrameQueue {
 public:
     explicit FrameQueue(const Device& device) : device_(device) {}
@@ -33,9 +33,9 @@ public:
     FrameQueue(const FrameQueue&) = delete;
     FrameQueue& operator=(const FrameQueue&) = delete;
 
-    /// `run` lives until it has run.
+    /// Submits a frame. `run` must live until the frame has run.
     void submit(FrameRun& run);
-    /// FrameRun::failure is then what went wrong in it.
+    /// True once the frame has run. FrameRun::failure then contains its error, if any.
     bool has_run(FrameRun& run);
     void wait(FrameRun& run);
 
@@ -47,9 +47,9 @@ private:
     const Device& device_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<FrameRun*> waiting_;  ///< the first is being run
+    std::deque<FrameRun*> waiting_;  ///< the first is running
     bool stops_ = false;
-    std::thread thread_;  ///< started by the first frame that needs it
+    std::thread thread_;  ///< started by the first frame that needs the thread
 };
 
 }  // namespace pellucid

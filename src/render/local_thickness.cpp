@@ -13,7 +13,7 @@
 namespace pellucid {
 namespace {
 
-constexpr std::uint32_t kRays = 64;  // per vertex: the mean chord of a ball is then right to 0.1%
+constexpr std::uint32_t kRays = 64;  // rays per vertex; the mean chord of a ball is then accurate to 0.1%
 
 /// Twin of an element of LocalObjects in transmit_light.comp.
 struct LocalObject {
@@ -22,7 +22,7 @@ struct LocalObject {
 };
 static_assert(sizeof(LocalObject) == 8);
 
-/// Metres of the world per unit of the mesh; 0 where that depends on the direction.
+/// Metres in world space per unit of the mesh; 0 if the scale is not uniform.
 float uniform_scale(const glm::mat3& linear) {
     const glm::dmat3 m(linear), metric = glm::transpose(m) * m;
     const double square = (metric[0][0] + metric[1][1] + metric[2][2]) / 3.0;
@@ -68,7 +68,7 @@ LocalThickness bake_local_thickness(const Device& device, const Scene& scene, ba
     }
     std::vector<float> values;
     std::vector<LocalObject> objects(scene.objects.size(), LocalObject{});
-    std::map<int, std::size_t> in_own_frame;  // mesh -> its first value
+    std::map<int, std::size_t> in_own_frame;  // mesh index -> index of its first value
     const std::uint32_t parameters[] = {kRays};
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
@@ -91,7 +91,7 @@ LocalThickness bake_local_thickness(const Device& device, const Scene& scene, ba
             values.insert(values.end(), found->begin(), found->end());
             if (scale > 0.0f) in_own_frame[object.mesh] = first;
         }
-        // Shaders count vertices over all meshes; the difference may wrap around.
+        // Shaders index vertices over all meshes. The unsigned difference may wrap around.
         objects[i] = {std::uint32_t(first) - first_vertex[std::size_t(object.mesh)], scale > 0.0f ? scale : 1.0f};
     }
     return {uploaded(device, "local thickness", values), uploaded(device, "objects of local thickness", objects)};

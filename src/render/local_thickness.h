@@ -12,8 +12,8 @@
 
 namespace pellucid {
 
-/// Bakes the local thickness of every translucent object of the scene, or finds it in the cache. Objects that are
-/// stretched differently in different directions are baked as they stand. Throws Error if the device has no room.
+/// Bakes the local thickness of every translucent object of the scene, or reads it from the cache. Objects with
+/// non-uniform scale are baked in world space. Throws Error if the device runs out of memory.
 LocalThickness bake_local_thickness(const Device& device, const Scene& scene, bake::BakeCache& cache,
                                     std::uint32_t threads, const Progress& progress,
                                     std::vector<std::string>& warnings);

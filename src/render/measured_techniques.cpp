@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kSize = 256;
 constexpr int kRounds = 5;
 
-/// Of a frame that comes after one that warms up. By the clock, as some work is the host's.
+/// Time of one frame, ms, by the clock, because part of the work runs on the host.
 double time_frame(Renderer& renderer, std::string_view technique) {
     RenderSettings settings;
     settings.width = settings.height = kSize;
@@ -32,7 +32,7 @@ double time_frame(Renderer& renderer, std::string_view technique) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// The least time of each, as what else the machine does only adds.
+/// Least time of each technique over kRounds rounds after a warm-up: other load only adds time.
 nlohmann::json measure(const DeviceOptions& options, std::span<const std::string_view> techniques) {
     DeviceOptions plain = options;
     plain.validation = false;
@@ -50,14 +50,14 @@ nlohmann::json measure(const DeviceOptions& options, std::span<const std::string
     return least;
 }
 
-/// What is kept, of all devices; empty if there is nothing, or nothing that can be read.
+/// Stored times of all devices; empty if the file is missing or unreadable.
 nlohmann::json read_kept(const std::filesystem::path& file) {
     std::ifstream stream(file);
     nlohmann::json kept = nlohmann::json::parse(stream, nullptr, false);
     return kept.is_object() ? kept : nlohmann::json::object();
 }
 
-/// A folder that cannot be written is no error: then others measure again.
+/// Stores the times. An unwritable folder is not an error: later processes measure again.
 void write_kept(const std::filesystem::path& file, const nlohmann::json& kept) {
     try {
         std::filesystem::create_directories(file.parent_path());
@@ -79,7 +79,7 @@ bool has_all(const nlohmann::json& times, std::span<const std::string_view> tech
 std::vector<double> measured_times(const DeviceInfo& device, const DeviceOptions& options,
                                    std::span<const std::string_view> techniques) {
     static std::mutex mutex;
-    static nlohmann::json kept = nlohmann::json::object();  // where no folder can be written
+    static nlohmann::json kept = nlohmann::json::object();  // used if no folder is writable
     const std::lock_guard lock(mutex);
     const std::string key = fmt::format("{}, {}, pellucid {}", device.name, device.driver, version());
     const std::filesystem::path folder = bake::default_cache_folder();

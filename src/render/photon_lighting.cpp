@@ -18,7 +18,7 @@ bool mirrors(const Material& material) {
 
 bool bends_light(const Material& material) { return material.refractive() || mirrors(material); }
 
-/// Corners of the boxes of objects, eight each.
+/// Corners of the boxes of the selected objects, eight each.
 std::vector<glm::vec3> corners_of(const Scene& scene, bool (*wanted)(const Material&)) {
     std::vector<glm::vec3> corners;
     for (const Object& object : scene.objects) {
@@ -37,7 +37,7 @@ Box box_around(std::span<const glm::vec3> points) {
     return box;
 }
 
-/// Around all that bends light.
+/// Sphere around everything that bends light.
 PhotonSetup::Sphere sphere_around(const Scene& scene, const Box& box) {
     PhotonSetup::Sphere sphere{0.5f * (box.low + box.high), 0.0f};
     for (const Object& object : scene.objects) {
@@ -47,11 +47,11 @@ PhotonSetup::Sphere sphere_around(const Scene& scene, const Box& box) {
             sphere.radius = std::max(sphere.radius, glm::distance(at, sphere.center));
         }
     }
-    sphere.radius *= 1.0001f;  // surfaces that touch it are hit, too
+    sphere.radius *= 1.0001f;  // include surfaces that touch the sphere
     return sphere;
 }
 
-/// Whether some emissive object's box meets a refracting object's.
+/// True if the box of an emissive object overlaps that of a refracting object.
 bool emits_in_solids(const Scene& scene) {
     const auto refractive = corners_of(scene, [](const Material& material) { return material.refractive(); });
     const auto emissive = corners_of(scene, emits_light);
@@ -66,7 +66,7 @@ bool emits_in_solids(const Scene& scene) {
     return false;
 }
 
-/// Boxes that are wider by `margin`, m, on all sides.
+/// Boxes enlarged by `margin`, m, on all sides.
 std::vector<glm::vec3> widened(std::vector<glm::vec3> corners, float margin) {
     for (std::size_t first = 0; first < corners.size(); first += 8) {
         const glm::vec3 middle = 0.5f * (corners[first] + corners[first + 7]);
@@ -76,7 +76,7 @@ std::vector<glm::vec3> widened(std::vector<glm::vec3> corners, float margin) {
     return corners;
 }
 
-/// How far a light's rays reach past the targets that its middle sees, m.
+/// Distance, m, by which a light's rays extend beyond the targets seen from its centre.
 float margin_of(const Light& light, const glm::vec3& low, const glm::vec3& high) {
     if (light.kind != Light::Kind::kDirectional) return light.radius;
     return 0.5f * glm::distance(low, high) * std::tan(0.5f * light.angular_diameter);
@@ -87,7 +87,7 @@ std::vector<LightView> views_of(const Light& light, std::uint32_t number, const 
     const Box box = box_around(targets);
     auto views = light_views(light, number, widened(targets, margin_of(light, box.low, box.high)), bounds, side);
     for (LightView& view : views) {
-        // Faces of a cube meet at their edges.
+        // Adjacent faces of a cube must share their edges.
         if (view.face != LightView::kWhole)
             view.constants.film = glm::vec4(-1.0f, 1.0f, 2.0f / float(side), 2.0f / float(side));
         view.target_depth = -(view.constants.view_from_world * glm::vec4(0.5f * (box.low + box.high), 1.0f)).z;
@@ -119,7 +119,7 @@ PhotonSetup photon_setup(const Scene& scene, const Bounds& bounds, const PhotonS
     setup.emitters_in_solids = sources.emitters && emits_in_solids(scene);
     setup.environment = sources.environment;
     setup.targets = sphere_around(scene, box_around(targets));
-    // One side for all windows: a light that needs several views shares its photons out among them.
+    // All windows have equal sides. A light with several views distributes its photons among them.
     const auto all_views = [&](std::uint32_t side) {
         std::vector<LightView> views;
         for (std::uint32_t light = 0; light < setup.lights.size(); ++light) {

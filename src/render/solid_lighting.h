@@ -15,20 +15,20 @@
 
 namespace pellucid {
 
-/// Throws Error for settings that the device has no room for.
+/// Throws Error for settings beyond the device's limits.
 void check_thickness(const ThicknessSettings& settings, const Device& device);
 
-/// How thickness is found in the scene that is drawn: the light's views, and what is baked.
+/// Thickness in the current scene: the lights' views, and baked values.
 class SolidLighting {
 public:
     explicit SolidLighting(const Device& device) : device_(device), transmitted_(device) {}
 
-    /// For a picture lit by `lights` of the scene, by number. Warns of what is not closed, and where the device has no
-    /// means for the builder that the method names.
+    /// Prepares an image lit by `lights`, indices into the scene's lights. Warns of open surfaces, and if the device
+    /// does not support the method's builder.
     void begin(const ThicknessSettings& settings, std::span<const std::uint32_t> lights, const Scene& scene,
                const GpuScene& gpu_scene, bake::BakeCache& cache, std::uint32_t threads, const Progress& progress,
                std::vector<std::string>& warnings);
-    /// Another scene is about to be set.
+    /// Call before another scene is set.
     void forget();
     TransmittedLight& transmitted() { return transmitted_; }
 
@@ -38,7 +38,7 @@ private:
     const Device& device_;
     TransmittedLight transmitted_;
     std::optional<LocalThickness> local_;
-    std::uint64_t local_moves_ = 0;  ///< GpuScene::moves when it was baked
+    std::uint64_t local_moves_ = 0;  ///< GpuScene::moves at the time of baking
 };
 
 }  // namespace pellucid

@@ -9,9 +9,9 @@
 namespace pellucid {
 namespace {
 
-constexpr std::uint32_t kLongestTile = 1u << 15;    ///< lists of pixels have 16 bits for a coordinate
+constexpr std::uint32_t kLongestTile = 1u << 15;    ///< lists of pixels have 16 bits per coordinate
 constexpr std::uint64_t kSmallTile = 1u << 16;      ///< pixels
-constexpr std::uint64_t kFrameBytesPerPixel = 400;  ///< of all images and buffers together, about
+constexpr std::uint64_t kFrameBytesPerPixel = 400;  ///< approximate total of all images and buffers
 
 template <class T>
 void copy_rows(const T* from, std::size_t from_pitch, T* to, std::size_t to_pitch, std::size_t count,
@@ -42,7 +42,7 @@ void append_halves(const Tile& tile, std::vector<Tile>& tiles) {
     tiles.push_back(near);
 }
 
-/// `part`, and the rest of the picture above, below, left and right of it.
+/// Splits `whole` into `part` and the rest above, below, left and right of it.
 std::vector<Tile> around(const Tile& whole, const Tile& part) {
     const glm::uvec2 first = part.first, end = part.first + part.size, size = whole.size;
     return {{{0, end.y}, {size.x, size.y - end.y}},
@@ -64,7 +64,7 @@ std::uint64_t most_tile_pixels(const Device& device, std::uint32_t bytes_per_pix
 
 std::optional<Tile> tile_of_glass(const gpu::FrameConstants& view, std::span<const glm::vec3> corners) {
     if (corners.empty()) return Tile{};
-    constexpr float kMargin = 2.0f;  // pixels; samples are moved by half of one
+    constexpr float kMargin = 2.0f;  // pixels; samples are offset by half a pixel
     glm::vec2 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& corner : corners) {
         const glm::vec3 p = view.view_from_world * glm::vec4(corner, 1.0f);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures that one frame cannot hold are drawn tile by tile.
+// Images too large for one frame are drawn tile by tile.
 #include "gpu/device.h"
 #include "gpu/structs.h"
 
@@ -14,7 +14,7 @@
 
 namespace pellucid {
 
-/// A part of a picture, pixels.
+/// A rectangle of an image, pixels.
 struct Tile {
     glm::uvec2 first{0}, size{0};
     std::uint64_t pixels() const { return std::uint64_t(size.x) * size.y; }
@@ -25,41 +25,42 @@ struct Tile {
     }
 };
 
-/// Of this machine, bytes.
+/// Memory of this machine, bytes.
 std::uint64_t host_memory();
 
-/// How many pixels a frame of a device holds, as far as its limits tell. `bytes_per_pixel` is of the technique's largest
-/// storage buffer. A software driver's frames take half of this machine's memory at most.
+/// Most pixels of a frame by the device's limits. `bytes_per_pixel`: of the technique's largest storage buffer. Frames
+/// of a software driver use at most half of this machine's memory.
 std::uint64_t most_tile_pixels(const Device& device, std::uint32_t bytes_per_pixel);
 
-/// The part of a picture in which glass is seen, with a margin. `view` is of the whole picture; the hull of `corners`
-/// (world) holds all glass. Empty if there is none, nothing if the eye is among the corners.
+/// The part of an image that contains glass, with a margin. `view`: constants of the whole image. `corners` (world):
+/// their hull contains all glass. A tile without pixels if there is no glass; std::nullopt if the eye is among the
+/// corners.
 std::optional<Tile> tile_of_glass(const gpu::FrameConstants& view, std::span<const glm::vec3> corners);
 
-/// A picture of `size` cut in halves, across the longer side, until no tile has more than `most_pixels` or is longer
-/// than the device's images. A part that is to stay whole becomes a tile of its own if it is small enough. The first
-/// tile is the last, so that they can be taken from the end.
+/// Splits an image of `size` in halves, across the longer side, until each tile has at most `most_pixels` and fits the
+/// device's images. `kept_whole` becomes a tile of its own if it is small enough. Tiles are in reverse order, to be
+/// taken from the end.
 std::vector<Tile> tiles_of(glm::uvec2 size, const std::optional<Tile>& kept_whole, std::uint64_t most_pixels,
                            const Device& device);
 
-/// Cuts every tile in half. False, and nothing is cut, if they are so small already that their size cannot be the reason
+/// Splits every tile in half. Returns false, and splits nothing, if all tiles are so small that their size cannot be
 /// why one did not fit.
 bool halve(std::vector<Tile>& tiles);
 
-/// Copies the pixels of a tile to or from a picture.
+/// Copies the pixels of a tile to or from an image.
 void paste(Image& picture, const Image& part, const Tile& tile);
 Image part_of(const Image& picture, const Tile& tile);
 
-/// Adds the picture and the counts of a tile to the result of a picture of `size`; warnings are left out.
+/// Adds the images and counts of a tile to the result of an image of `size`. Warnings are not copied.
 void add_tile(RenderResult& result, RenderResult&& part, const Tile& tile, glm::uvec2 size);
 
-/// Progress of a part of the work, which takes the whole from one share to another.
+/// Progress of a part of the work, from share `from` to share `to` of the whole.
 inline Progress part_of(const Progress& whole, double from, double to) {
     if (!whole) return {};
     return [&whole, from, to](double done) { whole(from + done * (to - from)); };
 }
 
-/// Progress over all tiles, which never falls though a tile may begin anew.
+/// Progress over all tiles. It never decreases, though a tile may start again.
 class TileProgress {
 public:
     TileProgress(Progress whole, glm::uvec2 size)
