@@ -7,7 +7,7 @@
 
 namespace pellucid {
 
-/// Throws Error "FILE: CAUSE", in one line.
+/// Throws Error "FILE: CAUSE" in one line.
 [[noreturn]] void fail(const std::filesystem::path& file, std::string_view cause);
 
 }  // namespace pellucid

@@ -19,7 +19,7 @@ namespace pellucid {
 namespace {
 
 std::filesystem::path temporary_beside(const std::filesystem::path& file) {
-    // The process id keeps two programs apart, the counter two threads of one program.
+    // The process id separates programs, the counter separates threads of one program.
     static std::atomic<unsigned> counter{0};
     std::filesystem::path name = ".";
     name += file.stem();
@@ -28,7 +28,7 @@ std::filesystem::path temporary_beside(const std::filesystem::path& file) {
     return file.parent_path() / name;
 }
 
-/// What a symbolic link leads to; a link that leads nowhere stands for itself.
+/// Target of a symbolic link; a dangling link is its own target.
 std::filesystem::path link_target(const std::filesystem::path& link) {
     std::error_code error;
     const std::filesystem::path target = std::filesystem::weakly_canonical(link, error);
@@ -62,7 +62,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& file) {
     return bytes;
 }
 
-// What the library that writes would only report as "could not open", said precisely.
+// Reports exact causes, where libraries that write would only report "could not open".
 void check_writable(const std::filesystem::path& file) {
     if (!file.has_filename()) fail(file, "names no file");
     std::error_code error;

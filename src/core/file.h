@@ -9,11 +9,11 @@
 
 namespace pellucid {
 
-/// Size of a file in bytes. Throws Error naming it if it is missing, a folder, or unreadable: what a library that reads
-/// it would only report as "could not open", said precisely.
+/// Size of a file in bytes. Throws Error naming the file and the cause if it is missing, a folder, or unreadable.
+/// Libraries that read it would only report "could not open".
 std::uintmax_t check_readable(const std::filesystem::path& file);
 
-/// Whole content of a file. Throws Error naming it if it is missing, a folder, or unreadable.
+/// Content of a file. Throws Error naming the file if it is missing, a folder, or unreadable.
 std::vector<std::byte> read_file(const std::filesystem::path& file);
 
 }  // namespace pellucid

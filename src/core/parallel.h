@@ -8,7 +8,7 @@
 
 namespace pellucid {
 
-/// Calls `item(i)` for i in 0..count-1, from as many threads as there are cores. `item` must not throw.
+/// Calls `item(i)` for i in 0..count-1, on as many threads as there are cores. `item` must not throw.
 template <class Item>
 void for_each_parallel(std::size_t count, const Item& item) {
     std::atomic<std::size_t> next{0};

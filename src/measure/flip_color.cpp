@@ -11,8 +11,8 @@ namespace {
 /// CIE XYZ of a chromaticity, for Y = 1.
 glm::dvec3 xyz_from_xy(double x, double y) { return {x / y, 1.0, (1.0 - x - y) / y}; }
 
-/// CIE XYZ from linear Rec.709 (ITU-R BT.709: primaries, and the white point D65), relative to the XYZ of its white:
-/// white is (1, 1, 1) on both sides.
+/// CIE XYZ from linear Rec.709 (ITU-R BT.709: primaries, and the white point D65), relative to the XYZ of its white.
+/// White is (1, 1, 1) in both spaces.
 glm::mat3 relative_xyz_from_linear() {
     const glm::dmat3 primaries(xyz_from_xy(0.64, 0.33), xyz_from_xy(0.30, 0.60), xyz_from_xy(0.15, 0.06));
     const glm::dvec3 white = xyz_from_xy(0.3127, 0.3290);
@@ -25,7 +25,7 @@ glm::mat3 relative_xyz_from_linear() {
 const glm::mat3 kXyzFromLinear = relative_xyz_from_linear();
 const glm::mat3 kLinearFromXyz = glm::inverse(relative_xyz_from_linear());
 
-/// CIE 15, L*a*b*: cube root, and below (6/29)^3 the tangent there.
+/// Curve of CIE 15, L*a*b*: cube root, and below (6/29)^3 its tangent.
 float lab_curve(float t) {
     constexpr float kDelta = 6.0f / 29.0f;
     return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3.0f * kDelta * kDelta) + 4.0f / 29.0f;
@@ -33,7 +33,7 @@ float lab_curve(float t) {
 
 }  // namespace
 
-// As L*a*b* with the cube root left out.
+// L*a*b* without the cube root.
 glm::vec3 opponent_from_linear(glm::vec3 linear) {
     const glm::vec3 xyz = kXyzFromLinear * linear;
     return {116.0f * xyz.y - 16.0f, 500.0f * (xyz.x - xyz.y), 200.0f * (xyz.y - xyz.z)};

@@ -10,8 +10,8 @@
 namespace pellucid {
 namespace {
 
-/// Term a sqrt(pi / b) exp(-pi^2 x^2 / b) of a filter, x in degrees (table 1 of the paper: fits of the contrast
-/// sensitivity functions of Johnson and Fairchild 2003, taken back from frequencies to the plane).
+/// Term a sqrt(pi / b) exp(-pi^2 x^2 / b) of a filter, x in degrees. Table 1 of the paper: fits of the contrast
+/// sensitivity functions of Johnson and Fairchild 2003, transformed from frequencies to the image plane.
 struct SensitivityTerm {
     double a, b;
 };
@@ -19,12 +19,12 @@ constexpr SensitivityTerm kLightness{1.0, 0.0047};
 constexpr SensitivityTerm kRedGreen{1.0, 0.0053};
 constexpr std::array<SensitivityTerm, 2> kBlueYellow{{{34.1, 0.04}, {13.5, 0.025}}};
 
-/// Width of the features that the eye finds first, degrees (section 4.2.1).
+/// Width of the features that the eye detects first, degrees (section 4.2.1).
 constexpr double kFeatureWidth = 0.082;
 
 constexpr double kPiSquared = std::numbers::pi * std::numbers::pi;
 
-/// Values of f at the whole numbers from -radius to radius.
+/// Values of f at the integers from -radius to radius.
 template <class Function>
 std::vector<double> sampled(int radius, Function&& f) {
     std::vector<double> values;
@@ -42,7 +42,7 @@ double sum(const std::vector<double>& values) { return std::accumulate(values.be
 
 FilterKernel normalized(const std::vector<double>& values) { return kernel(values, 1.0 / sum(values)); }
 
-/// Negative values divided by what they sum to, positive ones likewise.
+/// Kernel with negative values scaled to the sum -1, and positive values to the sum 1.
 FilterKernel balanced(std::vector<double> values) {
     double negative = 0.0, positive = 0.0;
     for (const double value : values) (value < 0.0 ? negative : positive) += std::abs(value);
@@ -51,7 +51,7 @@ FilterKernel balanced(std::vector<double> values) {
 }
 
 void add_sensitivity(FlipFilters& filters, double pixels_per_degree) {
-    // Three standard deviations of the widest, for all.
+    // Use three standard deviations of the widest term for all.
     const double sigma = std::sqrt(kBlueYellow[0].b / (2.0 * kPiSquared)) * pixels_per_degree;
     const int radius = int(std::ceil(3.0 * sigma));
     const auto gaussian = [&](const SensitivityTerm& term) {

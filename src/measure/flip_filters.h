@@ -11,9 +11,9 @@ struct FilterKernel {
     int radius() const { return int(weights.size() / 2); }
 };
 
-/// The filters of FLIP for one viewing distance. Every one is a sum of separable ones: first along rows, then along
-/// columns. A colour filter's weights sum to 1 over the plane, a derivative's negative ones to -1, its positive ones
-/// to 1.
+/// The filters of FLIP for one viewing distance. Each is a sum of separable filters: first along rows, then along
+/// columns. A colour filter's weights sum to 1 over the plane. A derivative's negative weights sum to -1, its positive
+/// weights to 1.
 struct FlipFilters {
     /// Contrast sensitivity of the eye; blue-yellow is a sum of two Gaussians.
     FilterKernel lightness, red_green;
@@ -21,11 +21,11 @@ struct FlipFilters {
     /// Gaussian and its first two derivatives, which find edges and points.
     FilterKernel smooth, edge, point;
 
-    int radius() const;  ///< the largest, px
+    int radius() const;  ///< largest radius, px
 };
 FlipFilters flip_filters(double pixels_per_degree);
 
-/// Rows of pixels in blocks of this many, so that the sums of a block stay in registers.
+/// Block size of rows of pixels, so that the sums of a block stay in registers.
 inline constexpr std::size_t kFilterBlock = 16;
 constexpr std::size_t filter_pitch(std::size_t width) {
     return (width + kFilterBlock - 1) / kFilterBlock * kFilterBlock;

@@ -15,30 +15,30 @@
 namespace pellucid {
 namespace {
 
-/// Tone curve (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5): Narkowicz's fit of ACES (2015) with the factor 0.6 that its
-/// author gives for the original's brightness.
+/// Tone curve (k0 x^2 + k1 x + k2) / (k3 x^2 + k4 x + k5): Narkowicz's fit of ACES (2015) with its author's factor 0.6
+/// for the original's brightness.
 struct ToneCurve {
     double k0 = 0.6 * 0.6 * 2.51, k1 = 0.6 * 0.03, k2 = 0.0;
     double k3 = 0.6 * 0.6 * 2.43, k4 = 0.6 * 0.59, k5 = 0.14;
 };
 constexpr ToneCurve kAces;
 
-/// The displayed value that the brightest and the median pixel are brought to (section 4.2: beyond it detail is lost).
+/// Displayed value to which the brightest and the median pixel are exposed (section 4.2: beyond it detail is lost).
 constexpr double kUsefulMaximum = 0.85;
 
-/// Radiance beyond this is shown as 1 in any case; its square is still finite.
+/// Larger radiances always display as 1. The square of this bound is finite.
 constexpr float kBrightest = 1e9f;
 
-/// 0..1.
+/// Displayed value of a radiance, 0..1.
 float tone_mapped(float radiance) {
-    if (!(radiance > 0.0f)) return 0.0f;  // NaN too
+    if (!(radiance > 0.0f)) return 0.0f;  // includes NaN
     const float x = std::min(radiance, kBrightest);
     const float above = (float(kAces.k0) * x + float(kAces.k1)) * x + float(kAces.k2);
     const float below = (float(kAces.k3) * x + float(kAces.k4)) * x + float(kAces.k5);
     return std::min(above / below, 1.0f);
 }
 
-/// The radiance that the curve maps to `shown`: the larger root of the quadratic equation.
+/// The radiance displayed as `shown`: the larger root of the quadratic equation.
 double radiance_of_shown(double shown) {
     const double a = kAces.k0 - shown * kAces.k3;
     const double b = kAces.k1 - shown * kAces.k4;
@@ -47,7 +47,7 @@ double radiance_of_shown(double shown) {
     return middle + std::sqrt(middle * middle - c / a);
 }
 
-/// Luminance of every pixel (ITU-R BT.709), 0 where it is negative or no number; without infinite ones.
+/// Luminance of every pixel (ITU-R BT.709). Negative values and NaN become 0; infinite values are removed.
 std::vector<float> luminances(const Image& image) {
     std::vector<float> values;
     values.reserve(image.pixels.size() / 3);
@@ -74,7 +74,7 @@ FlipExposures flip_exposures(const Image& reference) {
     const float brightest = values.empty() ? 0.0f : *std::max_element(values.begin(), values.end());
     if (brightest == 0.0f) return {};
     float typical = median(values);
-    if (typical == 0.0f) {  // no exposure brightens black: the median of the others
+    if (typical == 0.0f) {  // no exposure brightens black: use the median of the other pixels
         std::erase(values, 0.0f);
         typical = median(values);
     }

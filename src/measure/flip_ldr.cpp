@@ -7,7 +7,7 @@
 namespace pellucid {
 namespace {
 
-/// IEC 61966-2-1; clips to 0..1, NaN is 0.
+/// Inverse sRGB curve (IEC 61966-2-1). Clips to 0..1; NaN is 0.
 float linear_from_srgb(float encoded) {
     if (!(encoded > 0.0f)) return 0.0f;
     if (encoded >= 1.0f) return 1.0f;

@@ -19,8 +19,8 @@
 namespace pellucid {
 namespace {
 
-// Section 4.1.3: the colour difference is compressed, and its lower part up to kColorKnee of the largest takes
-// kColorKneeValue of the range.
+// Section 4.1.3: the colour difference is compressed. Its lower part, up to kColorKnee of the largest difference,
+// takes kColorKneeValue of the range.
 constexpr float kColorExponent = 0.7f;
 constexpr float kColorKnee = 0.4f;
 constexpr float kColorKneeValue = 0.95f;
@@ -44,13 +44,13 @@ struct Band {
     int first, count;
 };
 
-/// A band filtered along its rows, with the rows above and below that filtering along columns needs.
+/// A band filtered along its rows, including the rows above and below that column filters need.
 struct RowFiltered {
     Band band;
     Rows lightness, red_green, blue_yellow_a, blue_yellow_b, smooth, edge, point;
 };
 
-/// A row of the image in the opponent space, one plane after the other, its ends repeated over `margin` pixels.
+/// Loads a row of the image in the opponent space as three planes, with its ends repeated over `margin` pixels.
 void load_row(const Image& image, int y, const ShownColor& shown, std::size_t margin,
               std::array<std::vector<float>, 3>& planes) {
     const std::size_t width = std::size_t(image.width);
@@ -88,13 +88,13 @@ RowFiltered filter_rows(const Image& image, Band band, const ShownColor& shown, 
     return out;
 }
 
-/// What the eye gets of one row.
+/// Filtered values of one row.
 struct PerceivedRow {
     std::array<std::vector<float>, 3> color;  ///< opponent space
     std::array<std::vector<float>, 4> slope;  ///< edge along x, y; point along x, y
 };
 
-/// Filters along columns: row y of the image.
+/// Filters row y of the image along columns.
 void filter_columns(const RowFiltered& in, int y, const FlipFilters& filters, int height, PerceivedRow& out) {
     const std::size_t pitch = in.lightness.pitch();
     std::vector<const float*> column;
@@ -116,13 +116,13 @@ void filter_columns(const RowFiltered& in, int y, const FlipFilters& filters, in
     add(filters.point, in.smooth, out.slope[3]);
 }
 
-/// The largest colour difference in Rec.709: between green and blue.
+/// The largest colour difference in Rec.709, which is between green and blue.
 float largest_color_difference() {
     const auto perceived = [](glm::vec3 linear) { return perceived_from_opponent(opponent_from_linear(linear)); };
     return std::pow(perceived_distance(perceived({0, 1, 0}), perceived({0, 0, 1})), kColorExponent);
 }
 
-/// Section 4.1.3, 0..1.
+/// Colour difference of section 4.1.3, 0..1.
 float color_difference(const PerceivedRow& a, const PerceivedRow& b, std::size_t x) {
     static const float largest = largest_color_difference();
     const auto perceived = [x](const PerceivedRow& row) {
@@ -134,7 +134,8 @@ float color_difference(const PerceivedRow& a, const PerceivedRow& b, std::size_t
     return std::min(kColorKneeValue + (difference - knee) / (largest - knee) * (1.0f - kColorKneeValue), 1.0f);
 }
 
-/// Section 4.2, 0..1. Features are found in (lightness + 16) / 116, which is 0..1: derivatives scale alike.
+/// Feature difference of section 4.2, 0..1. Features are detected in (lightness + 16) / 116, which is 0..1;
+/// derivatives scale equally.
 float feature_difference(const PerceivedRow& a, const PerceivedRow& b, std::size_t x) {
     const auto strength = [x](const PerceivedRow& row, std::size_t first) {
         const float along_x = row.slope[first][x], along_y = row.slope[first + 1][x];
@@ -157,7 +158,7 @@ void raise_band(Image& map, const Image& reference, const Image& test, const Sho
         filter_columns(b, y, filters, map.height, perceived_b);
         float* row = map.at(0, y);
         for (std::size_t x = 0; x < std::size_t(map.width); ++x) {
-            // Section 4.3: differing features make a difference of colour more visible.
+            // Section 4.3: different features make a colour difference more visible.
             const float flip = std::pow(color_difference(perceived_a, perceived_b, x),
                                         1.0f - feature_difference(perceived_a, perceived_b, x));
             row[x] = std::max(row[x], flip);
@@ -182,7 +183,7 @@ void check_flip_input(const Image& reference, const Image& test, double pixels_p
 void raise_to_flip(Image& map, const Image& reference, const Image& test, const ShownColor& shown,
                    double pixels_per_degree) {
     const FlipFilters filters = flip_filters(pixels_per_degree);
-    // Bands overlap by the filters' radius: the taller, the less is done twice.
+    // Bands overlap by the filters' radius, so taller bands duplicate less work.
     const int rows = std::max(64, 4 * filters.radius());
     tbb::parallel_for(0, (map.height + rows - 1) / rows, [&](int i) {
         const int first = i * rows;

@@ -8,14 +8,15 @@
 
 namespace pellucid {
 
-/// Turns a pixel, RGB as in the image, into linear Rec.709 as a display shows it, 0..1.
+/// Converts a pixel, RGB as in the image, into linear Rec.709 as a display shows it, 0..1.
 using ShownColor = std::function<glm::vec3(glm::vec3)>;
 
-/// Throws Error unless both are RGB, have pixels, and are of one size, and pixels_per_degree is a finite number from 1.
+/// Throws Error unless both images are RGB, not empty and of equal size, and pixels_per_degree is finite and at least
+/// 1.
 void check_flip_input(const Image& reference, const Image& test, double pixels_per_degree);
 
-/// LDR-FLIP of the two pictures as they are shown; `map`, of one channel and their size, becomes the greater of what it
-/// was and that. Symmetric in the two. Needs memory for the map and a few rows.
+/// Raises `map` to the LDR-FLIP of the two displayed images: each pixel becomes the maximum of both. `map` has one
+/// channel and the images' size. Symmetric in the images. Needs memory for the map and a few rows.
 void raise_to_flip(Image& map, const Image& reference, const Image& test, const ShownColor& shown,
                    double pixels_per_degree);
 

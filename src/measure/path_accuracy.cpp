@@ -28,7 +28,7 @@ bool same_end(const RefractedPath& exact, const RefractedPath& candidate, const 
     return candidate.object == exact.object && glm::distance(candidate.position, exact.position) <= tolerance;
 }
 
-/// Collects how many of a group of pixels are right.
+/// Counts the right pixels of a group.
 struct Count {
     std::uint64_t all = 0, right = 0;
 
@@ -51,7 +51,7 @@ void check_sizes(std::size_t pixels, std::span<const RefractedPath> exact, std::
 
 float path_error_deg(const RefractedPath& exact, const RefractedPath& candidate, const PixelFootprint& footprint) {
     if (!covered(exact)) return kNotCovered;
-    // Where the exact path itself is cut after K events, one that is cut at the same place agrees with it.
+    // If the exact path is cut after K events, a candidate cut at the same event agrees with it.
     const bool both_cut = exact.status == Status::kEventLimit && candidate.status == Status::kEventLimit &&
                           candidate.events == exact.events;
     if (!covered(candidate) || (candidate.status != Status::kOk && !both_cut)) return kWrong;

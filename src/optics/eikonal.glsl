@@ -1,23 +1,23 @@
 #ifndef PELLUCID_OPTICS_EIKONAL_GLSL
 #define PELLUCID_OPTICS_EIKONAL_GLSL
 
-// Light rays where the index of refraction varies (Ihrke et al. 2007, sections 4.1 and 4.2). Twin of eikonal.h, which
-// says what the equations are.
+// Light rays in a varying index of refraction (Ihrke et al. 2007, sections 4.1 and 4.2). Twin of eikonal.h, which
+// gives the equations.
 //
-// Needs: vec4 index_field(vec3 x): the gradient of the index, and the index.
+// Needs: vec4 index_field(vec3 x), which returns the gradient of the index (xyz) and the index (w).
 
 struct CurvedRay {
     vec3 x;
     vec3 v;  // n times the unit direction
 };
 
-// Steps of equal length in space.
+// Derivative with respect to length.
 CurvedRay space_slope(CurvedRay ray) {
     vec4 field = index_field(ray.x);
     return CurvedRay(ray.v / field.w, field.xyz);
 }
 
-// Steps of equal optical time: length times n.
+// Derivative with respect to optical time, which is length times n.
 CurvedRay time_slope(CurvedRay ray) {
     vec4 field = index_field(ray.x);
     return CurvedRay(ray.v / (field.w * field.w), field.xyz / field.w);
@@ -27,8 +27,8 @@ CurvedRay advanced(CurvedRay ray, float h, CurvedRay slope) {
     return CurvedRay(ray.x + h * slope.x, ray.v + h * slope.v);
 }
 
-// First order. Names follow `slope`: euler_space_step, rk4_space_step, euler_time_step, rk4_time_step.
-// RK4: the classical method of Runge and Kutta; fourth order where n has five derivatives.
+// Euler's method is of first order. RK4, the classical method of Runge and Kutta, is of fourth order where n has five
+// derivatives. The functions are euler_space_step, rk4_space_step, euler_time_step and rk4_time_step.
 #define PELLUCID_RAY_STEPS(euler, rk4, slope)                             \
     CurvedRay euler(CurvedRay ray, float h) { return advanced(ray, h, slope(ray)); } \
     CurvedRay rk4(CurvedRay ray, float h) {                               \
@@ -47,7 +47,7 @@ vec3 ray_force(vec3 x) {
     return field.w * field.xyz;
 }
 
-// Second order, one look at the field.
+// Second order, with one field evaluation.
 CurvedRay leapfrog_step(CurvedRay ray, float distance_along) {
     float h = distance_along / length(ray.v);
     vec3 middle = ray.x + 0.5 * h * ray.v;
@@ -55,7 +55,7 @@ CurvedRay leapfrog_step(CurvedRay ray, float distance_along) {
     return CurvedRay(middle + 0.5 * h * v, v);
 }
 
-// Fourth order, three looks.
+// Fourth order, with three field evaluations.
 CurvedRay nystrom_step(CurvedRay ray, float distance_along) {
     float h = distance_along / length(ray.v);
     vec3 a = ray_force(ray.x);

@@ -1,12 +1,12 @@
 #pragma once
 
-// Light rays where the index of refraction n(x) varies: the ray equation d/ds (n dx/ds) = grad n, integrated step by
-// step. Ihrke, Ziegler, Tevs, Theobalt, Magnor, Seidel: Eikonal Rendering: Efficient Light Transport in Refractive
+// Light rays in a varying index of refraction n(x): step-by-step integration of the ray equation d/ds (n dx/ds) = grad
+// n. Ihrke, Ziegler, Tevs, Theobalt, Magnor, Seidel: Eikonal Rendering: Efficient Light Transport in Refractive
 // Objects, ACM Transactions on Graphics 26(3), 2007, sections 4.1 and 4.2 and the appendix. Twin of eikonal.glsl.
 //
-// The state is a position x and v = n dx/ds, the gradient of the optical path, so that |v| = n. With steps of equal
-// length in space dx/ds = v / n and dv/ds = grad n; with steps of equal optical time (length times n)
-// dx/dt = v / n^2 and dv/dt = grad n / n. Total internal reflection needs no case of its own.
+// The state is a position x and v = n dx/ds, the gradient of the optical path, so |v| = n. With steps of equal length,
+// dx/ds = v / n and dv/ds = grad n. With steps of equal optical time (length times n), dx/dt = v / n^2 and dv/dt =
+// grad n / n. Total internal reflection needs no special case.
 //
 // A field is a function object: `IndexSample<Real> operator()(Vec3<Real> x) const`.
 
@@ -14,7 +14,7 @@
 
 namespace pellucid {
 
-/// The index at a place and its gradient, in 1 / the unit of positions.
+/// The index at a position, and its gradient per unit of position.
 template <class Real>
 struct IndexSample {
     Vec3<Real> gradient;
@@ -27,16 +27,16 @@ struct CurvedRay {
     Vec3<Real> v;  ///< n times the unit direction
 };
 
-/// The ray that starts at x in a unit direction.
+/// The ray from x in a unit direction.
 template <class Real, class Field>
 CurvedRay<Real> start_ray(const Field& field, Vec3<Real> x, Vec3<Real> direction) {
     return {x, field(x).n * direction};
 }
 
-/// How a step is counted.
+/// Unit of a step: length, or optical time.
 enum class RayStep { kSpace, kTime };
 
-/// dx and dv by one unit of space (length) or optical time.
+/// Derivatives of x and v by length or optical time.
 template <RayStep kStep, class Real, class Field>
 CurvedRay<Real> ray_slope(const Field& field, const CurvedRay<Real>& ray) {
     const IndexSample<Real> at = field(ray.x);
@@ -49,7 +49,7 @@ CurvedRay<Real> advanced(const CurvedRay<Real>& ray, std::type_identity_t<Real> 
     return {ray.x + step * slope.x, ray.v + step * slope.v};
 }
 
-/// First order: the error at the end of a ray of given length falls with the step.
+/// First order: the error at the end of a ray of given length is proportional to the step.
 template <RayStep kStep = RayStep::kSpace, class Real, class Field>
 CurvedRay<Real> euler_step(const Field& field, const CurvedRay<Real>& ray, std::type_identity_t<Real> step) {
     return advanced(ray, step, ray_slope<kStep>(field, ray));
@@ -66,16 +66,16 @@ CurvedRay<Real> rk4_step(const Field& field, const CurvedRay<Real>& ray, std::ty
     return {ray.x + sixth * (a.x + d.x) + third * (b.x + c.x), ray.v + sixth * (a.v + d.v) + third * (b.v + c.v)};
 }
 
-/// dv by one unit of sigma, where ds = n dsigma: with it dx/dsigma = v and dv/dsigma = grad(n^2) / 2. That is a particle
-/// in a force field, on which v has no influence (Sharma, Kumar & Ghatak, "Tracing rays through graded-index media: a
-/// new method", Applied Optics 21(6), 1982).
+/// dv / dsigma, where ds = n dsigma: then dx/dsigma = v and dv/dsigma = grad(n^2) / 2. This describes a particle in a
+/// force field that does not depend on v (Sharma, Kumar & Ghatak, "Tracing rays through graded-index media: a new
+/// method", Applied Optics 21(6), 1982).
 template <class Real, class Field>
 Vec3<Real> ray_force(const Field& field, const Vec3<Real>& x) {
     const IndexSample<Real> at = field(x);
     return at.n * at.gradient;
 }
 
-/// Drift, kick, drift: of second order, with one look at the field. `length` in space.
+/// Drift, kick, drift: second order, with one field evaluation. `length`: of the step in space.
 template <class Real, class Field>
 CurvedRay<Real> leapfrog_step(const Field& field, const CurvedRay<Real>& ray, std::type_identity_t<Real> length) {
     const Real step = length / glm::length(ray.v);
@@ -84,7 +84,8 @@ CurvedRay<Real> leapfrog_step(const Field& field, const CurvedRay<Real>& ray, st
     return {middle + step / 2 * v, v};
 }
 
-/// Nystrom's method for second derivatives: of fourth order, with three looks. `length` in space.
+/// Nystrom's method for second derivatives: fourth order, with three field evaluations. `length`: of the step in
+/// space.
 template <class Real, class Field>
 CurvedRay<Real> nystrom_step(const Field& field, const CurvedRay<Real>& ray, std::type_identity_t<Real> length) {
     const Real step = length / glm::length(ray.v), half = step / 2;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Fields of the index of refraction with rays that are known exactly (Born & Wolf, Principles of Optics, 7th ed. 1999,
-// section 4.2.2), and the profile of a boundary that a Gaussian has smoothed. Function objects as eikonal.h wants them.
+// Index fields with exactly known rays (Born & Wolf, Principles of Optics, 7th ed. 1999, section 4.2.2), and the
+// profile of a boundary smoothed by a Gaussian. They are function objects for eikonal.h.
 
 #include "optics/eikonal.h"
 
@@ -10,8 +10,8 @@
 
 namespace pellucid {
 
-/// Luneburg's lens: n = sqrt(2 - r^2) for r <= 1 (in radii of the ball around the origin), 1 outside. Parallel rays meet
-/// where the one through the centre leaves it.
+/// Luneburg's lens: n = sqrt(2 - r^2) for r <= 1 (in radii of the ball around the origin), 1 outside. Parallel rays
+/// focus where the ray through the centre leaves the ball.
 template <class Real>
 struct LuneburgField {
     Real radius = 1;
@@ -23,8 +23,8 @@ struct LuneburgField {
     }
 };
 
-/// Maxwell's fish-eye: n = n0 / (1 + r^2), r in units of the radius. Rays are circles; those from a point of the sphere of
-/// that radius meet again opposite to it.
+/// Maxwell's fish-eye: n = n0 / (1 + r^2), r in units of the radius. Rays are circles. Rays from a point on the sphere
+/// of that radius meet again at the opposite point.
 template <class Real>
 struct MaxwellFisheyeField {
     Real radius = 1;
@@ -35,7 +35,7 @@ struct MaxwellFisheyeField {
     }
 };
 
-/// n = n0 + slope y. Rays that start level are catenaries: y + n0 / slope = a cosh(x / a), see the tests.
+/// n = n0 + slope y. Rays that start horizontally are catenaries: y + n0 / slope = a cosh(x / a), see the tests.
 template <class Real>
 struct LinearField {
     Real n0 = 1;
@@ -43,20 +43,20 @@ struct LinearField {
     IndexSample<Real> operator()(Vec3<Real> x) const { return {Vec3<Real>(0, slope, 0), n0 + slope * x.y}; }
 };
 
-/// Share of a Gaussian of standard deviation `sigma` around a place that lies inside a plane boundary, which is
-/// `distance` away (positive: outside).
+/// Share inside a plane boundary of a Gaussian of standard deviation `sigma`, centred `distance` away from the
+/// boundary (positive: outside).
 template <class Real>
 Real smoothed_inside(Real distance, Real sigma) {
     return Real(0.5) * std::erfc(distance / (sigma * std::numbers::sqrt2_v<Real>));
 }
-/// Its derivative by the distance.
+/// Derivative of smoothed_inside() by the distance.
 template <class Real>
 Real smoothed_inside_slope(Real distance, Real sigma) {
     const Real t = distance / sigma;
     return -std::exp(-t * t / 2) / (sigma * std::sqrt(2 * std::numbers::pi_v<Real>));
 }
 
-/// Half-space y < 0 of index `inside`, `outside` above it, with a boundary that a Gaussian has smoothed.
+/// Half-space y < 0 of index `inside`, with `outside` above it and a boundary smoothed by a Gaussian.
 template <class Real>
 struct SmoothedPlaneField {
     Real inside = Real(1.5);

@@ -5,9 +5,8 @@
 // 7th ed. (1999), section 1.5.2; Beer-Lambert absorption; dispersion as in the glTF extension
 // KHR_materials_dispersion. Twin of interface.glsl: same functions and formulas.
 //
-// `direction` (D) is the unit direction in which light or a view ray travels, `normal` (N) the unit
-// surface normal on the incident side, so that cos_theta_i = -D.N >= 0, and
-// eta = n_incident / n_transmitted.
+// `direction` (D) is the unit direction in which light or a view ray travels. `normal` (N) is the unit surface normal
+// on the incident side, so cos_theta_i = -D.N >= 0. eta = n_incident / n_transmitted.
 
 #include "core/math.h"
 
@@ -21,8 +20,8 @@ namespace pellucid {
 template <class Real>
 using Vec3 = glm::vec<3, Real, glm::defaultp>;
 
-/// Cosine of the angle of incidence, kept to 0..1: an interpolated normal can point away from the
-/// side the ray comes from, which is treated as grazing incidence.
+/// Cosine of the angle of incidence, clamped to 0..1. An interpolated normal can point away from the incident side;
+/// this counts as grazing incidence.
 template <class Real>
 Real incident_cosine(Vec3<Real> direction, Vec3<Real> normal) {
     return std::clamp(-glm::dot(direction, normal), Real(0), Real(1));
@@ -35,8 +34,8 @@ Real transmitted_cosine_squared(Real cos_theta_i, Real eta) {
     return (Real(1) - eta) * (Real(1) + eta) + eta * eta * cos_theta_i * cos_theta_i;
 }
 
-/// Snell's law. Writes the unit refracted direction to `refracted` and returns true, or returns
-/// false and leaves `refracted` alone under total internal reflection.
+/// Snell's law. Writes the unit refracted direction to `refracted` and returns true. Under total internal reflection
+/// it returns false and does not change `refracted`.
 template <class Real>
 bool refract_direction(Vec3<Real> direction, Vec3<Real> normal, std::type_identity_t<Real> eta, Vec3<Real>& refracted) {
     const Real cos_theta_i = incident_cosine(direction, normal);
@@ -52,8 +51,8 @@ Vec3<Real> reflect_direction(Vec3<Real> direction, Vec3<Real> normal) {
     return glm::normalize(direction + Real(2) * incident_cosine(direction, normal) * normal);
 }
 
-/// Share of unpolarised light that a smooth dielectric boundary reflects, 0..1; the rest is
-/// refracted. cos_theta_i is kept to 0..1.
+/// Reflectance of a smooth dielectric boundary for unpolarised light, 0..1; the rest is refracted. cos_theta_i is
+/// clamped to 0..1.
 template <class Real>
 Real fresnel_dielectric(Real cos_theta_i, std::type_identity_t<Real> eta) {
     if (eta == Real(1)) return Real(0);  // equal media: no boundary, even at grazing incidence
@@ -66,22 +65,21 @@ Real fresnel_dielectric(Real cos_theta_i, std::type_identity_t<Real> eta) {
     return Real(0.5) * (s * s + p * p);
 }
 
-/// Share of light left after `distance` metres (Beer-Lambert), per channel. sigma_a per metre,
-/// 0..infinity. No distance or no absorption leaves all of it, whatever the other is.
+/// Transmittance over `distance` metres per channel (Beer-Lambert). sigma_a per metre, 0..infinity. It is 1 if the
+/// distance or the absorption is 0, even if the other is infinite.
 template <class Real>
 Vec3<Real> beer_lambert(Vec3<Real> sigma_a, std::type_identity_t<Real> distance) {
     Vec3<Real> transmittance(1);
     for (int channel = 0; channel < 3; ++channel) {
-        // 0 times infinity is no number, so both zeros are caught before the product.
+        // 0 times infinity is NaN, so test both factors before the product.
         if (sigma_a[channel] > Real(0) && distance > Real(0))
             transmittance[channel] = std::exp(-sigma_a[channel] * distance);
     }
     return transmittance;
 }
 
-/// Index of refraction for red, green and blue: at the Fraunhofer C (656.3 nm), d (587.6 nm) and
-/// F (486.1 nm) lines, between which Abbe's number is defined. `ior` is the index at the d line,
-/// `dispersion` is 20 / Abbe number. No index falls below 1.
+/// Index of refraction for red, green and blue, at the Fraunhofer C (656.3 nm), d (587.6 nm) and F (486.1 nm) lines,
+/// which define Abbe's number. `ior`: index at the d line; `dispersion`: 20 / Abbe number. No index falls below 1.
 template <class Real>
 Vec3<Real> ior_per_channel(Real ior, std::type_identity_t<Real> dispersion) {
     const Real half_spread = (ior - Real(1)) * Real(0.025) * dispersion;
