@@ -1,5 +1,5 @@
 #version 460
-// A floor of four metres, and four pillars on it: boxes, made from the number of the vertex.
+// A floor of four metres and four pillars: boxes generated from the vertex index.
 layout(push_constant) uniform Push { mat4 clip_from_world; };
 layout(location = 0) out vec3 at;
 layout(location = 1) out vec3 normal;

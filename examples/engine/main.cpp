@@ -1,5 +1,5 @@
-// A small engine that draws its world by itself, and has Pellucid draw the glass that stands in it: a device, commands, colour
-// and depth of the engine's, two frames in flight, no window.
+// A small engine that draws its own world, and lets Pellucid draw the glass in it. Device, commands, colour and depth
+// images belong to the engine. It has two frames in flight and no window.
 //   engine [FRAMES [FILE.ppm [DICE]]]
 #define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS
 #include <vulkan/vulkan_raii.hpp>
@@ -141,7 +141,7 @@ struct World {
 };
 
 void run(int frame_count, const char* file, int dice) {
-    // The engine's instance and device, with what Pellucid needs turned on.
+    // The engine's instance and device, with the features that Pellucid needs.
     const vk::raii::Context context;
     const vk::ApplicationInfo application{.apiVersion = VK_API_VERSION_1_3};
     const vk::raii::Instance instance(context, {.pApplicationInfo = &application});
@@ -196,7 +196,7 @@ void run(int frame_count, const char* file, int dice) {
                                           .format = VK_FORMAT_R8G8B8A8_UNORM,
                                           .layout_after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
     glm::mat4 clip_from_view = glm::perspectiveRH_ZO(kFov, float(kWidth) / kHeight, kNear, kFar);
-    clip_from_view[1][1] *= -1.0f;  // Vulkan's y goes down
+    clip_from_view[1][1] *= -1.0f;  // Vulkan's y axis points down
     pellucid::vulkan::Background background{.color = *color.image,
                                             .depth = *depth.image,
                                             .zz = clip_from_view[2][2],
@@ -204,7 +204,7 @@ void run(int frame_count, const char* file, int dice) {
                                             .wz = clip_from_view[2][3],
                                             .ww = clip_from_view[3][3]};
 
-    pellucid::vulkan::Ticket tickets[kInFlight]{};  // 0: none
+    pellucid::vulkan::Ticket tickets[kInFlight]{};  // 0: no ticket
     std::vector<double> times_ms;
     const auto finish = [&](std::uint32_t slot) {
         while (device.waitForFences(*fences[slot], true, ~0ull) == vk::Result::eTimeout) {

@@ -1,4 +1,4 @@
-// Renders a glass goblet into goblet.png: the picture of `pellucid render shape:goblet -o goblet.png`.
+// Renders a glass goblet into goblet.png, like `pellucid render shape:goblet -o goblet.png`.
 #include <pellucid/pellucid.h>
 
 #include <cstdio>
