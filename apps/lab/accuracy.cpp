@@ -78,7 +78,7 @@ Judgement judge(const ExactView& exact, const std::vector<RefractedPath>& paths)
 }
 
 void add_accuracy(nlohmann::ordered_json& run, const ExactView& exact, const PathAccuracy& accuracy) {
-    // Of no pixels there is no share: null.
+    // A share of no pixels is null.
     const auto known = [](bool any, double value) { return any ? nlohmann::ordered_json(value) : nullptr; };
     const bool any = accuracy.covered > 0;
     run["covered"] = accuracy.covered;

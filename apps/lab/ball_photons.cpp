@@ -12,7 +12,7 @@ struct Photon {
     glm::dvec3 x, d;
 };
 
-/// Where a photon leaves the ball, and which way. False: it passes the ball by.
+/// Traces a photon to its exit from the ball. Returns false if it misses the ball.
 bool through_sharp_ball(Photon& photon, double radius, double ior) {
     for (const bool enters : {true, false}) {
         const double b = glm::dot(photon.x, photon.d), c = glm::dot(photon.x, photon.x) - radius * radius;
@@ -25,8 +25,8 @@ bool through_sharp_ball(Photon& photon, double radius, double ior) {
     return true;
 }
 
-/// The same of a ball whose index is that of a sharp one smoothed across its surface: straight where the index is even,
-/// by Runge and Kutta's method between. Ihrke et al. 2007, equations 9 and 10.
+/// Traces a photon through a ball whose index is smoothed across its surface: straight in uniform regions, by Runge
+/// and Kutta's method elsewhere. Ihrke et al. 2007, equations 9 and 10. Returns false if it misses the ball.
 bool through_smoothed_ball(Photon& photon, const BallAndPlane& scene) {
     const double sigma = scene.smoothing, outer = scene.radius + 5.0 * sigma, inner = scene.radius - 5.0 * sigma;
     const double b = glm::dot(photon.x, photon.d), root = b * b - glm::dot(photon.x, photon.x) + outer * outer;
@@ -66,12 +66,12 @@ bool meets_box(const Photon& photon, double half) {
     return std::max({low.x, low.y, low.z}) < std::min({high.x, high.y, high.z});
 }
 
-/// Adds the lengths of a straight way in voxels of a cube around the origin, from x on.
+/// Adds the lengths of a ray from photon.x in the voxels of a cube around the origin.
 void add_lengths(VoxelPhotons& voxels, double half, const Photon& photon, double weight) {
     const int n = voxels.resolution;
     const double edge = 2.0 * half / n;
     const glm::dvec3 start = (photon.x + half) / edge;
-    // From face to face: the faces that the way crosses, in order.
+    // Step from face to face, in the order in which the ray crosses them.
     const glm::dvec3 a = -start / photon.d, b = (double(n) - start) / photon.d;
     const glm::dvec3 low = glm::min(a, b), high = glm::max(a, b);
     double t = std::max({0.0, low.x, low.y, low.z});
@@ -95,15 +95,15 @@ void add_lengths(VoxelPhotons& voxels, double half, const Photon& photon, double
     }
 }
 
-/// Calls `use(photon, area)` for photons on `rings` rings around the axis; where the ball has sent them on, and which way. All
-/// photons of a ring go alike.
+/// Calls `use(photon, area)` for photons on `rings` rings around the axis, after the ball. All photons of a ring take
+/// the same path up to rotation.
 template <class Use>
 void for_each_photon(const BallAndPlane& scene, int rings, const Use& use) {
     const glm::dvec3 d = scene.direction;
     const glm::dvec3 side =
         glm::normalize(glm::cross(d, std::abs(d.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
     const glm::dvec3 up = glm::cross(side, d);
-    const double reach = 1.74 * scene.box, width = reach / rings;  // the box from any side
+    const double reach = 1.74 * scene.box, width = reach / rings;  // covers the box from any side
     constexpr double kGoldenAngle = 2.399963;
     for (int ring = 0; ring < rings; ++ring) {
         const double off = (ring + 0.5) * width;

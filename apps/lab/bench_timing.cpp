@@ -11,7 +11,7 @@
 namespace pellucid::cli {
 namespace {
 
-constexpr int kFramesPerBlock = 5;  // and traces
+constexpr int kFramesPerBlock = 5;  // and traces per block
 constexpr int kDeformations = 5, kBuilds = 3;
 
 using Directions = std::vector<glm::vec3>;
@@ -38,11 +38,11 @@ void add_frame(AlternatingTimes& times, const std::vector<PassTime>& frame) {
     times.frames_ms.push_back(total);
 }
 
-/// Moves every vertex of the scene a little, to and fro; returns what the update of the hierarchy took.
+/// Moves every vertex of the scene slightly, back or forth. Returns the time of the hierarchy's update, ms.
 double deform(Tracer& tracer, const Scene& scene, bool forth, Tracer::Update how) {
     std::vector<std::vector<glm::vec3>> positions;
     std::vector<MovedMesh> moved;
-    positions.reserve(scene.meshes.size());  // the meshes are seen through spans
+    positions.reserve(scene.meshes.size());  // MovedMesh refers to these vectors
     for (const Mesh& mesh : scene.meshes) {
         positions.push_back(mesh.positions);
         for (glm::vec3& position : positions.back()) position.y *= forth ? 1.01f : 1.0f;
@@ -52,7 +52,7 @@ double deform(Tracer& tracer, const Scene& scene, bool forth, Tracer::Update how
     return tracer.build_ms();
 }
 
-/// Median times of moving every vertex and of tracing what results.
+/// Median times of moving every vertex, and of tracing the result.
 struct Update {
     double update_ms, trace_ms;
 };
@@ -61,7 +61,7 @@ Update time_update(const Scene& scene, BuildQuality quality, Tracer::Update how,
     Tracer tracer(scene, {.quality = quality, .deforming = true, .robust = false, .threads = threads});
     const TimedTrace trace{tracer, camera, settings};
     Directions directions = buffer_for(settings);
-    deform(tracer, scene, false, how);  // not counted: the first refit after a build is a build
+    deform(tracer, scene, false, how);  // not timed: the first refit after a build is a build
     std::vector<double> updates, traces;
     for (int i = 0; i < kDeformations; ++i) {
         updates.push_back(deform(tracer, scene, i % 2 == 0, how));
@@ -87,7 +87,7 @@ AlternatingTimes time_alternately(Renderer& renderer, RenderSettings settings, i
     Directions directions = buffer_for(trace.settings);
     while (int(times.frames_ms.size()) < frames) {
         const int missing = frames - int(times.frames_ms.size());
-        // One sample alone is drawn otherwise: through pixel centres, without a sum.
+        // A single sample would differ: it uses pixel centres and no sum.
         settings.still = false;
         settings.samples = std::uint32_t(std::clamp(missing, 2, kFramesPerBlock));
         std::vector<std::vector<PassTime>> drawn = renderer.render(settings).frames;
@@ -135,8 +135,8 @@ TimedTracer build_timed(const Scene& scene, std::uint32_t threads) {
 DeformingTimes time_deforming(const Scene& scene, const Camera& camera, const ExactSettings& settings,
                               std::uint32_t threads) {
     using How = Tracer::Update;
-    // How the scene was built does not matter to a refit: the first one makes the hierarchy, of medium quality, that
-    // the others keep.
+    // The build quality does not affect a refit: the first refit builds the hierarchy, of medium quality, that later
+    // refits keep.
     const Update refit = time_update(scene, BuildQuality::kMedium, How::kRefit, camera, settings, threads);
     const Update low = time_update(scene, BuildQuality::kLow, How::kRebuild, camera, settings, threads);
     const Update medium = time_update(scene, BuildQuality::kMedium, How::kRebuild, camera, settings, threads);

@@ -8,43 +8,43 @@
 
 namespace pellucid::cli {
 
-/// The processor that traces are timed on.
+/// Name of the processor that runs the traces.
 std::string cpu_name();
 
-/// Tracer::trace_fast of one view.
+/// Arguments of Tracer::trace_fast for one view.
 struct TimedTrace {
     const Tracer& tracer;
     const Camera& camera;
     ExactSettings settings;
 };
 
-/// Times of frames, and of traces of the same view between them, so that what else the machine does hits both.
+/// Times of frames, alternating with traces of the same view, so that other load affects both.
 struct AlternatingTimes {
     std::vector<double> frames_ms;                                       ///< sums over the passes
-    std::vector<std::pair<std::string, std::vector<double>>> passes_ms;  ///< in their order
+    std::vector<std::pair<std::string, std::vector<double>>> passes_ms;  ///< in pass order
     std::vector<double> traces_ms;
 };
 
-/// Draws `frames` frames and traces as often, in blocks. The frame at the head of every block, which is drawn
-/// through pixel centres, is not counted; those that are counted all have the same passes.
-/// Throws DeviceError if the device has no timestamps.
+/// Draws `frames` frames and equally many traces, in blocks. The first frame of every block, through pixel centres, is
+/// not counted. All counted frames have the same passes. Throws DeviceError if the device has no timestamps.
 AlternatingTimes time_alternately(Renderer& renderer, RenderSettings settings, int frames, const TimedTrace& trace,
                                   const Progress& progress);
 
-/// The packet size (see ExactSettings) with which the view is traced fastest.
+/// The packet size (see ExactSettings) that traces the view fastest.
 std::uint32_t fastest_packet(TimedTrace trace);
 
-/// A tracer as fast as they get, and the median time of building its hierarchy, ms, after one that starts threads.
+/// A tracer with the fastest options, and the median build time of its hierarchy, ms, after a first build that starts
+/// threads.
 struct TimedTracer {
     Tracer tracer;
     double build_ms;
 };
 TimedTracer build_timed(const Scene& scene, std::uint32_t threads);
 
-/// What ray tracing pays for meshes that deform from frame to frame, medians in ms.
+/// Cost of ray tracing for deforming meshes, medians in ms.
 struct DeformingTimes {
     double refit_ms = 0.0, rebuild_low_ms = 0.0, rebuild_medium_ms = 0.0;
-    double best_ms = 0.0;  ///< the least of these with the trace of the hierarchy that it leaves
+    double best_ms = 0.0;  ///< least sum of an update and the trace that follows it
 };
 DeformingTimes time_deforming(const Scene& scene, const Camera& camera, const ExactSettings& settings,
                               std::uint32_t threads);

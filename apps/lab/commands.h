@@ -6,8 +6,8 @@
 
 namespace pellucid::cli {
 
-/// Add a subcommand of the laboratory with its options; it runs as the callback of the parse. Errors are thrown.
-/// `command_line`: as it was typed, for the report.
+/// Each function adds a subcommand with its options; the subcommand runs as the callback of the parse. Errors are
+/// thrown. `command_line`: as typed, for the report.
 void add_compare_command(CLI::App& app, const std::string& command_line);
 void add_bench_command(CLI::App& app);
 void add_experiment_command(CLI::App& app);

@@ -17,7 +17,7 @@ std::optional<double> number_at(const ordered_json& run, const Column& column) {
     return column.scale * run[at].get<double>();
 }
 
-/// 69664 as 69,664.
+/// Inserts thousands separators: 69664 becomes 69,664.
 std::string with_commas(std::string digits) {
     for (std::size_t at = digits.find('.') == std::string::npos ? digits.size() : digits.find('.'); at > 3;) {
         at -= 3;
@@ -26,7 +26,7 @@ std::string with_commas(std::string digits) {
     return digits;
 }
 
-/// Values of a key of the runs, each once, in their order.
+/// Distinct values of a key of the runs, in order of appearance.
 std::vector<std::string> distinct(const ordered_json& runs, const char* key) {
     std::vector<std::string> values;
     for (const ordered_json& run : runs) {
@@ -43,10 +43,10 @@ std::string joined_rows(const TextTable& table, Cell cell) {
     return text;
 }
 
-// Pixels of a plot.
+// Pixels of the plot.
 constexpr double kWidth = 560.0, kLeft = 52.0, kRight = 544.0, kTop = 40.0, kBottom = 260.0;
 constexpr double kLegendTop = 312.0, kLegendRow = 20.0;
-/// As in the frontier plot: equally light, with enough contrast on white and on black.
+/// Colours of the frontier plot: of equal lightness, with enough contrast on white and on black.
 constexpr std::array kColors = {"#3284d0", "#cb6620", "#2d9570", "#c74c8e", "#9d8519", "#8362cd"};
 
 constexpr const char* kPlotStyle = R"(<style>
@@ -59,7 +59,7 @@ constexpr const char* kPlotStyle = R"(<style>
 </style>
 )";
 
-/// One line: a value for each place along the plot, or none.
+/// One line of a plot: an optional value for each position.
 struct Line {
     std::string name;
     std::vector<std::optional<double>> values;
@@ -92,7 +92,7 @@ std::vector<Line> lines_of(const Plot& plot, const ordered_json& runs, const std
     return lines;
 }
 
-/// Steps of the axis, 1, 2 or 5 times a power of ten, so that there are four to nine.
+/// Step of the axis, 1, 2 or 5 times a power of ten, that gives four to nine steps.
 double axis_step(double greatest) {
     const double power = std::pow(10.0, std::floor(std::log10(greatest)));
     for (const double digit : {0.1, 0.2, 0.5, 1.0}) {
@@ -101,7 +101,7 @@ double axis_step(double greatest) {
     return 2.0 * power;
 }
 
-/// Where places and values lie in the drawing.
+/// Coordinates of positions and values in the plot.
 struct PlotAxes {
     std::size_t places;
     double step, greatest;
@@ -119,7 +119,7 @@ std::string drawn_axes(const Plot& plot, const PlotAxes& axes, const std::vector
             "<path class='grid' d='M{} {:.1f}H{}'/><text class='soft end' x='{}' y='{:.1f}'>{:.4g}</text>\n", kLeft, y,
             kRight, kLeft - 8.0, y + 4.5, i * axes.step);
     }
-    // Names of many places stand in two rows, so that neighbours do not meet.
+    // Labels of many positions alternate between two rows, to avoid overlap.
     const bool two_rows = places.size() > 5;
     for (std::size_t i = 0; i < places.size(); ++i)
         svg += fmt::format("<text class='soft middle' x='{:.1f}' y='{}'>{}</text>\n", axes.x(i),
@@ -222,7 +222,7 @@ std::string plot_svg(const Plot& plot, const ordered_json& runs) {
         "<svg class='plot' xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {} {}' role='img' aria-label='{}'>\n",
         kWidth, kLegendTop + kLegendRow * double(lines.size()), escaped(plot.title));
     svg += kPlotStyle + drawn_axes(plot, axes, places);
-    // Scenes have no order: a line between them would say nothing.
+    // Scenes have no order, so do not connect them by lines.
     for (std::size_t i = 0; i < lines.size(); ++i) svg += drawn_line(lines[i], i, axes, !plot.over_scenes);
     return svg + "</svg>\n";
 }

@@ -43,7 +43,7 @@ std::string page_head(const std::string& title) {
         escaped(title), kStyle);
 }
 
-/// As a part of a file name: lower case, digits and dashes.
+/// Text for a file name: lower case, digits and dashes.
 std::string file_name_part(const std::string& text) {
     std::string part;
     for (const char c : text) {
@@ -66,7 +66,7 @@ std::vector<std::string> distinct(const std::vector<GridPicture>& pictures, Text
     return values;
 }
 
-/// A row for every scene, with the captions as the head; `cell` makes text of a picture.
+/// One row per scene, with the captions as head. `cell` converts an image into text.
 template <class Cell>
 TextTable grid_of(const std::vector<GridPicture>& pictures, Cell cell) {
     const std::vector<std::string> captions = distinct(pictures, &GridPicture::caption);
@@ -117,7 +117,7 @@ std::string varied_of(const ExperimentSpec& spec) {
     return fmt::format("Varied: {}. Pictures are held against: {}.", spec.varied, spec.truth.label);
 }
 
-/// Throws Error if the folder holds another report than an index of experiments, which the index would replace.
+/// Throws Error if the folder contains a report other than an index of experiments, which the index would replace.
 void check_index_folder(const fs::path& folder) {
     std::ifstream list(folder / ReportFolder::kList);
     std::string line;
@@ -133,7 +133,7 @@ void check_index_folder(const fs::path& folder) {
 }  // namespace
 
 ExperimentPage::ExperimentPage(const fs::path& folder, const ExperimentSpec& spec) : spec_(spec), folder_(folder) {
-    folder_.claim(kPage);  // first: an older page is the first to be removed
+    folder_.claim(kPage);  // first, so that it is also removed first from an older report
     folder_.claim(std::string(spec.name) + ".md");
 }
 

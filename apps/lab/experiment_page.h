@@ -12,19 +12,19 @@
 
 namespace pellucid::cli {
 
-/// A picture of an experiment's grid.
+/// An image of an experiment's grid.
 struct GridPicture {
     std::string scene, caption, file;
 };
 
-/// What the pages say about a run of the command as a whole.
+/// Data of the whole run for the pages.
 struct ExperimentHeader {
     std::string device, driver, version, cpu, environment, size;
-    std::string command;  ///< with which others can repeat it
+    std::string command;  ///< command that repeats the run
 };
 
-/// The folder of one experiment: its page, the same as Markdown for other documents, plots and pictures.
-/// Pictures are written as they come and the page last, as in Report. Throws Error if something cannot be written.
+/// The folder of one experiment: its page, the same content as Markdown, plots and images. Images are written
+/// immediately and the page last, as in Report. Throws Error if a file cannot be written.
 class ExperimentPage {
 public:
     ExperimentPage(const std::filesystem::path& folder, const ExperimentSpec& spec);
@@ -32,7 +32,7 @@ public:
     /// `caption`: the column of the grid; `scene`: its row.
     void add_picture(const std::string& scene, const std::string& caption, const Image& display);
 
-    /// `runs` as the JSON has them. Returns the page's file.
+    /// `runs`: as in the JSON output. Returns the page's file.
     std::filesystem::path finish(const ExperimentHeader& header, const nlohmann::ordered_json& runs,
                                  const std::vector<std::string>& warnings);
 
@@ -42,7 +42,7 @@ private:
     std::vector<GridPicture> pictures_;
 };
 
-/// Writes DIR/index.html with a link to every experiment whose page is in DIR, and returns it.
+/// Writes DIR/index.html with links to all experiments that have a page in DIR. Returns its path.
 std::filesystem::path write_experiment_index(const std::filesystem::path& folder);
 
 }  // namespace pellucid::cli

@@ -9,7 +9,7 @@
 namespace pellucid::cli {
 namespace {
 
-/// One solid of glass and where it stands.
+/// One solid of glass and its placement.
 struct Placed {
     const char* shape;
     glm::vec3 position;  ///< m
@@ -17,7 +17,7 @@ struct Placed {
     float turn_deg = 0.0f;  ///< about +Y
 };
 
-/// The view looks down by 15 degrees: what stands behind stands lower, or it would be seen above.
+/// The view looks down by 15 degrees: objects behind must stand lower, or they would appear above.
 constexpr float kDropPerMetre = 0.268f;
 
 glm::vec3 behind(float metres, float right = 0.0f) { return {right, -kDropPerMetre * metres, -metres}; }
@@ -66,7 +66,7 @@ Scene five_objects() {
 }
 
 Environment resampled(const Environment& environment, int width) {
-    constexpr int kPerTexel = 4;  // and in each direction
+    constexpr int kPerTexel = 4;  // along each axis
     Environment map;
     map.kind = Environment::Kind::kMap;
     map.map = Image(width, width / 2, 3);

@@ -4,12 +4,13 @@
 
 namespace pellucid::cli {
 
-/// Scenes of several solids of glass that stand behind one another in the first view of comparison_view().
+/// Scenes of several glass solids behind one another in the first view of comparison_view().
 Scene cube_before_knot();
 Scene sphere_before_sphere();
 Scene five_objects();
 
-/// `environment` as an equirectangular map of `width` x `width / 2` texels, each the mean over its area.
+/// `environment` as an equirectangular map of `width` x `width / 2` texels, each the mean over several directions in
+/// it.
 Environment resampled(const Environment& environment, int width);
 
 }  // namespace pellucid::cli

@@ -13,14 +13,15 @@
 
 namespace pellucid::cli {
 
-/// One of the ways in which an experiment draws its scenes.
+/// One variant of drawing an experiment's scenes.
 struct Variant {
     std::string label;
     std::string technique;
     ParameterMap parameters = {};
-    /// The experiment's environment as an equirectangular map so many texels wide and half as high; none: as it is.
+    /// Width in texels of an equirectangular map, half as high, that replaces the experiment's environment; empty: no
+    /// replacement.
     std::optional<int> map_width = {};
-    bool analysis = false;  ///< the technique's analysis view as well
+    bool analysis = false;  ///< add the technique's analysis view
 };
 
 /// One of the scenes of an experiment.
@@ -28,18 +29,18 @@ struct ExperimentScene {
     std::string label;
     BenchCase how;                                 ///< source, distance, copies
     Scene (*make)() = nullptr;                     ///< instead of how.source
-    std::map<std::string, double> published = {};  ///< what the publication measured on its like
+    std::map<std::string, double> published = {};  ///< measurements of the publication for a similar scene
 };
 
-/// A column of the table, or a line of a plot: a number of the run's JSON.
+/// A column of the table, or a line of a plot, from a number of the run's JSON.
 struct Column {
     const char* head;
-    const char* pointer;  ///< into the run (RFC 6901)
+    const char* pointer;  ///< JSON pointer into the run (RFC 6901)
     double scale = 1.0;
     int digits = 1;
 };
 
-/// What is drawn over the variants, or over the scenes.
+/// A plot over the variants, or over the scenes.
 struct Plot {
     const char* title;
     const char* unit;
@@ -51,11 +52,11 @@ struct ExperimentRun;
 class ExperimentPage;
 struct ExperimentSpec;
 
-/// Measures something else than refraction: fills the runs and the page's pictures.
+/// Runs an experiment that does not measure refraction: fills the runs and the page's images.
 using RunExperiment = void (*)(ExperimentRun& run, const ExperimentSpec& spec, ModelFolder& models,
                                ExperimentPage& page);
 
-/// An experiment of a publication, as far as it is data.
+/// An experiment of a publication, as data.
 struct ExperimentSpec {
     const char* name;
     const char* source;
@@ -63,20 +64,20 @@ struct ExperimentSpec {
     const char* environment = "studio";
     std::pair<std::uint32_t, std::uint32_t> size = {512, 512};
     std::vector<Variant> variants = {};
-    Variant truth = {"exact", "reference"};  ///< whose picture FLIP and RMSE are taken against
+    Variant truth = {"exact", "reference"};  ///< reference image for FLIP and RMSE
     std::vector<ExperimentScene> (*scenes)(ModelFolder& models) = nullptr;
     RunExperiment run = nullptr;  ///< instead of variants and scenes
-    bool timed = false;           ///< frames, in turn with Embree
-    bool zoom = false;            ///< pictures of the worst region of the first variant as well
+    bool timed = false;           ///< time frames, alternating with Embree
+    bool zoom = false;            ///< add images of the first variant's worst region
     std::vector<Column> columns;
     std::vector<Plot> plots = {};
     const char* remark = "";
 };
 
-/// All of them, in the order in which `all` runs them.
+/// All experiments, in the order of `all`.
 std::span<const ExperimentSpec> experiments();
 
-/// Throws Error listing the known ones.
+/// Throws Error listing the known experiments.
 const ExperimentSpec& find_experiment(const std::string& name);
 
 }  // namespace pellucid::cli

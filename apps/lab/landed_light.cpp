@@ -24,8 +24,8 @@ std::vector<double> landed_map(std::span<const LandedPhoton> photons, const Ball
         const int count = int(std::clamp(texels, kFewest, kMost));
         const double share = photon.flux[color] / (count * plane.texel * plane.texel);
         for (int i = 0; i < count; ++i) {
-            // Points of equal power in the kernel of light/photon_lookup.glsl: within a share s of the radius, squared, it
-            // has 1 - (1 - s)^3 of the power.
+            // Points of equal power in the kernel of light/photon_lookup.glsl: its power within squared relative
+            // radius s is 1 - (1 - s)^3.
             const double radius = photon.radius * std::sqrt(1.0 - std::cbrt(1.0 - (i + 0.5) / count));
             const glm::dvec2 point(std::cos(i * kGoldenAngle), std::sin(i * kGoldenAngle));
             const glm::dvec2 at = glm::floor((center + radius * point) / plane.texel);

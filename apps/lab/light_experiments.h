@@ -4,9 +4,10 @@
 
 namespace pellucid::cli {
 
-/// Ihrke et al. 2007: light traced through volumes; a ball's caustic against counted photons, a wine glass's voxels, time.
+/// Ihrke et al. 2007: light traced through volumes. Compares a ball's caustic with counted photons; measures a wine
+/// glass's voxels, and times.
 ExperimentSpec ihrke_light();
-/// Wavefronts against photons, and what following reflected light costs.
+/// Compares wavefronts with photons, and measures the cost of reflected light.
 ExperimentSpec ihrke_reflections();
 
 }  // namespace pellucid::cli

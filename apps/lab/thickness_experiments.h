@@ -4,13 +4,13 @@
 
 namespace pellucid::cli {
 
-/// Chen, table 1: three balls lit along their axis, against a ray march of their signed distance field.
+/// Chen, table 1: three balls lit along their axis, compared with a ray march of their signed distance field.
 ExperimentSpec chen_error();
-/// Chen, table 2: a dragon of 514,372 triangles, single against dual peeling.
+/// Chen, table 2: a dragon of 514,372 triangles, single against dual depth peeling.
 ExperimentSpec chen_speed();
 
-/// Splits the longest edges of the triangles, shared ones alike, until there are about `count` triangles or every edge
-/// has been split once. The surface stays as it is.
+/// Splits the longest edges of the triangles consistently, until there are about `count` triangles or every edge was
+/// split once. The surface does not change.
 Mesh with_split_edges(const Mesh& mesh, std::size_t count);
 
 }  // namespace pellucid::cli

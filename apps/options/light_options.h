@@ -9,7 +9,7 @@
 
 namespace pellucid::cli {
 
-/// Which light is followed. Names are parsed when the command runs.
+/// Options of light transport. The names are parsed when the command runs.
 struct LightArguments {
     std::string transport = "automatic";
     std::string shadows = "exact";

@@ -7,23 +7,24 @@
 
 namespace pellucid::cli {
 
-/// A model that measurements call for and that is no part of the project.
+/// A model for measurements that is not part of the project.
 struct Model {
     const char* name;
-    std::array<const char*, 2> files;  ///< in the folder of models, the first that is there; nullptr: no second
-    const char* installed = nullptr;   ///< where Debian puts one like it
+    /// file names in the folder of models; the first existing one is used; nullptr: no second name
+    std::array<const char*, 2> files;
+    const char* installed = nullptr;  ///< path of a similar model in Debian
 };
 
 inline constexpr Model kBunny{"bunny", {"bunny_closed_69664.obj", "bunny.obj"}, "/usr/share/glmark2/models/bunny.obj"};
 inline constexpr Model kCow{"cow", {"cow.obj", "cow_5804.obj"}};
 
-/// The folder of models, empty for none, and what was not found in it.
+/// The folder of models, empty for none, and warnings about missing models.
 class ModelFolder {
 public:
     ModelFolder(std::filesystem::path folder, std::vector<std::string>& warnings)
         : folder_(std::move(folder)), warnings_(warnings) {}
 
-    /// The model's file; empty, with a warning that names it, if it is nowhere.
+    /// The model's file; empty if it is missing, with a warning that names it.
     std::filesystem::path find(const Model& model);
 
 private:

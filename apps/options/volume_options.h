@@ -1,6 +1,6 @@
 #pragma once
 
-// Options about volumes in scenes.
+// Options for volumes in scenes.
 
 #include <pellucid/pellucid.h>
 
@@ -11,17 +11,17 @@
 
 namespace pellucid::cli {
 
-/// What the command line says about volumes. Strings are parsed when the command runs, so that errors are ours.
+/// Command line arguments for volumes. They are parsed when the command runs, so that this program reports the errors.
 struct VolumeArguments {
     std::vector<std::string> grids;
     std::vector<std::string> added;
 };
 void add_volume_options(CLI::App& command, VolumeArguments& arguments);
 
-/// `options` with the mappings of --map, which are for every .vdb file among `source` and the volumes to be added.
+/// `options` with the mappings of --map, which apply to every .vdb file among `source` and the added volumes.
 LoadOptions with_grids(LoadOptions options, const std::string& source, const VolumeArguments& arguments);
 
-/// Adds the volumes of --add-volume to a scene. Throws Error naming what is wrong with one of them.
+/// Adds the volumes of --add-volume to a scene. Throws Error naming the invalid volume and the cause.
 void add_volumes(Scene& scene, const VolumeArguments& arguments);
 
 }  // namespace pellucid::cli

@@ -23,7 +23,7 @@ float srgb_encoded(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
-/// Lightness and hue run evenly; chroma is what the sRGB gamut has room for along that way.
+/// Colour with evenly increasing lightness and hue; chroma is limited to the sRGB gamut.
 glm::vec3 scale_color(float share) {
     const float lightness = glm::mix(0.32f, 0.96f, share);
     const float hue = glm::radians(glm::mix(268.0f, 460.0f, share));

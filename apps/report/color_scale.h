@@ -10,8 +10,8 @@
 namespace pellucid {
 
 /// Colours for 0..1, from dark blue over magenta to pale yellow, sRGB-encoded. Lightness rises evenly in OKLab
-/// (Ottosson, "A perceptual color space for image processing", 2020), so that more reads as brighter without colour
-/// vision and in grey print alike; the hue adds contrast for those who see it.
+/// (Ottosson, "A perceptual color space for image processing", 2020). Larger values thus look brighter without colour
+/// vision and in grey print too; the hue adds contrast for other readers.
 class ColorScale {
 public:
     ColorScale();
@@ -23,17 +23,18 @@ private:
     std::array<glm::vec3, 256> colors_;
 };
 
-/// Ends of the scale of angular errors, which is logarithmic, in degrees.
+/// Ends of the logarithmic scale of angular errors, degrees.
 inline constexpr double kLeastErrorDeg = 0.01;
 inline constexpr double kGreatestErrorDeg = 180.0;
 
-/// Where there is nothing to compare: neutral, and darker than every colour of the scale.
+/// Colour without a value: neutral, and darker than the whole scale.
 inline constexpr glm::vec3 kUncoveredColor{0.11f};
 
-/// Place of an angular error on the scale, 0..1.
+/// Position of an angular error on the scale, 0..1.
 float error_share(float error_deg);
 
-/// RGB, for display, of a map of one channel: degrees where negative is uncovered; or 0..1.
+/// Colours a map of one channel for display, RGB. color_errors(): degrees, negative if not covered; color_flip():
+/// 0..1.
 Image color_errors(const Image& error_deg);
 Image color_flip(const Image& flip);
 

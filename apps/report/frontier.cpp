@@ -22,10 +22,11 @@ constexpr double kBottom = 310.0;
 constexpr double kLegendTop = 378.0;
 constexpr double kLegendRow = 22.0;
 
-constexpr double kGreatestAccuracy = 0.9999;  ///< the axis ends here: 100% would be infinitely far up
+constexpr double kGreatestAccuracy = 0.9999;  ///< end of the axis: 100% would be infinitely far up
 constexpr std::array kAccuracyTicks = {0.0, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995, 0.998, 0.999, kGreatestAccuracy};
 
-/// Equally light, and with enough contrast on white and on black; techniques also differ in the shape of their mark.
+/// Colours of equal lightness, with enough contrast on white and on black. Techniques also differ in the shape of
+/// their marks.
 constexpr std::array kColors = {"#3284d0", "#cb6620", "#2d9570", "#c74c8e", "#9d8519", "#8362cd"};
 /// Outlines about (0, 0), of radius about 1: disc, square, triangle, diamond, star.
 constexpr std::array kMarks = {
@@ -36,7 +37,7 @@ constexpr std::array kMarks = {
     "M0-1.4L.4-.4 1.4 0 .4.4 0 1.4-.4.4-1.4 0-.4-.4Z",
 };
 
-/// In a page the rules of the page's other drawings must not meet these: all begin with the class of the root.
+/// All selectors begin with the class of the root, so that they do not affect other drawings of the page.
 constexpr const char* kStyle = R"(<style>
 .frontier{font:13px system-ui,sans-serif;--ink:#1d2125;--soft:#59626b;--rule:#dde1e5;fill:var(--ink)}
 .frontier .grid{stroke:var(--rule)}
@@ -49,7 +50,7 @@ constexpr const char* kStyle = R"(<style>
 </style>
 )";
 
-/// A name as the text of an element; control characters are not allowed in XML, whatever their escape.
+/// Escapes a name as XML text. Removes control characters, which XML forbids even as escapes.
 std::string xml_text(const std::string& name) {
     std::string text;
     for (const char c : one_line(name)) {
@@ -65,10 +66,10 @@ std::string xml_text(const std::string& name) {
     return text;
 }
 
-/// Decades of wrong pixels fewer than all: 0 for 0%, 1 for 90%, 2 for 99%.
+/// Decades of reduction of wrong pixels: 0 for 0%, 1 for 90%, 2 for 99%.
 double nines(double accuracy) { return -std::log10(1.0 - std::clamp(accuracy, 0.0, kGreatestAccuracy)); }
 
-/// From measured values to pixels.
+/// Map from measured values to pixels.
 struct Axes {
     double least_ms, greatest_ms;
     double least_accuracy, greatest_accuracy;
@@ -82,13 +83,13 @@ struct Axes {
     }
 };
 
-/// Axes that hold all points: times with room for a tick on either side, accuracies from tick to tick.
+/// Axes that contain all points: times with a margin for a tick on both sides, accuracies from tick to tick.
 Axes fitting_axes(const std::vector<Performance>& points) {
     const auto [fastest, slowest] = std::minmax_element(
         points.begin(), points.end(), [](const auto& a, const auto& b) { return a.time_ms < b.time_ms; });
     const auto [worst, best] = std::minmax_element(
         points.begin(), points.end(), [](const auto& a, const auto& b) { return a.accuracy < b.accuracy; });
-    // Two rooms of 1.6 are more than the widest step of the ticks, from 2 to 5: there is always one.
+    // Two margins of factor 1.6 exceed the widest step between ticks, from 2 to 5, so there is always a tick.
     Axes axes{fastest->time_ms / 1.6, slowest->time_ms * 1.6, 0.0, kGreatestAccuracy};
     const auto above = std::lower_bound(kAccuracyTicks.begin() + 1, kAccuracyTicks.end() - 1, best->accuracy);
     axes.greatest_accuracy = *above;
@@ -133,7 +134,7 @@ std::string mark(std::size_t technique, double x, double y, double radius, const
                        css_class, kColors[technique % kColors.size()], x, y, radius, kMarks[technique % kMarks.size()]);
 }
 
-/// Steps through the best means: left of and above the line there is nothing.
+/// Staircase through the best means: no mean lies left of and above the line.
 std::string frontier_line(const Axes& axes, const std::vector<Performance>& means) {
     const std::vector<std::size_t> best = pareto_frontier(means);
     std::string path = fmt::format("M{:.1f} {}V{:.1f}", axes.x(means[best.front()].time_ms), kBottom,
@@ -157,7 +158,7 @@ std::string legend_row(std::size_t technique, double y, const TechniquePerforman
 
 bool has_no_time(const TechniquePerformance& technique) { return technique.runs.empty(); }
 
-/// All marks, the means over the runs.
+/// All marks; means are drawn over runs.
 std::string marks(const Axes& axes, const std::vector<TechniquePerformance>& techniques) {
     std::string runs, means;
     for (std::size_t i = 0; i < techniques.size(); ++i) {

@@ -6,9 +6,9 @@
 
 namespace pellucid {
 
-/// How fast and how right a technique was.
+/// Speed and accuracy of a technique.
 struct Performance {
-    double time_ms = 0.0;   ///< of a frame, above 0
+    double time_ms = 0.0;   ///< time of a frame, above 0
     double accuracy = 0.0;  ///< 0..1
 };
 
@@ -17,17 +17,18 @@ struct TechniquePerformance {
     std::string name;  ///< valid UTF-8
     std::vector<Performance> runs;
 
-    /// Arithmetic mean over the runs; none without runs.
+    /// Arithmetic mean over the runs; empty without runs.
     std::optional<Performance> mean() const;
 };
 
-/// Indices of the elements that no other beats: none is at least as fast and as accurate, and better in one.
-/// By rising time.
+/// Indices of the Pareto-optimal elements, by ascending time: no other element is at least as fast and as accurate,
+/// and better in one of both.
 std::vector<std::size_t> pareto_frontier(const std::vector<Performance>& candidates);
 
-/// The plot as a complete SVG document, for a page or a file: time across (logarithmic), accuracy up (the remaining
-/// share is logarithmic, as 99 and 99.9% differ as much as 90 and 99%), small marks for runs, large ones for means,
-/// and the frontier of the means. Empty if no technique has a time. `accuracy_name` says what accuracy is.
+/// The plot as a complete SVG document, for a page or a file. Time is horizontal and logarithmic. Accuracy is
+/// vertical, with a logarithmic remaining share: 90 to 99% is as far as 99 to 99.9%. Small marks show runs, large
+/// marks means, and a line the frontier of the means. Empty if no technique has a time. `accuracy_name`: label of the
+/// accuracy.
 std::string frontier_svg(const std::vector<TechniquePerformance>& techniques, const std::string& accuracy_name);
 
 }  // namespace pellucid

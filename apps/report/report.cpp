@@ -53,7 +53,7 @@ const char* kind_name(PictureKind kind) {
     return "";
 }
 
-/// As text that is ASCII, whatever the names hold: readable in any encoding, and no line separator ends a string early.
+/// JSON as ASCII text for any names: readable in any encoding, and no line separator ends a string early.
 std::string script_text(const ordered_json& json) {
     return json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
 }
@@ -61,7 +61,7 @@ std::string script_text(const ordered_json& json) {
 /// The same value with every string in valid UTF-8.
 ordered_json valid_utf8(const ordered_json& json) { return ordered_json::parse(script_text(json)); }
 
-/// `name` as a part of a file name that every file system takes: the last of its folders, in lower case.
+/// Converts `name` into a part of a file name valid on every file system: its last path component, in lower case.
 std::string file_name_part(std::string_view name) {
     constexpr std::size_t kLongest = 40;
     while (name.ends_with('/')) name.remove_suffix(1);
@@ -79,7 +79,7 @@ ordered_json described(const Region& region) {
     return {{"x", region.x}, {"y", region.y}, {"size", region.size}, {"mean", region.mean}};
 }
 
-/// What the page needs for its legends: some colours of the scale, between which it interpolates.
+/// Data for the page's legends: some colours of the scale, between which the page interpolates.
 ordered_json described_scale() {
     constexpr int kColors = 33;
     const ColorScale scale;
@@ -91,7 +91,7 @@ ordered_json described_scale() {
             {"greatest_deg", kGreatestErrorDeg}};
 }
 
-/// What the plot takes as accuracy: the share of stable pixels that are right, where every run has it.
+/// Accuracy measure of the plot: the share of right stable pixels, if every run has it.
 const char* accuracy_key(const ordered_json& runs) {
     const bool stable = std::all_of(runs.begin(), runs.end(),
                                     [](const ordered_json& run) { return run.contains("within_1deg_stable"); });
@@ -122,7 +122,8 @@ std::string frontier_of(const ordered_json& runs) {
 }  // namespace
 
 Report::Report(const std::filesystem::path& folder) : folder_(folder) {
-    // Before long work: is something else called so? The page is first on the list, and so the first to be removed.
+    // Claim all names before long work, to detect conflicts. The page is first on the list, and is therefore removed
+    // first.
     for (const char* name : {kPage, kStyle, kScript, kData, kFrontier}) folder_.claim(name);
 }
 

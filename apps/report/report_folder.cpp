@@ -28,13 +28,13 @@ void make_folder(const fs::path& folder) {
     }
 }
 
-/// Whoever wrote the list, nothing outside the folder is removed for it.
+/// True if `name` lies inside the folder. Files outside are never removed, whatever the list contains.
 bool stays_inside(const fs::path& name) {
     return !name.empty() && name.is_relative() &&
            std::none_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
 }
 
-/// The names on the list; none where there is no list.
+/// The names on the list; empty if there is no list.
 std::vector<std::string> read_list(const fs::path& file) {
     std::error_code error;
     if (!fs::exists(fs::symlink_status(file, error))) return {};
@@ -52,7 +52,7 @@ std::vector<std::string> read_list(const fs::path& file) {
 
 void remove_file(const fs::path& file) {
     std::error_code error;
-    if (fs::is_directory(fs::symlink_status(file, error))) return;  // no file of ours any more
+    if (fs::is_directory(fs::symlink_status(file, error))) return;  // not a file of the report any more
     fs::remove(file, error);
     if (error && error != std::errc::not_a_directory) fail(file, "cannot remove: " + error.message());
 }
@@ -76,7 +76,7 @@ fs::path ReportFolder::claim(const std::string& name) {
     const fs::path file = path_ / name;
     if (has(name)) fail(file, "is in the way, and not of an older report; move it or choose another folder");
     make_folder(file.parent_path());
-    list_ << name << std::endl;  // on disk before the file is
+    list_ << name << std::endl;  // on disk before the file itself
     if (!list_) fail(path_ / kList, "cannot write");
     return file;
 }

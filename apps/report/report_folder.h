@@ -6,25 +6,25 @@
 
 namespace pellucid {
 
-/// A folder whose files are partly ours. A list in it, kList, names those that are, so that the next report
-/// replaces them and touches nothing else. A name is on the list before its file is written: a killed run leaves
-/// no picture that its successor would not know.
+/// A folder that contains files of a report among others. The list kList in it names the report's files, so that the
+/// next report replaces these and no others. Each name is listed before its file is written. A killed run thus leaves
+/// no unlisted file.
 class ReportFolder {
 public:
     static constexpr const char* kList = "pellucid-report.txt";
 
-    /// Makes `path`, and its parents, where missing, and removes the files of an older list, in its order. Throws
-    /// Error naming the file if that fails, or if a file called kList is no such list.
+    /// Creates `path` and its parents if missing. Removes the files of an older list, in its order. Throws Error
+    /// naming the file on failure, or if a file called kList is not such a list.
     explicit ReportFolder(const std::filesystem::path& path);
 
-    /// Path of `name` ('/' separates folders, which are made), after it was put on the list.
-    /// Throws Error if there is something of that name that was not ours.
+    /// Lists `name` ('/' separates folders, which are created) and returns its path. Throws Error if a file of that
+    /// name exists that is not the report's.
     std::filesystem::path claim(const std::string& name);
 
     /// Path of `name`.
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    /// Is there anything called `name`?
+    /// True if `name` exists in the folder.
     bool has(const std::string& name) const;
 
 private:

@@ -22,7 +22,8 @@ int region_size(int width, int height) {
 
 std::optional<Region> worst_region(const Image& map) {
     const int size = region_size(map.width, map.height);
-    // Sums over `size` rows of each column, and over `size` of those, slide along: every position costs the same.
+    // Slide sums over `size` rows of each column, and over `size` of these sums, so that every position costs the
+    // same.
     std::vector<double> columns(std::size_t(map.width), 0.0);
     for (int y = 0; y < size; ++y) add_row(columns, map, y, 1.0);
     Region worst;

@@ -9,8 +9,9 @@
 
 namespace pellucid::viewer {
 
-/// Loads one value at a time on a thread of its own. A load that is replaced or cancelled runs to its end unheard, because
-/// files cannot be left half read; therefore `load` must not refer to anything that may end before it.
+/// Loads one value at a time on its own thread. A replaced or cancelled load runs to its end and is discarded, because
+/// reading a file cannot be interrupted. `load` must therefore not refer to objects that may be destroyed before it
+/// ends.
 template <class Value>
 class BackgroundLoad {
 public:
@@ -23,12 +24,12 @@ public:
     }
     void cancel() { value_ = {}; }
     bool busy() const { return value_.valid(); }
-    /// As given to start().
+    /// The name given to start().
     const std::string& name() const { return name_; }
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-    /// The load has ended.
+    /// True if the load has ended.
     bool ready() const { return busy() && value_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
-    /// The value of a load that is ready(). Throws what `load` has thrown.
+    /// Returns the value of a load that is ready(), or throws the exception of `load`.
     Value take() { return std::exchange(value_, {}).get(); }
 
 private:

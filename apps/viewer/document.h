@@ -9,35 +9,36 @@
 
 namespace pellucid::viewer {
 
-/// A scene as a file has it, the options it was loaded with, and what follows from both.
+/// A scene as in its file, its load options, and derived data.
 struct LoadedScene {
     Scene scene;
     cli::SceneArguments how;
     Bounds bounds{};
     std::vector<AnimationInfo> animations{};
 };
-/// Throws Error.
+/// Loads a scene. Throws Error.
 LoadedScene load_document_scene(const std::string& source, const cli::SceneArguments& how);
 
 struct LoadedEnvironment {
     Environment environment;
-    std::string warning;  ///< empty: none
+    std::string warning;  ///< empty: no warning
 };
 
-/// Throws Error.
+/// Loads an environment. Throws Error.
 LoadedEnvironment load_document_environment(const std::string& name_or_file);
 
-/// A loaded scene, a loaded environment, and the look that the user gives them, with its history.
+/// A loaded scene, a loaded environment, and their look as set by the user, with its history.
 class Document {
 public:
-    /// Replaces the scene. The look keeps technique, environment and display values. Width and height: of the window.
+    /// Replaces the scene. The look keeps technique, environment and display values. `width`, `height`: of the window,
+    /// pixels.
     void show(LoadedScene loaded, std::uint32_t width, std::uint32_t height);
-    /// Replaces environment(). The look may name another one, which is yet to be loaded.
+    /// Replaces environment(). The look may already name another one that is not loaded yet.
     void show(std::string name, Environment environment);
 
     const Scene& scene() const { return loaded_.scene; }            ///< as loaded
     const Bounds& bounds() const { return loaded_.bounds; }         ///< of scene()
-    const cli::SceneArguments& how() const { return loaded_.how; }  ///< the options that scene() was loaded with
+    const cli::SceneArguments& how() const { return loaded_.how; }  ///< load options of scene()
     const std::vector<AnimationInfo>& animations() const { return loaded_.animations; }
     const Environment& environment() const { return environment_; }
     const std::string& environment_name() const { return environment_name_; }
@@ -46,12 +47,12 @@ public:
 
     Look look;
 
-    /// Makes the look a step of the history, if it differs from the last one.
+    /// Adds the look to the history if it differs from the last step.
     void commit();
-    /// False: there is nothing to undo.
+    /// Returns false if there is nothing to undo.
     bool undo();
     bool redo();
-    /// `look` fits to the scene: it has as many materials, lights and animations, and the camera.
+    /// True if the look fits the scene: equal numbers of materials and lights, an existing animation and camera.
     bool fits(const Look& other) const;
 
 private:
@@ -60,7 +61,7 @@ private:
     std::string environment_name_ = "studio";
     std::uint64_t scene_number_ = 0, environment_number_ = 1;
     std::vector<Look> history_;
-    std::size_t step_ = 0;  ///< of history_, that the look comes from
+    std::size_t step_ = 0;  ///< index into history_ of the current look
 };
 
 }  // namespace pellucid::viewer

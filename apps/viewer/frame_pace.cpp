@@ -9,11 +9,12 @@ namespace pellucid::viewer {
 namespace {
 
 constexpr std::array<float, 7> kScales{1.0f, 0.75f, 0.5f, 0.375f, 0.25f, 0.1875f, 0.125f};
-/// Below this scale details of glass are lost, and a faster technique at a larger scale shows more.
+/// Smaller scales lose details of glass; then a faster technique at a larger scale shows more.
 constexpr float kLeastOwnScale = 0.375f;
-/// Frames that have to agree before a larger scale is tried: what was slow once is not tried in each frame.
+/// Frames that must agree before a larger scale is tried, so that a scale that was too slow is not retried in every
+/// frame.
 constexpr std::size_t kCalmFrames = 6;
-/// Share of the target that a larger scale may be expected to take.
+/// Largest expected share of the target time at a larger scale.
 constexpr double kMargin = 0.85;
 
 double cost(float from, float to) { return double(to) * double(to) / (double(from) * double(from)); }
@@ -43,7 +44,7 @@ void FramePace::measured(double frame_ms) {
     times_ms_.push_back(frame_ms);
     if (times_ms_.size() > kCalmFrames) times_ms_.pop_front();
     const double ms = median_ms();
-    // One slow frame may compile shaders; two of three do not.
+    // One slow frame may have compiled shaders; two of three have not.
     if (times_ms_.size() >= 3 && ms > target_ms_) {
         const auto fits = [&](float scale) {
             return scale < pace_.scale && ms * cost(pace_.scale, scale) <= target_ms_;

@@ -15,7 +15,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// The order in which devices are preferred, as DeviceOptions::device says.
+/// Preference order of devices, as in DeviceOptions::device.
 int rank(vk::PhysicalDeviceType type) {
     switch (type) {
         case vk::PhysicalDeviceType::eDiscreteGpu:

@@ -14,10 +14,11 @@
 
 namespace pellucid::viewer {
 
-/// A Vulkan device that shows images in windows and that Pellucid draws on.
+/// A Vulkan device for Pellucid that can present to windows.
 class Gpu {
 public:
-    /// `device`: as DeviceOptions::device. `validation`: messages are collected. Needs glfwInit(). Throws DeviceError.
+    /// `device`: as DeviceOptions::device. `validation`: collect validation messages. Needs glfwInit(). Throws
+    /// DeviceError.
     Gpu(const std::string& device, bool validation);
     Gpu(const Gpu&) = delete;
     Gpu& operator=(const Gpu&) = delete;
@@ -29,10 +30,10 @@ public:
     vk::Queue queue() const { return *queue_; }
     std::uint32_t queue_family() const { return features_->queue_family(); }
     bool is_cpu() const;
-    /// To be locked around every use of the queue.
+    /// Lock it around every use of the queue.
     std::mutex& queue_mutex() { return queue_mutex_; }
     void wait_idle();
-    /// Submits commands that `record` records, and waits for them.
+    /// Submits the commands recorded by `record`, and waits for them.
     template <class Record>
     void run(const Record& record) {
         const vk::raii::CommandBuffer commands = begin();
@@ -69,11 +70,11 @@ struct DeviceImage {
     DeviceImage(const Gpu& gpu, vk::Extent2D extent, vk::Format format, vk::ImageUsageFlags usage);
 
     vk::Extent2D extent;
-    vk::raii::DeviceMemory memory = nullptr;  // outlives the image
+    vk::raii::DeviceMemory memory = nullptr;  // must outlive the image
     vk::raii::Image image = nullptr;
 };
 
-/// A buffer that the host reads and writes.
+/// A buffer that the host can read and write.
 struct HostBuffer {
     HostBuffer() = default;
     HostBuffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage);
@@ -84,15 +85,16 @@ struct HostBuffer {
     void* mapped = nullptr;
 };
 
-/// An image of format R8G8B8A8_UNORM in TRANSFER_SRC_OPTIMAL that holds `image`: RGB, 0..1.
+/// Uploads `image` (RGB, 0..1) to a new image of format R8G8B8A8_UNORM in TRANSFER_SRC_OPTIMAL.
 DeviceImage upload(Gpu& gpu, const Image& image);
 
-/// The whole image changes its layout, after everything before and before everything after.
+/// Changes the layout of the whole image, with a barrier against all earlier and later commands.
 void change_layout(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to);
 
-/// The first texels of an image of format R8G8B8A8_UNORM or B8G8R8A8_UNORM that is in TRANSFER_SRC_OPTIMAL: RGB, 0..1.
+/// Reads the first `extent` texels of an image of format R8G8B8A8_UNORM or B8G8R8A8_UNORM in TRANSFER_SRC_OPTIMAL:
+/// RGB, 0..1.
 Image read_texels(Gpu& gpu, vk::Image image, vk::Format format, vk::Extent2D extent);
-/// RGB, 0..1, of four bytes a texel.
+/// Converts four bytes per texel to RGB, 0..1.
 Image image_of(const void* texels, vk::Format format, vk::Extent2D extent);
 
 }  // namespace pellucid::viewer

@@ -4,7 +4,7 @@
 
 namespace pellucid::viewer {
 
-/// Dear ImGui in a window, from first to last use. Its own files are not written.
+/// Dear ImGui in a window, for the lifetime of this object. ImGui writes no files of its own.
 class Gui {
 public:
     Gui(Gpu& gpu, Window& window);
@@ -13,7 +13,7 @@ public:
     Gui& operator=(const Gui&) = delete;
 
     void begin_frame();
-    /// Ends the frame; nothing is drawn before record().
+    /// Ends the frame; record() draws it.
     void end_frame();
     void record(vk::CommandBuffer commands);
 

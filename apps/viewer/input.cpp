@@ -9,14 +9,14 @@
 namespace pellucid::viewer {
 namespace {
 
-constexpr float kDegreesAcross = 240.0f;  ///< turn of an orbit for a drag over the window's height
-constexpr float kLookAcross = 90.0f;      ///< turn of the view for a drag over the window's height
+constexpr float kDegreesAcross = 240.0f;  ///< degrees of orbit for a drag over the window's height
+constexpr float kLookAcross = 90.0f;      ///< degrees of view rotation for a drag over the window's height
 constexpr float kZoomStep = 1.15f;        ///< factor of one step of the wheel
-constexpr float kRadiiPerSecond = 0.8f;   ///< speed of flying
-constexpr float kMostFlySeconds = 0.1f;   ///< longest step of flying: the first frame follows a pause
-constexpr float kDividerPixels = 6.0f;    ///< where the divider can be taken
+constexpr float kRadiiPerSecond = 0.8f;   ///< flying speed
+constexpr float kMostFlySeconds = 0.1f;   ///< longest time step of flying: the first frame follows a pause
+constexpr float kDividerPixels = 6.0f;    ///< distance within which the divider can be dragged
 
-/// A camera of the file becomes an orbit camera once it is moved.
+/// The camera to move; a camera of the file becomes an orbit camera first.
 OrbitCamera& moved_camera(Document& document) {
     Look& look = document.look;
     if (!look.file_camera.empty()) {

@@ -4,15 +4,15 @@
 
 namespace pellucid::viewer {
 
-/// Moves the camera and the divider, and grants keys, from one frame to the next.
+/// Moves the camera and the divider, and handles keys, once per frame.
 class Input {
 public:
-    /// To be called between Gui::begin_frame() and Gui::end_frame(), after the panels. `inspect` gets a pixel of the window
-    /// whose ray is wanted, or a negative one where none is wanted any more.
+    /// Call it between Gui::begin_frame() and Gui::end_frame(), after the panels. `inspect` receives the window pixel
+    /// whose ray the user wants, or a negative one to remove the ray.
     void handle(Document& document, Panels& panels, Wishes& wishes, std::optional<glm::ivec2>& inspect);
-    /// A button is held that changes the look: no step of the history yet.
+    /// True while a held button changes the look, which is no step of the history yet.
     bool dragging() const { return dragging_; }
-    /// A key is held that moves the camera on.
+    /// True while a held key moves the camera.
     bool flying() const { return flying_; }
 
 private:

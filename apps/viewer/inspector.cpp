@@ -16,7 +16,7 @@ glm::vec3 primary_direction(const Camera& camera, glm::uvec2 pixel, std::uint32_
     return glm::normalize(glm::mat3(camera.world_from_view) * (camera.orthographic ? glm::vec3(0, 0, -1) : view));
 }
 
-/// The point of the first line that is nearest to the second.
+/// The point of the first line nearest to the second.
 glm::vec3 meeting_point(const glm::vec3& a, const glm::vec3& along_a, const glm::vec3& b, const glm::vec3& along_b) {
     const float cosine = glm::dot(along_a, along_b), sine_squared = 1.0f - cosine * cosine;
     if (sine_squared < 1e-12f) return b;
@@ -24,11 +24,12 @@ glm::vec3 meeting_point(const glm::vec3& a, const glm::vec3& along_a, const glm:
     return a + along_a * ((glm::dot(between, along_a) - cosine * glm::dot(between, along_b)) / sine_squared);
 }
 
-/// Position in an image of this size, pixels from the top left; z is above 0 in front of the camera.
+/// Position in an image of the given size, pixels from the top left; z is positive in front of the camera.
 glm::vec3 project(const glm::vec3& world, const Camera& camera, float width, float height) {
     const glm::vec3 view = glm::inverse(camera.world_from_view) * glm::vec4(world, 1.0f);
     const float half = camera.orthographic ? 0.5f * camera.vertical_extent
-                                           : -view.z * std::tan(0.5f * camera.vertical_fov);  // height at that depth
+                                           // half the image's height at that depth, m
+                                           : -view.z * std::tan(0.5f * camera.vertical_fov);
     const float scale = half != 0.0f ? 0.5f * height / half : 0.0f;
     return {0.5f * width + view.x * scale, 0.5f * height - view.y * scale, -view.z};
 }
@@ -53,7 +54,7 @@ InspectedRay inspect(const Tracer& tracer, const Scene& scene, const Camera& cam
     glm::vec3 from = ray.eye;
     std::uint16_t reflections = 0;
     glm::vec3 direction = ray.path.direction;
-    // A path that may have fewer events stops at the last of them.
+    // A path with fewer allowed events stops at the last one.
     for (std::uint32_t i = 1; i <= ray.path.events; ++i) {
         const bool last = i == ray.path.events;
         const RefractedPath part = last ? ray.path : trace(i);

@@ -7,24 +7,24 @@
 
 namespace pellucid::viewer {
 
-/// One interface that the ray through a pixel meets.
+/// One interface on the ray through a pixel.
 struct InspectedEvent {
     glm::vec3 position{0.0f};    ///< world, m
-    bool reflected = false;      ///< totally; otherwise refracted
-    float length = 0.0f;         ///< m, from the event before
+    bool reflected = false;      ///< true: total internal reflection; false: refraction
+    float length = 0.0f;         ///< m, from the previous event
     float length_inside = 0.0f;  ///< m, inside media so far
 };
 
-/// The path of light through the centre of one pixel, as the exact tracer finds it.
+/// The exact light path through the centre of one pixel.
 struct InspectedRay {
     glm::uvec2 pixel{0};
     std::vector<InspectedEvent> events;
     RefractedPath path;
-    glm::vec3 eye{0.0f};  ///< world, m: where the ray starts
+    glm::vec3 eye{0.0f};  ///< world, m: start of the ray
     std::string ends_on;  ///< an object's name, or "the environment"
 };
 
-/// `scene`: that of the tracer.
+/// Traces the ray of a pixel. `scene`: the scene of the tracer.
 InspectedRay inspect(const Tracer& tracer, const Scene& scene, const Camera& camera, glm::uvec2 pixel,
                      std::uint32_t width, std::uint32_t height);
 

@@ -30,22 +30,22 @@ struct LightLook {
     glm::vec3 intensity{1.0f};
     glm::vec3 position{0.0f};
     glm::vec3 direction{0.0f, 0.0f, -1.0f};
-    float size = 0.0f;  ///< radius, m; of directional lights the angular diameter, radians
+    float size = 0.0f;  ///< radius, m; for directional lights the angular diameter, radians
 
     bool operator==(const LightLook&) const = default;
 };
 LightLook look_of(const Light& light);
 void apply(const LightLook& look, Light& light);
 
-/// Everything about the image that the user can change and undo.
+/// All values of the image that the user can change and undo.
 struct Look {
-    std::string technique = RenderSettings{}.technique;  ///< or a preset
-    std::string other;                                   ///< right of the divider; empty: there is no divider
+    std::string technique = RenderSettings{}.technique;  ///< name of a technique or a preset
+    std::string other;                                   ///< technique right of the divider; empty: no divider
     float divider = 0.5f;                                ///< share of the width, 0 to 1
     ParameterMap parameters;
     View view = View::kRadiance;
-    std::string overlay;         ///< of overlay_infos(), left of the divider; empty: none
-    std::uint32_t samples = 16;  ///< of the finished image
+    std::string overlay;         ///< name from overlay_infos(), shown left of the divider; empty: none
+    std::uint32_t samples = 16;  ///< samples of the finished image
 
     ToneMap tonemap = ToneMap::kNeutral;
     float exposure_ev = 0.0f;
@@ -58,22 +58,22 @@ struct Look {
     double environment_intensity = 1.0;
 
     OrbitCamera camera;
-    std::string file_camera;              ///< of the scene, in place of `camera`; empty: none
-    std::vector<MaterialLook> materials;  ///< one for each of the scene
-    std::vector<LightLook> lights;        ///< one for each of the scene
+    std::string file_camera;              ///< camera of the scene that replaces `camera`; empty: none
+    std::vector<MaterialLook> materials;  ///< one per material of the scene
+    std::vector<LightLook> lights;        ///< one per light of the scene
     std::optional<std::size_t> animation;
-    double time_s = 0.0;  ///< of the animation
+    double time_s = 0.0;  ///< time of the animation
 
     bool operator==(const Look&) const = default;
 };
 
-/// The look of a scene as its file has it.
+/// The look of a scene as in its file.
 Look look_of(const Scene& scene);
 
-/// The settings of an image by `technique`, which is one of the two of the look.
+/// The settings of an image. `technique`: one of the look's two techniques.
 RenderSettings settings_of(const Look& look, const std::string& technique, std::uint32_t width, std::uint32_t height);
 
-/// The camera that the look shows. `bounds`: of the scene at rest.
+/// The camera of the look. `bounds`: of the scene at rest.
 Camera camera_of(const Look& look, const Scene& scene, const Bounds& bounds);
 
 std::string_view tonemap_name(ToneMap tonemap);

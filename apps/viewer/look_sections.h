@@ -6,14 +6,14 @@
 
 namespace pellucid::viewer {
 
-// Sections of the panel, each of which changes a part of the look.
+// Sections of the panel. Each changes a part of the look.
 
 void technique_section(Look& look, const Renderer& renderer);
 void camera_section(Document& document);
 void animation_section(Document& document, bool& playing, float& speed);
 void material_section(Document& document);
 void light_section(Document& document);
-/// `path` is what stands in the field for files; `wish` gets an environment to load.
+/// `path`: text of the file field; `wish` receives an environment to load.
 void environment_section(Document& document, std::string& path, std::string& wish);
 void display_section(Look& look);
 

@@ -10,9 +10,9 @@
 
 namespace pellucid::viewer {
 
-/// The command line as given; strings are parsed when the program runs, so that errors are ours.
+/// The command line as given. Strings are parsed when the program runs, so that this program reports the errors.
 struct Options {
-    std::string scene;  ///< empty: what was open last
+    std::string scene;  ///< empty: the scene of the last session
     std::optional<std::string> size;
     std::string technique = RenderSettings{}.technique;
     cli::ParameterArguments parameters;
@@ -28,15 +28,15 @@ struct Options {
     bool no_panels = false;
     bool fresh = false;
 
-    /// State is read and written: neither --fresh nor a script nor a screenshot.
+    /// True if state is read and written: without --fresh, script and screenshot.
     bool keeps_state() const { return !fresh && script.empty() && screenshot.empty(); }
     bool environment_given() const { return app->count("--environment") > 0; }
-    /// Throws Error for what no scene makes right.
+    /// Throws Error for values that are invalid for any scene.
     void check() const;
-    /// Puts what was given into the look of the document, except for the environment.
+    /// Applies the given options to the look of the document, except for the environment.
     void apply(Document& document) const;
 
-    const CLI::App* app = nullptr;  ///< tells what was given
+    const CLI::App* app = nullptr;  ///< knows which options were given
 };
 void add_options(CLI::App& app, Options& options);
 

@@ -18,8 +18,7 @@ OrbitCamera framing_orbit(const Bounds& bounds, std::uint32_t width, std::uint32
     const float fov = glm::radians(fov_deg);
     const Camera framing = framing_camera(bounds, width, height, fov);
     OrbitCamera orbit{.target = bounds.center, .fov_deg = fov_deg};
-    // framing_camera() has this share of the height, and less where the image is narrow. A narrower image has a distance in
-    // proportion, which only the camera knows.
+    // Only framing_camera() knows the distance: the scene's share of the height shrinks in narrow images.
     orbit.distance = bounds.radius > 0.0f
                          ? glm::distance(glm::vec3(framing.world_from_view[3]), bounds.center) / bounds.radius
                          : 3.0f;
@@ -60,7 +59,8 @@ void zoom(OrbitCamera& orbit, float factor) { orbit.distance = limited(orbit.dis
 void pan(OrbitCamera& orbit, const Bounds& bounds, float right, float down) {
     const glm::mat4 world_from_view = camera_of(orbit, bounds).world_from_view;
     const float height =
-        2.0f * orbit.distance * bounds.radius * std::tan(0.5f * glm::radians(orbit.fov_deg));  // at the target
+        // height at the target, m
+        2.0f * orbit.distance * bounds.radius * std::tan(0.5f * glm::radians(orbit.fov_deg));
     orbit.target += height * (down * glm::vec3(world_from_view[1]) - right * glm::vec3(world_from_view[0]));
 }
 

@@ -107,12 +107,12 @@ double Panels::seconds_to_change() const {
     return std::max(0.0, message_until_s_ - ImGui::GetTime());
 }
 
-/// The panel stands at the left. Messages and keys stand beside it. Narrow windows have messages below the panel, and keys
-/// in its stead.
+/// Draws the panel at the left, with messages and keys beside it. In narrow windows messages are below the panel, and
+/// keys replace it.
 void Panels::draw(Document& document, const Facts& facts, Wishes& wishes) {
     if (!message_is_error_ && ImGui::GetTime() >= message_until_s_) message_.clear();
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    if (screen.x < kLeastScreen || screen.y < kLeastScreen) return;  // windows would shrink with it, and stay so
+    if (screen.x < kLeastScreen || screen.y < kLeastScreen) return;  // ImGui windows would shrink permanently
     const bool has_scene = document.scene_number() > 0, has_message = !message_.empty() || facts.loading;
     const bool wants_panel = visible && has_scene;
     const bool covers_left = wants_panel && !collapsed_;
@@ -210,7 +210,7 @@ void Panels::draw_help(Strip strip, float height) {
     ImGui::Begin("Keys", &help,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
     if (ImGui::BeginTable("keys", 2)) {
-        // A window that fits its contents asks them for their width.
+        // An auto-sized window takes its width from its contents, so set it explicitly.
         const float text = width - 2.0f * ImGui::GetStyle().WindowPadding.x - ImGui::GetStyle().ScrollbarSize;
         ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 0.42f * text);
         ImGui::TableSetupColumn("does", ImGuiTableColumnFlags_WidthFixed, 0.53f * text);

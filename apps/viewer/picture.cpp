@@ -15,8 +15,7 @@ Picture::Picture(Gpu& gpu, vulkan::Frames& frames) : gpu_(gpu), frames_(frames) 
 bool Picture::stays_equal(const RenderSettings& s) const {
     return wanted_ && wanted_->width == s.width && wanted_->height == s.height && wanted_->technique == s.technique &&
            wanted_->parameters == s.parameters && wanted_->view == s.view && wanted_->samples == s.samples &&
-           wanted_->tonemap == s.tonemap && wanted_->exposure_ev == s.exposure_ev &&
-           wanted_->light == s.light;
+           wanted_->tonemap == s.tonemap && wanted_->exposure_ev == s.exposure_ev && wanted_->light == s.light;
 }
 
 void Picture::want(const RenderSettings& settings, bool moving, std::uint64_t revision) {
@@ -69,7 +68,7 @@ void Picture::submit(const std::function<void()>& wait_for_reads) {
     RenderSettings settings = *wanted_;
     Pace pace{};
     if (moving_) {
-        if (shown_ && shown_generation_ == generation_) return;  // nothing has changed since
+        if (shown_ && shown_generation_ == generation_) return;  // already up to date
         pace = pace_.pace();
         settings.width = scaled(settings.width, pace.scale);
         settings.height = scaled(settings.height, pace.scale);
@@ -80,7 +79,7 @@ void Picture::submit(const std::function<void()>& wait_for_reads) {
             settings.parameters.clear();
         }
     }
-    // One of the three images is shown, and the window may still read the one before it.
+    // One of the three images is shown, and the window may still read the previous one.
     std::size_t target = 0;
     while (shown_ == target) ++target;
     DeviceImage& image = targets_[target];

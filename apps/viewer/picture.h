@@ -16,42 +16,43 @@
 
 namespace pellucid::viewer {
 
-/// Facts about the image that a Picture shows.
+/// Facts about the image of a Picture.
 struct PictureInfo {
     std::uint32_t samples = 0, samples_wanted = 0;
-    bool moving = false;             ///< drawn while something moved
+    bool moving = false;             ///< drawn during motion
     Pace pace{};                     ///< resolution and technique
-    std::uint64_t pace_changes = 0;  ///< so far
-    double frame_ms = 0.0;           ///< from its submission until the viewer knew that it had run
-    double still_ms = 0.0;           ///< from the first submission of the last finished image to its last sample
+    std::uint64_t pace_changes = 0;  ///< changes of the pace so far
+    double frame_ms = 0.0;           ///< time from submission until the viewer noticed completion
+    double still_ms = 0.0;           ///< time from the first submission of the last finished image to its last sample
     std::vector<PassTime> passes;
     std::vector<std::string> warnings;
     std::vector<std::string> overflows;
 };
 
-/// Draws the scene of a renderer by one technique, into images that a window shows: while something moves at a lower
-/// resolution, then sample by sample.
+/// Draws the scene of a renderer with one technique, into images for a window: during motion at a lower resolution,
+/// then sample by sample.
 class Picture {
 public:
-    /// Frames may be shared by several pictures, which take turns: one of them is finished before the next begins.
+    /// Several pictures may share `frames` in turns: one must finish before the next begins.
     Picture(Gpu& gpu, vulkan::Frames& frames);
 
-    /// Sets what the image shows. `revision` ascends when the scene, its camera or its environment change.
+    /// Sets the wanted image. `revision` increases when the scene, its camera or its environment changes.
     void want(const RenderSettings& settings, bool moving, std::uint64_t revision);
-    /// Takes what has been drawn. True: there is another image to show. Throws Error for what cannot be drawn.
+    /// Takes a finished frame. Returns true if there is a new image to show. Throws Error if the image cannot be
+    /// drawn.
     bool take();
-    /// Lets the next frame be drawn, if there is one to draw and none in flight. `wait_for_reads` waits until nothing reads
-    /// images that were shown before.
+    /// Submits the next frame, if one is needed and none is in flight. `wait_for_reads` waits until previously shown
+    /// images are no longer read.
     void submit(const std::function<void()>& wait_for_reads);
     /// Waits for the frame in flight.
     void finish();
     bool in_flight() const { return flight_.has_value(); }
-    /// The image has everything that was wanted, or cannot be drawn.
+    /// True if the wanted image is complete, or cannot be drawn.
     bool still() const;
 
     bool has_image() const { return shown_.has_value(); }
     vk::Image image() const { return *targets_[*shown_].image; }
-    vk::Extent2D extent() const { return shown_extent_; }  ///< the image's first texels
+    vk::Extent2D extent() const { return shown_extent_; }  ///< the image occupies these first texels
     Image read(Gpu& gpu) const;
     const PictureInfo& info() const { return info_; }
 
@@ -75,14 +76,14 @@ private:
     std::optional<RenderSettings> wanted_;
     bool moving_ = false;
     std::uint64_t revision_ = 0;
-    std::uint64_t generation_ = 0;  ///< ascends with whatever makes another image
+    std::uint64_t generation_ = 0;  ///< increases with every change that requires a new image
     std::optional<Flight> flight_;
     std::optional<std::size_t> shown_;
     vk::Extent2D shown_extent_;
     std::uint64_t shown_generation_ = 0;
     bool shown_still_ = false;
     std::uint64_t failed_generation_ = 0;
-    Clock::time_point still_start_{};  ///< of the first sample of the finished image
+    Clock::time_point still_start_{};  ///< submission of the first sample of the finished image
     PictureInfo info_;
 };
 

@@ -32,12 +32,12 @@ OrbitCamera camera_of(const Json& json) {
     camera.target = vec3_of(json.at("target"));
     turn(camera, json.at("azimuth_deg").get<float>(), json.at("elevation_deg").get<float>() - camera.elevation_deg);
     camera.distance = json.at("distance").get<float>();
-    zoom(camera, 1.0f);  // within its limits
+    zoom(camera, 1.0f);  // clamps the distance to its limits
     camera.fov_deg = std::clamp(json.at("fov_deg").get<float>(), 1.0f, 170.0f);
     return camera;
 }
 
-// JSON has no infinity: null stands for it.
+// null represents infinity, which JSON does not have.
 Json material_json(const MaterialLook& m) {
     Json json{{"ior", m.ior},
               {"dispersion", m.dispersion},
@@ -140,7 +140,7 @@ std::filesystem::path state_file() {
     const char* state = std::getenv("XDG_STATE_HOME");
     const char* home = std::getenv("HOME");
     std::filesystem::path folder;
-    if (state != nullptr && *state == '/')  // others are to be ignored, says the specification
+    if (state != nullptr && *state == '/')  // the specification requires ignoring relative paths
         folder = state;
     else if (home != nullptr && *home != '\0')
         folder = std::filesystem::path(home) / ".local/state";

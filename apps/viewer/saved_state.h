@@ -8,9 +8,9 @@
 
 namespace pellucid::viewer {
 
-/// The state that the viewer keeps between two starts.
+/// The state that the viewer stores between sessions.
 struct SavedState {
-    std::string scene;  ///< as load_scene() takes it
+    std::string scene;  ///< source for load_scene()
     std::uint32_t width = 960, height = 540;
     bool panels = true;
     Look look;
@@ -20,7 +20,7 @@ struct SavedState {
 std::filesystem::path state_file();
 
 std::string to_json(const SavedState& state);
-/// Missing values keep their defaults. Throws Error for text that no viewer has written.
+/// Parses a saved state; missing values keep their defaults. Throws Error for text that is no saved state.
 SavedState from_json(const std::string& text);
 
 }  // namespace pellucid::viewer

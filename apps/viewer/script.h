@@ -14,11 +14,11 @@ struct ScriptLine {
     std::vector<std::string> arguments;
 };
 
-/// The lines of a script. Words are separated by blanks; double quotes keep blanks inside of a word; `#` starts a comment.
-/// Throws Error naming the line for unknown commands, a wrong number of arguments and quotes that are not closed.
+/// Parses a script into lines. Blanks separate words; double quotes enclose words with blanks; `#` starts a comment.
+/// Throws Error naming the line for unknown commands, wrong numbers of arguments and unclosed quotes.
 std::vector<ScriptLine> parse_script(const std::string& text);
 
-/// The arguments of a line that are numbers. Throws Error naming the line.
+/// A numeric argument of a line. Throws Error naming the line.
 double number_at(const ScriptLine& line, std::size_t argument);
 
 }  // namespace pellucid::viewer

@@ -17,10 +17,10 @@
 namespace pellucid::viewer {
 namespace {
 
-/// The viewer sees what the line before has changed only in its next turns.
+/// Turns until the viewer has noticed the changes of the previous line.
 constexpr int kTurnsToNotice = 3;
 
-/// All other commands wait for what is being loaded.
+/// Commands that do not wait for loading.
 constexpr std::string_view kWhileLoading[]{"cancel", "mark", "screenshot", "wait"};
 
 bool on_off(const std::string& word) {
@@ -99,7 +99,7 @@ void set_camera(const std::string& name, Document& document) {
     throw Error(fmt::format("unknown camera '{}'", name));
 }
 
-/// Lines that change the look. False: the line is another.
+/// Runs lines that change the look. Returns false for other lines.
 bool change_look(const ScriptLine& line, Viewer& viewer) {
     Document& document = viewer.document();
     Look& look = document.look;
@@ -160,7 +160,7 @@ bool change_look(const ScriptLine& line, Viewer& viewer) {
     return true;
 }
 
-/// Lines about the window, and files that are written. False: the line is another.
+/// Runs lines about the window and output files. Returns false for other lines.
 bool use_window(const ScriptLine& line, Viewer& viewer) {
     const auto& words = line.arguments;
     const std::string& command = line.command;
@@ -224,7 +224,7 @@ void ScriptRunner::step(Viewer& viewer) {
     }
 }
 
-/// False: the line waits.
+/// Runs a line. Returns false if it must wait.
 bool ScriptRunner::run(const ScriptLine& line, Viewer& viewer) {
     const bool any_time = std::ranges::find(kWhileLoading, line.command) != std::end(kWhileLoading);
     if (viewer.loading() && !any_time) return false;

@@ -10,13 +10,13 @@
 
 namespace pellucid::viewer {
 
-/// Runs a script in a viewer, between the turns of its loop.
+/// Runs a script in a viewer, between turns of its loop.
 class ScriptRunner {
 public:
-    /// `name`: of the file, for messages.
+    /// `name`: file name, for messages.
     ScriptRunner(std::vector<ScriptLine> lines, std::string name) : lines_(std::move(lines)), name_(std::move(name)) {}
 
-    /// Runs lines up to one that waits. Throws Error naming the line for what cannot be done.
+    /// Runs lines until one must wait. Throws Error naming the line on failure.
     void step(Viewer& viewer);
     bool done() const { return next_ == lines_.size(); }
 
@@ -29,7 +29,7 @@ private:
     std::size_t next_ = 0;
     std::optional<std::uint64_t> waits_for_frame_;
     std::optional<std::chrono::steady_clock::time_point> waits_until_;
-    int turns_ = 0;  ///< that the line has waited for
+    int turns_ = 0;  ///< turns that the current line has waited
 };
 
 }  // namespace pellucid::viewer

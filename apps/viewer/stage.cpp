@@ -8,7 +8,7 @@
 namespace pellucid::viewer {
 namespace {
 
-/// Replaces placements and vertices of the pose by those of the scene at rest.
+/// Resets placements and vertices of the pose to the scene at rest.
 void rest(const Scene& scene, Pose& pose) {
     for (PosedObject& object : pose.objects)
         object.world_from_object = scene.objects[std::size_t(object.object)].world_from_object;
@@ -39,7 +39,7 @@ bool Stage::apply(const Document& document, const std::function<void()>& before_
 bool Stage::apply_scene(const Document& document, const std::function<void()>& before_scene) {
     if (scene_number_ == document.scene_number()) return false;
     before_scene();
-    scene_number_ = 0;  // a renderer that fails to take a scene has none
+    scene_number_ = 0;  // a renderer that fails to set a scene has none
     renderer_.set_scene(document.scene());
     scene_ = document.scene();
     scene_number_ = document.scene_number();
@@ -69,7 +69,7 @@ bool Stage::apply_lights(const Look& look) {
     return changed;
 }
 
-/// Takes the scene to the pose of the look, or back to rest.
+/// Moves the scene to the pose of the look, or back to rest.
 bool Stage::apply_pose(const Document& document) {
     const Look& look = document.look;
     const std::optional<std::size_t> before = applied_ ? applied_->animation : std::nullopt;
@@ -80,7 +80,7 @@ bool Stage::apply_pose(const Document& document) {
         return std::exchange(scene_.objects[std::size_t(each.object)].world_from_object, each.world_from_object) ==
                each.world_from_object;
     });
-    // Objects that are scaled to nothing have no inverse. They keep their last placement.
+    // Objects with a singular transform have no inverse; they keep their last placement.
     std::erase_if(pose.objects, [](const PosedObject& each) {
         return !(std::abs(glm::determinant(glm::mat3(each.world_from_object))) > 0.0f);
     });

@@ -11,16 +11,17 @@
 
 namespace pellucid::viewer {
 
-/// Gives a renderer what a document shows: only what has changed since the last time.
+/// Transfers a document to a renderer, limited to changes since the last call.
 class Stage {
 public:
     explicit Stage(Renderer& renderer) : renderer_(renderer) {}
 
-    /// `before_scene` is called before Renderer::set_scene(): no frame may be unread then. True: something has changed.
+    /// Returns true if anything changed. Calls `before_scene` before Renderer::set_scene(); after it, no frame may be
+    /// unread.
     bool apply(const Document& document, const std::function<void()>& before_scene);
-    /// The scene as it is drawn.
+    /// The scene as drawn.
     const Scene& scene() const { return scene_; }
-    /// The camera as it is drawn.
+    /// The camera as drawn.
     const Camera& camera() const { return camera_; }
 
 private:
@@ -35,7 +36,7 @@ private:
     Camera camera_;
     std::uint64_t scene_number_ = 0, environment_number_ = 0;
     std::pair<float, float> turned_{0.0f, 1.0f};  ///< rotation and intensity of the environment
-    std::optional<Look> applied_;                 ///< none: a scene is new
+    std::optional<Look> applied_;                 ///< empty after a new scene
 };
 
 }  // namespace pellucid::viewer

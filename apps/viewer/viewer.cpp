@@ -18,16 +18,16 @@
 namespace pellucid::viewer {
 namespace {
 
-/// After the last change the image is still taken to move for so long.
+/// Time after the last change during which the image still counts as moving.
 constexpr std::chrono::milliseconds kSettle{200};
-constexpr double kPollSeconds = 0.002;  ///< while there is something to do
+constexpr double kPollSeconds = 0.002;  ///< while there is work
 constexpr double kMinimizedSeconds = 0.02;
 constexpr double kIdleSeconds = 0.5;
 constexpr std::size_t kFrameTimes = 120;
 constexpr double kLoadingSeconds = 0.03;
 constexpr std::chrono::milliseconds kLoadingRedraw{100};
 
-/// The parameters that the technique has; others belong to the other side of the divider.
+/// The subset of parameters that the technique has; others belong to the technique on the other side of the divider.
 ParameterMap own_parameters(const ParameterMap& given, const TechniqueInfo& technique) {
     ParameterMap own;
     for (const ParameterInfo& info : technique.parameters) {
@@ -45,7 +45,7 @@ Viewer::Viewer(const cli::DeviceArguments& device, std::uint32_t width, std::uin
 
 Viewer::~Viewer() {
     try {
-        finish_pictures();  // a frame in flight writes to images that are destroyed before the renderer
+        finish_pictures();  // frames in flight write to images that are destroyed before the renderer
     } catch (...) {
         std::fputs("pellucid-view: the last frame failed\n", stderr);
     }
@@ -89,7 +89,7 @@ void Viewer::inspect(glm::ivec2 pixel) {
     ray_.reset();
     const vk::Extent2D extent = window_.extent();
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= int(extent.width) || pixel.y >= int(extent.height)) return;
-    finish_pictures();  // the tracer is the renderer's
+    finish_pictures();  // the tracer belongs to the renderer
     ray_ = viewer::inspect(renderer_.tracer(), stage_.scene(), stage_.camera(), glm::uvec2(pixel), extent.width,
                            extent.height);
     turns_to_draw_ = kLateTurns;
@@ -119,7 +119,7 @@ void Viewer::finish_pictures() {
     right_.finish();
 }
 
-/// Tells the renderer and the pictures what has changed.
+/// Passes all changes to the renderer and the pictures.
 void Viewer::update_pictures() {
     const vk::Extent2D extent = window_.extent();
     if (extent.width == 0 || extent.height == 0 || document_.scene_number() == 0) return;
@@ -129,7 +129,7 @@ void Viewer::update_pictures() {
         ray_.reset();
     }
     Look seen = look;
-    seen.divider = seen_.divider;  // moves over images that stay
+    seen.divider = seen_.divider;  // the divider moves over unchanged images
     if (!(seen == seen_) || extent != seen_extent_) {
         moved_at_ = Clock::now();
         if (!changed_at_) changed_at_ = moved_at_;
@@ -145,20 +145,21 @@ void Viewer::update_pictures() {
     if (!look.other.empty()) want(right_, look.other);
 }
 
-/// True: there is another image to show.
+/// Takes finished frames. Returns true if there is a new image to show.
 bool Viewer::take_pictures() {
     bool another = false;
     for (Picture* picture : {&left_, &right_}) {
         if (!picture->take()) continue;
         ++frames_;
-        // The next change follows what is seen of this one, however slow the device is.
+        // Restart the delay when this image appears, so that slow devices show it before the next change.
         if (picture->info().moving) moved_at_ = Clock::now();
         if (picture == &left_) {
             response_to_ = std::exchange(shows_change_of_, std::nullopt);
             frame_times_ms_.push_back(float(picture->info().frame_ms));
             if (frame_times_ms_.size() > kFrameTimes) frame_times_ms_.pop_front();
         }
-        // Showing a sample costs as much as drawing one does on small devices: show those that change much.
+        // On small devices, showing a sample costs as much as drawing it: show only samples that change the image
+        // noticeably.
         const PictureInfo& info = picture->info();
         another |= info.samples_wanted == 1 || std::has_single_bit(info.samples) || info.samples == info.samples_wanted;
     }
@@ -172,7 +173,7 @@ void Viewer::submit_pictures() {
         left_.submit(wait_for_reads);
         return;
     }
-    // Frames add samples to one picture at a time. While something moves, each picture is of one sample.
+    // Frames accumulate one image at a time. During motion each image has one sample.
     if (moving())
         left_turn_ = !left_turn_;
     else
@@ -180,7 +181,8 @@ void Viewer::submit_pictures() {
     (left_turn_ ? left_ : right_).submit(wait_for_reads);
 }
 
-/// Draws the overlay anew where the image under it has changed, once that is finished. True: there is another one to show.
+/// Redraws the overlay once the image under it has changed and is complete. Returns true if the overlay to show has
+/// changed.
 bool Viewer::update_overlay() {
     const Look& look = document_.look;
     const bool wanted = !look.overlay.empty() && !moving() && left_.still() && left_.has_image();
@@ -194,7 +196,7 @@ bool Viewer::update_overlay() {
     settings.parameters = own_parameters(look.parameters, *renderer_.choose(look.technique).technique);
     window_.wait_for_reads();
     overlay_ = {};
-    frames_of_renderer_.restart();  // Renderer::render() uses what the samples so far are kept in
+    frames_of_renderer_.restart();  // Renderer::render() overwrites the accumulated samples
     overlay_ = upload(gpu_, draw_overlay(look.overlay, renderer_, stage_.camera(), document_.bounds(), settings));
     return true;
 }
@@ -271,7 +273,7 @@ void Viewer::grant(const Wishes& wishes) {
     if (wishes.close) window_.close();
 }
 
-/// Seconds that a turn may wait for an event.
+/// Longest wait of a turn for an event, s.
 double Viewer::patience_s(bool wait) const {
     if (window_.extent().width == 0) return kMinimizedSeconds;
     if (!wait || turns_to_draw_ > 0 || !pictures_still()) return kPollSeconds;
@@ -304,7 +306,7 @@ void Viewer::turn(bool wait) {
     longest_turn_ms_ = std::max(longest_turn_ms_, turn_ms);
 }
 
-/// Draws the window and does what was asked for in its panels, by keys and by the pointer.
+/// Draws the window, and executes requests of panels, keys and pointer.
 void Viewer::draw_and_listen() {
     drawn_at_ = Clock::now();
     Wishes wishes;

@@ -17,17 +17,17 @@
 
 namespace pellucid::viewer {
 
-/// Called inside of a catch block with the message of an error. Empty: the message is shown in the window.
+/// Called inside a catch block with an error's message. Empty: the window shows the message.
 using OnFailure = std::function<void(const std::string& why)>;
 
-/// How a scene is opened.
+/// Arguments of opening a scene.
 struct Opening {
     cli::SceneArguments how{};
-    std::function<void()> then{};  ///< called once the scene is shown; empty: nothing
+    std::function<void()> then{};  ///< called once the scene is shown; may be empty
     OnFailure failed{};
 };
 
-/// The window, the renderer and the document, and one turn of the loop that ties them.
+/// The window, the renderer and the document, and one turn of the main loop.
 class Viewer {
 public:
     Viewer(const cli::DeviceArguments& device, std::uint32_t width, std::uint32_t height);
@@ -39,8 +39,8 @@ public:
     Gpu& gpu() { return gpu_; }
     const PictureInfo& info() const { return left_.info(); }
 
-    /// Opens a scene (model, shape, volume) or an environment in the background. It replaces one that is still being loaded.
-    /// Until it is there, and if it cannot be opened, the old one stays.
+    /// Opens a scene (model, shape, volume) or an environment in the background, and replaces any pending load. The
+    /// current one stays until then, and on failure.
     void open(const std::string& source, Opening opening = {});
     void open_environment(const std::string& name_or_file, OnFailure failed = {});
     void cancel_loading();
@@ -50,23 +50,23 @@ public:
     void frame();
     void inspect(glm::ivec2 window_pixel);
 
-    /// Handles events and draws what there is to draw. `wait`: waits a while for an event where there is nothing to do.
+    /// Handles events and draws if necessary. `wait`: without work, wait a while for an event.
     void turn(bool wait);
-    /// Nothing moves, and the image has all of its samples.
+    /// True if nothing moves and the image has all its samples.
     bool still() const;
-    /// The pixels of the window, RGB 0..1. Empty where it has none.
+    /// The pixels of the window, RGB 0..1; empty for a window without pixels.
     Image screenshot();
     /// The image without panels, RGB 0..1.
     Image image();
     std::string command_line();
 
-    std::uint64_t frames() const { return frames_; }  ///< images drawn so far
-    /// Vulkan objects that the renderer has made so far.
+    std::uint64_t frames() const { return frames_; }  ///< number of frames drawn so far
+    /// Vulkan objects that the renderer has created so far.
     vulkan::Made made() const { return frames_of_renderer_.made(); }
-    /// The longest time since the last call that the window did not handle events.
+    /// Longest time without event handling since the last call, ms.
     double take_longest_turn_ms() { return std::exchange(longest_turn_ms_, 0.0); }
     const std::deque<float>& frame_times_ms() const { return frame_times_ms_; }
-    /// From a change of the look until the window has an image of it, of the last changes.
+    /// Latencies of the last changes of the look until the window showed them, ms.
     const std::deque<float>& response_times_ms() const { return response_times_ms_; }
 
 private:
@@ -104,10 +104,10 @@ private:
     Panels panels_;
     Input input_;
     Picture left_, right_;
-    bool left_turn_ = true;  ///< whose frame comes next where there is a divider
+    bool left_turn_ = true;  ///< with a divider: the left picture draws next
 
     DeviceImage overlay_;
-    std::optional<Look> overlay_look_;  ///< that the overlay is of; none: there is none
+    std::optional<Look> overlay_look_;  ///< the overlay's look; empty: no overlay
     std::uint64_t overlay_revision_ = 0;
 
     BackgroundLoad<LoadedScene> scene_load_;
@@ -115,18 +115,18 @@ private:
     Opening opening_;
     OnFailure environment_failed_;
 
-    Look seen_;  ///< of the last turn
+    Look seen_;  ///< look of the last turn
     vk::Extent2D seen_extent_;
     Clock::time_point moved_at_{}, turned_at_ = Clock::now(), drawn_at_{};
     double longest_turn_ms_ = 0.0;
     std::uint64_t revision_ = 0;
     std::uint64_t frames_ = 0;
     std::deque<float> frame_times_ms_;
-    /// When the look changed: of what no frame is in flight yet, of the frame in flight, and of the frame to be shown.
+    /// Time of a change of the look: not yet in flight, in flight, and about to be shown.
     std::optional<Clock::time_point> changed_at_, shows_change_of_, response_to_;
     std::deque<float> response_times_ms_;
     std::optional<InspectedRay> ray_;
-    static constexpr int kLateTurns = 3;  ///< Dear ImGui shows some things a few frames late
+    static constexpr int kLateTurns = 3;  ///< Dear ImGui shows some changes a few frames late
     int turns_to_draw_ = kLateTurns;
 };
 

@@ -52,11 +52,11 @@ std::optional<LoadingProgress> Viewer::progress() const {
     return LoadingProgress{document_.look.environment, environment_load_.seconds()};
 }
 
-/// Shows what has been loaded since the last turn.
+/// Shows files whose loading has finished since the last turn.
 void Viewer::take_loaded() {
     load_environment();
     if (!scene_load_.ready()) return;
-    const Opening opening = std::exchange(opening_, {});  // functions of it may open another file
+    const Opening opening = std::exchange(opening_, {});  // its functions may open another file
     attempt(
         [&] {
             show(scene_load_.take());
@@ -65,7 +65,7 @@ void Viewer::take_loaded() {
         opening.failed);
 }
 
-/// Loads the environment that the look names. Undo changes that name, too.
+/// Loads the environment named by the look, which undo may change too.
 void Viewer::load_environment() {
     const std::string wanted = document_.look.environment;
     if (wanted == document_.environment_name()) return;
@@ -92,7 +92,7 @@ void Viewer::show(LoadedScene loaded) {
     try {
         stage_.apply(document_, [&] { finish_pictures(); });
     } catch (...) {
-        document_ = std::move(before);  // the device cannot hold the new scene
+        document_ = std::move(before);  // the device cannot allocate the new scene
         throw;
     }
     ++revision_;

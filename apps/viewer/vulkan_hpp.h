@@ -1,5 +1,5 @@
 #pragma once
 
-// The one place of the viewer that configures Vulkan-Hpp.
+// The viewer configures Vulkan-Hpp here only.
 #define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS
 #include <vulkan/vulkan_raii.hpp>

@@ -36,7 +36,7 @@ Window::Window(Gpu& gpu, const std::string& title, std::uint32_t width, std::uin
     window_ = glfwCreateWindow(int(width), int(height), title.c_str(), nullptr, nullptr);
     if (window_ == nullptr) throw Error(fmt::format("no window can be opened: {}", glfw_error()));
     glfwSetWindowUserPointer(window_, this);
-    // Dear ImGui, which comes later, calls these from its own.
+    // Dear ImGui, initialised later, chains to these callbacks.
     glfwSetDropCallback(window_, [](GLFWwindow* handle, int count, const char** paths) {
         Window& self = window_of(handle);
         self.dropped_.insert(self.dropped_.end(), paths, paths + count);
@@ -124,7 +124,7 @@ void Window::make_frames() {
     }
 }
 
-/// False: the window has no pixels.
+/// Returns false if the window has no pixels.
 bool Window::make_swapchain() {
     gpu_.wait_idle();
     const vk::SurfaceCapabilitiesKHR can = gpu_.physical().getSurfaceCapabilitiesKHR(*surface_);
@@ -189,7 +189,7 @@ void Window::draw(std::span<const ShownImage> images, const std::function<void(v
     wait_for(frame);
     std::uint32_t index = 0;
     for (int attempt = 0;; ++attempt) {
-        if (attempt == 4) return;  // the window changes faster than it can be drawn: the next frame is soon
+        if (attempt == 4) return;  // the window changes faster than it can be drawn; the next frame follows soon
         if ((stale_ || now != extent_) && !make_swapchain()) return;
         try {
             index = swapchain_.acquireNextImage(UINT64_MAX, *frame.acquired).second;
@@ -242,7 +242,7 @@ void Window::record(const Frame& frame, const SwapImage& to, std::span<const Sho
     commands.clearColorImage(to.image, Layout::eTransferDstOptimal, vk::ClearColorValue{},
                              vk::ImageSubresourceRange{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1});
     for (const ShownImage& each : images) {
-        // Waits for what drew the image and for the image before, which may lie below.
+        // Wait for the drawing of the image, and for the previous image, which may lie below it.
         change_layout(commands, each.image, Layout::eTransferSrcOptimal, Layout::eTransferSrcOptimal);
         change_layout(commands, to.image, Layout::eTransferDstOptimal, Layout::eTransferDstOptimal);
         const auto corners = [](const vk::Rect2D& r) {
@@ -251,7 +251,7 @@ void Window::record(const Frame& frame, const SwapImage& to, std::span<const Sho
                 vk::Offset3D{r.offset.x + std::int32_t(r.extent.width), r.offset.y + std::int32_t(r.extent.height), 1}};
         };
         const std::array to_corners = corners(each.where);
-        // While the window is being resized, images may be larger than it.
+        // During a resize, images may be larger than the window.
         if (to_corners[1].x > std::int32_t(extent_.width) || to_corners[1].y > std::int32_t(extent_.height)) continue;
         if (each.from.extent.width == 0 || each.from.extent.height == 0) continue;
         if (each.where.extent.width == 0 || each.where.extent.height == 0) continue;

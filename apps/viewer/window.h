@@ -13,7 +13,7 @@ struct GLFWwindow;
 
 namespace pellucid::viewer {
 
-/// GLFW, from first to last use. Throws Error if there is no display.
+/// GLFW, for the lifetime of this object. Throws Error if there is no display.
 class Glfw {
 public:
     Glfw();
@@ -44,9 +44,9 @@ public:
     void resize(std::uint32_t width, std::uint32_t height);
     void minimize();
     void restore();
-    /// Handles events that have come, after waiting for one for so long at most. True: there were some.
+    /// Handles pending events, after waiting up to `wait_s` seconds for one. Returns true if there were any.
     bool handle_events(double wait_s);
-    /// Pixels; 0 by 0: minimised.
+    /// Size in pixels; 0 by 0 if minimised.
     vk::Extent2D extent() const;
     /// Files dropped since the last call.
     std::vector<std::filesystem::path> take_dropped();
@@ -54,11 +54,12 @@ public:
     vk::RenderPass overlay_pass() const { return *overlay_pass_; }
     std::uint32_t image_count() const { return std::uint32_t(images_.size()); }
 
-    /// Shows the images on black, and above them what `overlay` records inside of overlay_pass(). Waits for the window's
-    /// frame before the last. Nothing happens where the window has no pixels. `capture`: gets what the window shows, RGB 0..1.
+    /// Draws the images on black, and over them the commands of `overlay`, recorded inside overlay_pass(). Waits for
+    /// the window's frame before the last. Does nothing if the window has no pixels. `capture` receives the window's
+    /// content, RGB 0..1.
     void draw(std::span<const ShownImage> images, const std::function<void(vk::CommandBuffer)>& overlay,
               Image* capture = nullptr);
-    /// Waits until the device has read the images of all draw() before.
+    /// Waits until the device has read the images of all earlier draw() calls.
     void wait_for_reads();
 
 private:
@@ -88,8 +89,8 @@ private:
     vk::Format format_ = vk::Format::eB8G8R8A8Unorm;
     vk::raii::RenderPass overlay_pass_ = nullptr;
     vk::raii::SwapchainKHR swapchain_ = nullptr;
-    vk::Extent2D extent_;  ///< of the swapchain
-    bool stale_ = true;    ///< the swapchain no longer fits
+    vk::Extent2D extent_;  ///< extent of the swapchain
+    bool stale_ = true;    ///< the swapchain does not match the window
     std::vector<SwapImage> images_;
     vk::raii::CommandPool pool_ = nullptr;
     std::vector<Frame> frames_;
