@@ -1,12 +1,12 @@
 #ifndef PELLUCID_LIGHT_IRRADIANCE_LOOKUP_GLSL
 #define PELLUCID_LIGHT_IRRADIANCE_LOOKUP_GLSL
 
-// Irradiance from the cache.
+// Look-ups of irradiance in the cache.
 #include "light/irradiance_cells.glsl"
 
 layout(std430, set = 0, binding = 55) readonly buffer IrradianceNodes { IrradianceGrid irradiance_grid; IrradianceNode irradiance_nodes[]; };
 
-const float kEnoughSamples = 4.0;  // of the last frame; below, coarser nodes make up the number
+const float kEnoughSamples = 4.0;  // at the weight of the last frame; coarser nodes supply missing samples
 
 uint find_node(uvec2 node) {
     for (uint i = 0u; i < kMostProbes; ++i) {
@@ -27,10 +27,10 @@ float signed_units(uvec2 sum) {
     return negative ? -size : size;
 }
 
-// Of the nodes of a level around a position, trilinear between them.
+// Sums of the nodes of a level around a position, interpolated trilinearly.
 struct NodeSums {
-    vec4 samples;  // rgb: their sum, in units; a: their number
-    vec2 open;     // sums of cosines: of open directions, of all
+    vec4 samples;  // rgb: sum of irradiance, in units; a: sum of weights
+    vec2 open;     // sums of cosines: unoccluded directions, all directions
 };
 
 NodeSums sums_around(vec3 position, vec3 normal, int level) {
@@ -55,16 +55,16 @@ NodeSums sums_around(vec3 position, vec3 normal, int level) {
     return sum;
 }
 
-// What the cache has of a position.
+// Light at a position from the cache.
 struct CachedLight {
     bool known;
-    vec3 irradiance;  // W/m2, of other surfaces' light
-    float open;       // share of the environment's light on the surface that nothing hides, 0..1
+    vec3 irradiance;  // W/m2, from other surfaces
+    float open;       // unoccluded share of the environment's light on the surface, 0..1
 };
 
 const CachedLight kNoCachedLight = CachedLight(false, vec3(0.0), 1.0);
 
-// `choice`, 0..1: between levels.
+// `choice`: random number, 0..1, that selects one of two levels.
 CachedLight cached_light(vec3 position, vec3 normal, float choice) {
     int level = int(floor(irradiance_level(irradiance_grid, position) + choice));
     NodeSums sums = sums_around(position, normal, level);

@@ -13,11 +13,11 @@
 namespace pellucid {
 namespace {
 
-constexpr float kWidestTan = 1.7320508f;  // of half the angle of one view: 60 degrees
-constexpr float kMargin = 1.5f;           // texels around what is looked at: points are between texels
-constexpr float kNearest = 1e-5f;         // of the scene's radius
+constexpr float kWidestTan = 1.7320508f;  // tangent of half the widest angle of a view, 60 degrees
+constexpr float kMargin = 1.5f;           // texels around the targets, because points are between texels
+constexpr float kNearest = 1e-5f;         // near plane, relative to the scene's radius
 
-/// A camera's frame that looks along `forward`.
+/// The frame of a camera at `position` that looks along `forward`.
 glm::mat4 looking(const glm::vec3& position, const glm::vec3& forward) {
     const glm::vec3 size = glm::abs(forward);
     const glm::vec3 up = size.y <= std::min(size.x, size.z) ? glm::vec3(0, 1, 0)
@@ -27,8 +27,8 @@ glm::mat4 looking(const glm::vec3& position, const glm::vec3& forward) {
     return {glm::vec4(x, 0.0f), glm::vec4(y, 0.0f), glm::vec4(z, 0.0f), glm::vec4(position, 1.0f)};
 }
 
-/// The part of the view plane that the corners fill, in metres or at depth 1; none if one of them is not in front of
-/// the light, or too far aside.
+/// The window of the view plane that the corners cover, in metres or at depth 1. Returns nullopt if a corner is behind
+/// the light or too far from the axis.
 std::optional<FilmWindow> window_around(std::span<const glm::vec3> corners, const glm::mat4& view_from_world,
                                         bool orthographic) {
     FilmWindow window{glm::vec2(std::numeric_limits<float>::max()), glm::vec2(std::numeric_limits<float>::lowest())};
@@ -65,7 +65,7 @@ LightView directional_view(const Light& light, std::uint32_t number, std::span<c
                    {world_from_view, true, with_margin(window, resolution, 1e-5f * radius), 0.0f, 2.02f * radius});
 }
 
-/// True if all corners lie beyond one side of the face, or behind it.
+/// True if all corners lie beyond the same side of the face, or behind the light.
 bool misses_face(std::span<const glm::vec3> corners, const glm::mat4& view_from_world) {
     std::array<bool, 5> beyond{true, true, true, true, true};
     for (const glm::vec3& corner : corners) {
@@ -108,7 +108,7 @@ std::vector<LightView> light_views(const Light& light, std::uint32_t number, std
     if (glm::distance(middle, light.position) > kNearest * radius) {
         const glm::mat4 world_from_view = looking(light.position, middle - light.position);
         if (const auto window = window_around(targets, glm::affineInverse(world_from_view), false)) {
-            // Nothing is nearer along the axis than by the cosine of the widest angle, along a diagonal.
+            // The depth of a point is at least its distance times the cosine of the widest angle, along a diagonal.
             const float near_plane = std::max(0.37f * (distance - 1.01f * radius), kNearest * radius);
             return {view_of(number, LightView::kWhole, resolution,
                             {world_from_view, false, with_margin(*window, resolution, 1e-5f * radius / far_plane),

@@ -10,18 +10,18 @@
 
 namespace pellucid {
 
-/// A view from a light: of all its targets, or a face of a cube around it.
+/// A view from a light: a view of all its targets, or a face of a cube around the light.
 struct LightView {
     static constexpr std::uint32_t kWhole = 6;
     gpu::FrameConstants constants;  ///< camera part
     std::uint32_t light;            ///< Scene::lights
     std::uint32_t face = kWhole;    ///< +x, -x, +y, -y, +z, -z, or kWhole
-    float target_depth = 0.0f;      ///< m, of the middle of the targets
+    float target_depth = 0.0f;      ///< depth of the targets' centre, m
 };
 
-/// What light number `number` looks at to see every target, `resolution` texels along a side: one view around them; or,
-/// where a point or spot light is so near that they would fill more than 120 degrees of it, the faces of a cube that any of
-/// them may lie in. `targets`: corners of the targets' boxes, world, m. `bounds`: of all that may stand in the light.
+/// The views from which light number `number` sees every target, `resolution` texels along a side. One view suffices if
+/// all targets lie within 120 degrees. Nearer point and spot lights get the faces of a cube in which targets may lie.
+/// `targets`: corners of the targets' boxes, world, m. `bounds`: bounds of all objects that may block the light.
 std::vector<LightView> light_views(const Light& light, std::uint32_t number, std::span<const glm::vec3> targets,
                                    const Bounds& bounds, std::uint32_t resolution);
 

@@ -1,7 +1,7 @@
 #ifndef PELLUCID_LIGHT_PHOTON_GRID_GLSL
 #define PELLUCID_LIGHT_PHOTON_GRID_GLSL
 
-// What the passes that sort photons into the grid share.
+// Declarations that the passes which sort photons into the grid share.
 #extension GL_GOOGLE_include_directive : require
 #include "light/photons.glsl"
 
@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 1) readonly buffer Photons { uint photon_count, photon_reserved[3]; Photon photons[]; };
 layout(std430, set = 0, binding = 2) buffer PhotonCells { PhotonGrid grid; PhotonSlot slots[]; };
 
-// False: there is no photon for this invocation that the grid has to hold.
+// The photon of this invocation. False if there is none, or if it does not belong to the grid.
 bool own_photon(out uint number, out Photon photon) {
     number = (gl_WorkGroupID.x * gl_NumWorkGroups.y + gl_WorkGroupID.y) * 64u + gl_LocalInvocationID.x;
     if (number >= min(photon_count, uint(photons.length()))) return false;

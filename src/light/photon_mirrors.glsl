@@ -1,8 +1,8 @@
 #ifndef PELLUCID_LIGHT_PHOTON_MIRRORS_GLSL
 #define PELLUCID_LIGHT_PHOTON_MIRRORS_GLSL
 
-// Metal that photons are reflected by. Paths that come to it from a diffuse surface leave its highlights of lights to photons.
-const float kMirrorRoughness = 0.3;  // photons follow metal below
+// Metals that reflect photons. Paths from a diffuse surface to such a metal leave its reflections of lights to photons.
+const float kMirrorRoughness = 0.3;  // metals below this roughness reflect photons
 
 bool reflects_photons(MaterialRecord material) {
     return material.metallic > 0.0 && material.roughness < kMirrorRoughness &&

@@ -10,14 +10,15 @@
 namespace pellucid {
 namespace {
 
-/// Twins in photons.glsl.
+/// Twin of PhotonGrid in photons.glsl.
 struct PhotonGrid {
     float least_radius, unit;
     std::uint32_t levels, slot_mask;
 };
 constexpr vk::DeviceSize kSlotSize = 16;
 
-/// The brightest contribution counts 2^44 units: 2^20 of them fit, and the faintest that shows is counted finely.
+/// Units of the brightest contribution: 2^44. So a 64-bit sum holds 2^20 of them, and the faintest visible contribution
+/// is still counted in small units.
 constexpr float kUnitsOfBrightest = 17592186044416.0f;
 
 }  // namespace
@@ -35,7 +36,7 @@ bool PhotonStore::grow() {
     return entries_.grow() || photons;
 }
 
-/// That list and cells have room for.
+/// Largest number of photons for which list and cells fit into memory.
 std::uint64_t PhotonStore::most_photons(const Device& device) const {
     const std::uint64_t slots = (device.max_storage_binding() - sizeof(PhotonGrid)) / kSlotSize;
     return std::min<std::uint64_t>(list_.limit(device), std::bit_floor(slots) / 2);

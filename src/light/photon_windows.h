@@ -5,14 +5,15 @@
 
 namespace pellucid {
 
-/// Part of a light's view through which it sends photons, or all that emissive surfaces or the environment send; twin in photon_windows.glsl.
+/// A part of a light's view through which it emits photons, or the photons of emissive surfaces or the environment.
+/// Twin of PhotonWindow in photon_windows.glsl.
 struct PhotonWindow {
     enum class Source : std::uint32_t { kLights, kEmitters, kEnvironment };
     glm::mat4 world_from_view;
-    glm::vec4 film;       ///< as FrameConstants::film
+    glm::vec4 film;       ///< see FrameConstants::film
     PunctualLight light;  ///< kEmitters, kEnvironment: position and radius of the sphere around all targets
     std::uint32_t orthographic;
-    float target_depth;  ///< m, of the middle of what is aimed at; kEnvironment: from there to beyond the scene
+    float target_depth;  ///< depth of the targets' centre, m; kEnvironment: distance from there to beyond the scene
     Source source;
     std::uint32_t reserved;
 };

@@ -1,6 +1,6 @@
 #version 460
-// Enters every photon into the slots of the cells that its kernel touches. Crowded slots keep a share of theirs, chosen by
-// hash, so that the choice depends on nothing but the photons.
+// Adds every photon to the slots of the cells that its kernel touches. Crowded slots keep a share of their photons. A
+// hash of the photon selects them, so the selection does not depend on their order.
 #extension GL_GOOGLE_include_directive : require
 #include "light/photon_grid.glsl"
 

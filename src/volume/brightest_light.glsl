@@ -7,7 +7,7 @@
 layout(constant_id = 6) const uint kTally = 0u;  // 1: add up the light of each voxel; 2: that of its main direction
 
 layout(std430, set = 0, binding = 11) buffer Keys { uint64_t keys[]; };
-layout(std430, set = 0, binding = 12) buffer Tally { uint64_t tally[]; };  // two per voxel: all light, light in the main direction
+layout(std430, set = 0, binding = 12) buffer Tally { uint64_t tally[]; };  // two per voxel: all, main direction
 
 const float kMainWay = 0.9659258;  // cosine of 15 degrees, the largest angle to the main direction
 

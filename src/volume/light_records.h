@@ -25,8 +25,7 @@ struct LightPatch {
     // xyz: v, n times the unit direction, world. w: power without absorption, W (three colours); last: optical length,
     // m
     vec4 direction[4];
-    // The surface that the patch is in: packed direction before it (0: none), n before it, highest and lowest field
-    // value.
+    // The surface that the patch is in: packed direction before it (0: none), n before it, highest and lowest field.
     vec4 surface;
 };
 
