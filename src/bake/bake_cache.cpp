@@ -18,8 +18,8 @@
 namespace pellucid::bake {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;                    // of the file, and of what is computed
-constexpr std::size_t kMemory = std::size_t(256) << 20;  // bytes kept at most, beside the latest values
+constexpr std::uint32_t kVersion = 1;                    // of the file format and of the computations
+constexpr std::size_t kMemory = std::size_t(256) << 20;  // most bytes kept, not counting the latest values
 
 /// FNV-1a, 64 bits (Fowler, Noll & Vo 1991).
 class Hash {
@@ -70,10 +70,10 @@ std::string key_name(const Quantity& quantity, std::uint64_t hash) {
     return fmt::format("{}-{:016x}.bake", quantity.name, hash);
 }
 
-/// The values of a file; none if it is missing, damaged or another one's.
+/// The values of a file; nullopt if it is missing, damaged or of another key.
 std::optional<std::vector<float>> load(const std::filesystem::path& file, std::uint64_t key, std::size_t count) {
     std::error_code error;
-    // Looked at before it is read: nobody knows what lies there.
+    // Check the size before reading, because any file may be there.
     if (std::filesystem::file_size(file, error) != sizeof(Header) + count * sizeof(float) || error) return {};
     try {
         const std::vector<std::byte> bytes = read_file(file);
@@ -142,7 +142,7 @@ void BakeCache::store(const std::string& key, std::uint64_t hash, const std::vec
     if (folder_.empty()) return;
     try {
         std::error_code error;
-        std::filesystem::create_directories(folder_, error);  // what fails is said below
+        std::filesystem::create_directories(folder_, error);  // a failure is reported below
         write_file_atomically(folder_ / key, [&](const std::filesystem::path& temporary) {
             const Header header{kMagic, kVersion, 0, hash, values.size(), checksum(values)};
             std::ofstream stream(temporary, std::ios::binary);

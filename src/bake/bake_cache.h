@@ -14,26 +14,26 @@
 
 namespace pellucid::bake {
 
-/// What is baked of a mesh, and how many values that gives.
+/// A baked quantity of a mesh, and the number of its values.
 struct Quantity {
     std::string_view name;  ///< part of a file name
     std::size_t count;
     std::span<const std::uint32_t> parameters = {};
 };
 
-/// $PELLUCID_CACHE_DIR, else $XDG_CACHE_HOME/pellucid, else $HOME/.cache/pellucid; empty: there is none.
+/// $PELLUCID_CACHE_DIR, else $XDG_CACHE_HOME/pellucid, else $HOME/.cache/pellucid; empty if none is set.
 std::filesystem::path default_cache_folder();
 
-/// Baked values, in memory and in a folder, by a hash of the mesh's positions, normals and triangles and of what is
-/// baked. Files of the folder that are damaged or of another version are ignored and written anew; any may be
-/// removed at any time. Without a folder that can be written there is memory alone.
+/// A cache of baked values, in memory and in a folder. The key is a hash of the quantity and of the mesh's positions,
+/// normals and triangles. Damaged files and files of another version are ignored and rewritten. Any file may be removed
+/// at any time. Without a writable folder, values are kept in memory only.
 class BakeCache {
 public:
     explicit BakeCache(std::filesystem::path folder = default_cache_folder()) : folder_(std::move(folder)) {}
 
     using Values = std::shared_ptr<const std::vector<float>>;
     using Compute = std::function<std::vector<float>()>;
-    /// The values, computed if they are nowhere. That the folder cannot be written is said once, in `warnings`.
+    /// Returns the values, and computes them if the cache has none. Appends one warning if the folder is not writable.
     Values get(const Mesh& mesh, const Quantity& quantity, const Compute& compute, std::vector<std::string>& warnings);
 
     /// The file that holds the values.
@@ -49,7 +49,7 @@ private:
                std::vector<std::string>& warnings);
 
     std::filesystem::path folder_;
-    std::deque<Entry> entries_;  ///< the latest last
+    std::deque<Entry> entries_;  ///< in the order of insertion
     bool warned_ = false;
 };
 

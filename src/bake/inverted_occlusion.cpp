@@ -10,15 +10,15 @@
 namespace pellucid::bake {
 namespace {
 
-/// Direction `index` of `count` about +Z, with a density that is proportional to the cosine: a lattice of golden
-/// ratios on the disc below (Malley's method).
+/// Direction `index` of `count` about +Z, with a density proportional to the cosine. Points of a golden-angle spiral on
+/// the disc are projected to the hemisphere (Malley's method).
 glm::vec3 cosine_weighted(std::uint32_t index, std::uint32_t count) {
     const double r2 = (index + 0.5) / count, angle = 2.399963229728653 * index;
     const double r = std::sqrt(r2);
     return {float(r * std::cos(angle)), float(r * std::sin(angle)), float(std::sqrt(1.0 - r2))};
 }
 
-/// Turns +Z into `n` (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
+/// Rotates +Z to `n` (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
 glm::mat3 basis_of(const glm::vec3& n) {
     const float sign = std::copysign(1.0f, n.z), a = -1.0f / (sign + n.z), b = n.x * n.y * a;
     return {glm::vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x), glm::vec3(b, sign + n.y * n.y * a, -n.y), n};

@@ -8,9 +8,9 @@
 
 namespace pellucid::bake {
 
-/// Per vertex, how far a ray runs from it against its normal until it leaves the solid, m in the mesh's own frame;
-/// 0 where it finds no way out (an open mesh, or one whose triangles face inwards). Surfaces that the ray would
-/// enter the solid by once more are passed through. `threads` 0: all cores. Throws Error if Embree cannot build.
+/// Per vertex, the distance that a ray against its normal travels until it leaves the solid, m in the mesh's own frame;
+/// 0 if it never leaves it (open mesh, or triangles that face inwards). The ray ignores surfaces at which it would
+/// enter the solid. `threads`: 0 for all cores. Throws Error if Embree cannot build.
 ///
 /// (Wyman 2005, "An Approximate Image-Space Approach for Interactive Refraction", section 3.1: d_N.)
 std::vector<float> inward_distances(const Mesh& mesh, std::uint32_t threads = 0, const Progress& progress = {});

@@ -17,13 +17,13 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 }  // namespace
 
-/// What a ray may meet.
+/// The triangles that a ray may meet.
 struct MeshRays::Query {
-    RTCIntersectContext embree{};  // first: Embree hands out its address
+    RTCIntersectContext embree{};  // the first member, because Embree passes its address to filter()
     const MeshRays* rays = nullptr;
     bool leaving = true;
-    std::uint32_t triangle = kNone;  ///< that it starts on
-    std::uint32_t vertex = kNone;    ///< welded, that it starts from
+    std::uint32_t triangle = kNone;  ///< on which the ray starts
+    std::uint32_t vertex = kNone;    ///< welded, at which the ray starts
 };
 
 MeshRays::MeshRays(const Mesh& mesh, std::uint32_t threads)
@@ -100,8 +100,8 @@ std::optional<MeshRays::Hit> MeshRays::leave_from_vertex(std::uint32_t vertex, c
     Query query;
     query.vertex = weld_[vertex];
     if (const auto hit = trace(positions_[vertex], direction, query)) return hit;
-    // On symmetric meshes a ray runs exactly through another vertex, which rounding can make it slip past. The
-    // direction is a float, known to half a unit of 2^-23 in each coordinate: some units beside it is as right.
+    // On symmetric meshes a ray may pass exactly through another vertex, where rounding can make it miss all triangles.
+    // Float directions have an error of about 2^-24, so retry with directions that differ by a few units of 2^-23.
     for (int i = 0; i < 8; ++i) {
         const glm::vec3 beside((i & 1) ? 1.0f : -1.0f, (i & 2) ? 1.0f : -1.0f, (i & 4) ? 1.0f : -1.0f);
         const glm::vec3 nearly = glm::normalize(direction + 4.0f * 0x1p-23f * beside);

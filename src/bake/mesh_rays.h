@@ -14,14 +14,15 @@
 
 namespace pellucid::bake {
 
-/// Rays through the triangles of one mesh, in its own frame.
+/// Intersection of rays with the triangles of one mesh, in its own frame.
 ///
-/// A ray that starts on the surface does not meet the triangles that it starts on: they are told by the mesh's
-/// adjacency, so that no distance has to be kept from them. What it looks for is a crossing in one sense, out of
-/// the solid or into it; triangles crossed the other way are passed through.
+/// A ray that starts on the surface ignores the triangles at its start. The mesh's adjacency identifies them, so no
+/// least distance is needed. A ray searches for a crossing in one sense, out of the solid or into it, and ignores
+/// triangles that it crosses in the other sense.
 class MeshRays {
 public:
-    /// `mesh` must be checked and outlive this. Throws Error if Embree cannot build. `threads` 0: all cores.
+    /// `mesh` must be checked and must outlive this object. `threads`: 0 for all cores. Throws Error if Embree cannot
+    /// build.
     MeshRays(const Mesh& mesh, std::uint32_t threads);
 
     struct Hit {
@@ -29,15 +30,15 @@ public:
         std::uint32_t triangle;  ///< Mesh::triangles
         glm::vec3 position;      ///< on the triangle
     };
-    /// From a vertex into the solid, `direction` unit: where the ray leaves it, past the triangles around the vertex.
+    /// The point where a ray from a vertex leaves the solid. `direction`: unit. Triangles at the vertex are ignored.
     std::optional<Hit> leave_from_vertex(std::uint32_t vertex, const glm::vec3& direction) const;
-    /// The same from a point on a triangle.
+    /// The point where a ray from a point on a triangle leaves the solid.
     std::optional<Hit> leave_from_triangle(const glm::vec3& point, std::uint32_t triangle,
                                            const glm::vec3& direction) const;
-    /// From a point outside: the first triangle that the ray enters the solid by.
+    /// The first point where a ray from outside enters the solid.
     std::optional<Hit> enter(const glm::vec3& point, const glm::vec3& direction) const;
 
-    /// True if `direction` runs into the solid where it crosses the triangle.
+    /// True if a ray along `direction` enters the solid through the triangle.
     bool enters(std::uint32_t triangle, const glm::vec3& direction) const;
 
 private:
@@ -53,8 +54,8 @@ private:
         }
     };
     const Mesh& mesh_;
-    std::vector<glm::vec3> positions_;  ///< one more than the mesh has
-    std::vector<std::uint32_t> weld_;   ///< per vertex, the first at the same place
+    std::vector<glm::vec3> positions_;  ///< of the mesh, and one extra for Embree
+    std::vector<std::uint32_t> weld_;   ///< per vertex, the first vertex at the same position
     std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release<rtcReleaseDevice>> device_;
     std::unique_ptr<std::remove_pointer_t<RTCScene>, Release<rtcReleaseScene>> scene_;
 };

@@ -9,7 +9,7 @@
 namespace pellucid::bake {
 namespace {
 
-/// Unit vector of the centre of texel `texel` of an octahedral map; see octahedral.glsl.
+/// Unit vector at the centre of texel `texel` of an octahedral map; see octahedral.glsl.
 glm::vec3 octahedral_direction(std::size_t texel, std::uint32_t side) {
     const glm::vec2 at(float(texel % side), float(texel / side));
     const glm::vec2 p = (at + 0.5f) * (2.0f / float(side)) - 1.0f;

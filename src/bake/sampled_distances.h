@@ -11,9 +11,10 @@
 
 namespace pellucid::bake {
 
-inline constexpr float kNoDistance = -1.0f;  ///< no surface there, or the direction leads out of it
+inline constexpr float kNoDistance = -1.0f;  ///< no surface there, or the direction leads out of the solid
 
-/// A sphere around the mesh's box, in its own frame: from its centre the surface is parameterised.
+/// A sphere around the mesh, in its own frame. The surface is parameterised by directions from the sphere's centre,
+/// which is that of the mesh's box.
 struct MeshSphere {
     glm::vec3 center;
     float radius;
@@ -21,12 +22,12 @@ struct MeshSphere {
 MeshSphere mesh_sphere(const Mesh& mesh);
 
 /// Distances through the solid from `side` x `side` points of its surface in `side` x `side` directions, m in the
-/// mesh's own frame: for point (px, py) and direction (dx, dy) value ((py side + px) side + dy) side + dx;
-/// kNoDistance where there is none. `threads` 0: all cores.
+/// mesh's own frame. Point (px, py) and direction (dx, dy) have value number ((py side + px) side + dy) side + dx. The
+/// value is kNoDistance if there is no distance. `threads`: 0 for all cores.
 ///
-/// Points and directions lie on octahedral maps: texel centres, +Z in the middle. The point is the
-/// outermost one of the surface on the ray from the sphere's centre, so that a surface which
-/// such a ray crosses more than once is only known by its outermost sheet.
+/// Points and directions are texel centres of octahedral maps, with +Z at the centre. A point is the outermost point of
+/// the surface on a ray from the sphere's centre. If a ray crosses the surface more than once, only the outermost sheet
+/// is sampled.
 ///
 /// (The geometry image of Wyman 2005, section 3.1, who leaves the parameterisation open.)
 std::vector<float> sampled_distances(const Mesh& mesh, std::uint32_t side, std::uint32_t threads = 0,
