@@ -8,10 +8,10 @@
 
 namespace pellucid::bake {
 
-/// Per vertex, ambient occlusion with inverted normals, as a length: the mean distance that rays travel inside the
-/// solid, m in the mesh's own frame. The mean is over `rays` directions about the inverted normal, weighted by their
-/// cosine. Rays that never leave the solid (open mesh) do not count; 0 if none leaves it. For a ball the result is 4/3
-/// of its radius. `threads`: 0 for all cores. Throws Error if Embree cannot build.
+/// Per vertex, ambient occlusion with inverted normals, as a length. The result is the mean distance that rays travel
+/// inside the solid, m in the mesh's own frame. The mean is over `rays` directions about the inverted normal, weighted
+/// by their cosine. Rays that never leave the solid (open mesh) do not count; 0 if none leaves it. For a ball the
+/// result is 4/3 of its radius. `threads`: 0 for all cores. Throws Error if Embree cannot build.
 ///
 /// (Chen, "local thickness"; Barré-Brisebois & Bouchard, "Approximating Translucency for a Fast, Cheap and Convincing
 /// Subsurface Scattering Look", GDC 2011.)

@@ -17,12 +17,11 @@ namespace pellucid::bake {
 /// Intersection of rays with the triangles of one mesh, in its own frame.
 ///
 /// A ray that starts on the surface ignores the triangles at its start. The mesh's adjacency identifies them, so no
-/// least distance is needed. A ray searches for a crossing in one sense, out of the solid or into it, and ignores
+/// least distance is needed. A ray searches for a crossing in one sense, out of the solid or into it. It ignores
 /// triangles that it crosses in the other sense.
 class MeshRays {
 public:
-    /// `mesh` must be checked and must outlive this object. `threads`: 0 for all cores. Throws Error if Embree cannot
-    /// build.
+    /// `mesh` must be checked and outlive this object. `threads`: 0 for all cores. Throws Error if Embree cannot build.
     MeshRays(const Mesh& mesh, std::uint32_t threads);
 
     struct Hit {

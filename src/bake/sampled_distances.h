@@ -21,9 +21,9 @@ struct MeshSphere {
 };
 MeshSphere mesh_sphere(const Mesh& mesh);
 
-/// Distances through the solid from `side` x `side` points of its surface in `side` x `side` directions, m in the
-/// mesh's own frame. Point (px, py) and direction (dx, dy) have value number ((py side + px) side + dy) side + dx. The
-/// value is kNoDistance if there is no distance. `threads`: 0 for all cores.
+/// Distances through the solid, m in the mesh's own frame, from `side` x `side` points in `side` x `side` directions.
+/// Point (px, py) and direction (dx, dy) have value number ((py side + px) side + dy) side + dx. The value is
+/// kNoDistance if there is no distance. `threads`: 0 for all cores.
 ///
 /// Points and directions are texel centres of octahedral maps, with +Z at the centre. A point is the outermost point of
 /// the surface on a ray from the sphere's centre. If a ray crosses the surface more than once, only the outermost sheet

@@ -18,8 +18,8 @@ enum class StructureUse {
 /// structures. Empty until Recorder::build(). Needs Device::ray_tracing().
 class AccelerationStructure {
 public:
-    /// Triangles with three 32-bit indices each. Vertices are `stride` bytes apart and begin with their position, 3
-    /// floats.
+    /// Triangles with three 32-bit indices each. Vertices are `stride` bytes apart; the first 3 floats are the
+    /// position.
     struct Triangles {
         vk::DeviceAddress vertices;
         std::uint32_t stride;

@@ -50,8 +50,8 @@ struct Bindings : std::span<const Binding> {
 /// The binding of a pass for a slot of its program. Throws std::logic_error, naming both sides, if it is missing or of
 /// the wrong kind.
 const Binding& binding_of(const Program& program, const BindingSlot& slot, Bindings bindings);
-/// Throws std::logic_error if one of the pass's own bindings is undeclared in the shaders, has another access there, or
-/// is bound twice.
+/// Checks the pass's own bindings. Throws std::logic_error if the shaders do not declare one, or declare another
+/// access, or if a name is bound twice.
 void check_own(const Program& program, Bindings bindings);
 
 /// The stages in which shaders use a slot, and their access.

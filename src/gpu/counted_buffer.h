@@ -25,8 +25,7 @@ public:
     /// Returns the buffer, emptied. Its capacity is `guess` items if none is set. Throws TooLarge if the device allows
     /// no buffer of that capacity.
     const Buffer& begin(Recorder& recorder, Workspace& workspace, std::uint64_t guess);
-    /// Reads back the number of items; call it after the passes that append. `then` gets the number once the frame has
-    /// run.
+    /// Call after the passes that append. Reads back the number of items; `then` gets it once the frame has run.
     void end(Recorder& recorder, std::function<void(std::uint32_t)> then = {});
     /// Arguments of Recorder::compute_indirect() for shaders with one invocation per item, in workgroups of 64.
     const Buffer& groups(Recorder& recorder, Workspace& workspace) const;

@@ -16,8 +16,8 @@ ivec2 filter_level_corner(int level) {
     return ivec2(before + (level - 1 - halved) * (PELLUCID_FILTER_SIZE >> kFilterHalvings), 0);
 }
 
-// A table below the last levels holds the total reflection of facets; see tabulate_facets.comp. x: cosine to the
-// viewer, y: roughness, both 0..1 from the centre of the first texel to that of the last.
+// A table below the last levels holds the total reflection of facets; see tabulate_facets.comp. x is the cosine to the
+// viewer, y the roughness. Both go from 0 at the centre of the first texel to 1 at that of the last.
 const int kFacetTableSize = PELLUCID_FACET_TABLE_SIZE;
 const ivec2 kFacetTableCorner = ivec2(7 * PELLUCID_FILTER_SIZE / 4, PELLUCID_FILTER_SIZE >> kFilterHalvings);
 

@@ -12,8 +12,7 @@ ivec2 wrap_octahedral(ivec2 i, int size) {
     return i;
 }
 
-// Bilinear value of a map in a direction. The shader interpolates, because filtering of 32-bit float images is
-// optional.
+// Bilinear value of a map in a direction. The shader interpolates, as filtering of 32-bit float images is optional.
 vec4 octahedral_map_value(texture2D maps, ivec2 corner, int size, vec3 direction) {
     vec2 position = (0.5 * octahedral_from_direction(direction) + 0.5) * float(size) - 0.5;
     vec2 low = floor(position);

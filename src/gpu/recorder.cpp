@@ -241,7 +241,7 @@ void Recorder::draw_bytes(const Program& program, Bindings bindings, std::span<c
 }
 
 // Bindings need to name only the top structure. Its build waits for the builds of its instances, and barriers cover all
-// memory, so a wait for the top structure covers the instances, too.
+// memory. So a wait for the top structure is also a wait for its instances.
 void Recorder::build(const AccelerationStructure& structure, vk::BuildAccelerationStructureModeKHR mode,
                      std::span<const ResourceId> inputs, const BuildScratch& scratch) {
     const auto stage = Stage::eAccelerationStructureBuildKHR;

@@ -161,8 +161,8 @@ public:
     /// is then empty.
     std::vector<PassTime> finish();
 
-    /// Discards the recording and starts a new one. `commands`: the caller's command buffer, in recording state, if
-    /// given.
+    /// Discards the recording and starts a new one, in the caller's command buffer if `commands` is given. That buffer
+    /// must be in recording state.
     void restart(vk::CommandBuffer commands = {});
 
     /// Calls `then` once the recording has run; never if the recording is discarded.

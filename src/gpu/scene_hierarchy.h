@@ -23,8 +23,8 @@ public:
     bool is_of(const GpuScene& scene, StructureUse use) const;
 
     /// Records the update that a frame needs before it can trace, in its own scope. The first update builds ("build").
-    /// Later updates refit or rebuild, depending on the use ("refit" or "build"), if vertices have moved or if
-    /// `always`.
+    /// Later updates refit or rebuild, depending on the use ("refit" or "build"). They do so only if vertices have
+    /// moved or `always` is true.
     void update(Recorder& recorder, const GpuScene& scene, bool always);
 
     const AccelerationStructure& top() const { return *top_; }

@@ -33,8 +33,7 @@ struct SceneTopology {
     std::uint64_t moves = 0;           ///< GpuScene::moves at the last update
 
     SceneTopology(const Device& device, const Scene& scene);
-    /// Updates the topology after vertices have moved. Closed shells stay closed, and the ranks of bodies stay the
-    /// same.
+    /// Updates the topology after vertices have moved. Closed shells stay closed, and bodies keep their ranks.
     void update(const Device& device, const Scene& scene, std::uint64_t moves);
     /// Marks exactly these objects as replaced by volumes. Techniques that draw no volumes ignore the mark.
     void mark_replaced(const Device& device, const std::vector<int>& objects);

@@ -52,8 +52,7 @@ float lamp_ahead(vec3 origin, vec3 direction, float limit, out vec3 radiance) {
     return limit;
 }
 
-// Radiance of a light in a unit direction, W/(m2 sr), and its distance, m. The radiance is 0 if the ray misses the
-// light.
+// Radiance of a light in a unit direction, W/(m2 sr), and its distance, m. The radiance is 0 if the ray misses.
 vec3 light_ahead(PunctualLight light, vec3 origin, vec3 direction, out float distance_) {
     distance_ = kFarLight;
     if (light.kind == kDirectionalLight) return sun_ahead(light, direction);

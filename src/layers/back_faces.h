@@ -10,8 +10,7 @@ enum class BackFace : std::uint32_t {
     kFarthest,  ///< farthest such surface
 };
 
-/// Per pixel, a surface through which the view ray leaves a solid. The images have the format of Layers, with one
-/// layer.
+/// Per pixel, a surface through which the view ray leaves a solid. The images are those of Layers, with one layer.
 struct BackFaces {
     const GpuImage& depth;
     const GpuImage& triangle;

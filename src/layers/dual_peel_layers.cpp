@@ -3,8 +3,8 @@
 // measured thickness. Needs Device::float_blending().
 //
 // Blending finds only depths. The next pass collects the triangles that lie at these depths. So n layers take n/2 + 1
-// passes if no view ray crosses more than n surfaces. Otherwise the two sides do not meet, and up to n + 1 passes are
-// needed.
+// passes if no view ray crosses more than n surfaces. Otherwise the two sides do not meet within these passes, and up
+// to n + 1 passes are needed.
 #include "layers/layer_images.h"
 #include "layers/shaders.h"
 
@@ -84,7 +84,7 @@ Layers LayerSource::peel_dual(Recorder& recorder, const Frame& frame, const Opaq
 }
 
 // Sides that have not met do not reveal how many passes are missing. So the frame is drawn again with the largest
-// number of passes, and that frame counts the passes that are needed.
+// number of passes, and counts the needed ones.
 bool LayerSource::must_peel_more() {
     if (!dual_.counted) return false;
     const auto [extra_peels, crowded] = std::pair(dual_.counted->x, dual_.counted->y);

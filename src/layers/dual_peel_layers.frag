@@ -1,6 +1,6 @@
 #version 460
-// Dual depth peeling (Bavoil & Myers 2008): finds the nearest and the farthest fragment strictly between the two depths
-// that the previous pass found. Also collects the triangles at these two depths.
+// Dual depth peeling (Bavoil & Myers 2008). Finds the nearest and the farthest fragment between the two depths that the
+// previous pass found. Also collects the triangles at these two depths.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 #include "layers/dual_peel.glsl"

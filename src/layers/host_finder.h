@@ -30,8 +30,7 @@ struct Candidate {
 struct CandidateList {
     std::uint32_t first, count;
 };
-/// Results of a search, for the device. The first Candidate holds the largest candidate count of any search of the
-/// frame.
+/// Results of a search, for the device. The first Candidate holds the largest candidate count of the frame's searches.
 struct CandidatesOnHost {
     CandidateList* lists;  ///< per path
     std::span<Candidate> all;
@@ -40,7 +39,7 @@ struct CandidatesOnHost {
 /// Finds the surfaces that paths meet with Embree on the host's cores. Host and device must share memory, as on
 /// software drivers.
 ///
-/// The candidates of a path are the nearest surface that it can meet and all surfaces that may coincide with it. If the
+/// A path's candidates are the nearest surface that it can meet, and surfaces that may coincide with that one. If the
 /// nearest surface may lie behind the path, within rounding, the next surface is a candidate, too. The device
 /// intersects the candidates itself (candidates.glsl), so every finder leads to the same path, bit for bit.
 class HostFinder final : public PreparedState {

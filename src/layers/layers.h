@@ -73,7 +73,7 @@ struct FragmentPool {
 };
 
 /// Measurements of dual depth peeling in one frame, which the next frame uses. They are kept until another scene or
-/// image size is set, so a single crowded pixel in one view makes later views peel one by one.
+/// image size is set. So a single crowded pixel in one view makes later views peel one by one.
 struct DualPeeling {
     std::uint32_t extra_peels = 0;      ///< peels beyond half the layers, for rays that cross more surfaces than layers
     bool measuring = false;             ///< the frame runs the largest number of passes, to count the needed ones
@@ -94,8 +94,8 @@ public:
     Layers build(Recorder& recorder, const Frame& frame, const Opaque& opaque, const LayerRequest& request);
     /// Builds a map of the view from every triangle of the scene. Call once per frame; needs GpuScene::topology.
     SurfaceMap map_view(Recorder& recorder, const Frame& frame);
-    /// Whether the view contains the boxes of all glass. Then the view's map holds all surfaces for paths inside the
-    /// glass.
+    /// Whether the view contains the boxes of all glass. If so, the view's map holds all surfaces that paths inside
+    /// glass can meet.
     static bool view_holds_glass(const Frame& frame);
     /// Lists every triangle of the scene in the texels of a projection.
     SurfaceMap map_surfaces(Recorder& recorder, const Frame& frame, const SceneTopology& topology,
@@ -105,8 +105,7 @@ public:
                            vk::Format texels = vk::Format::eUndefined, bool host_visible = false) {
         return counted_.try_emplace(name, name, item_size, texels, host_visible).first->second;
     }
-    /// Maps of every mesh in the mesh's own frame. Builds maps of meshes that are new or have moved. Call once per
-    /// frame.
+    /// Maps of every mesh in the mesh's own frame. Builds maps of new and moved meshes. Call once per frame.
     SurfaceMap map_meshes(Recorder& recorder, const Frame& frame, std::uint32_t resolution) {
         return mesh_maps_.bring_up_to_date(recorder, frame, resolution);
     }

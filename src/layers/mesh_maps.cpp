@@ -86,8 +86,8 @@ SurfaceMap MeshMaps::buffers() const {
     return {&maps_, &triangles_, &normals_, &texels_, &ranges_, &records_, &pyramid_, &objects_};
 }
 
-/// Meshes with many triangles get finer maps. A ray tests all triangles in each texel that it crosses, and texels at
-/// walls seen edge-on hold many times the mean.
+/// Meshes with many triangles get finer maps, because a ray tests all triangles in each texel that it crosses. Texels
+/// at walls seen edge-on hold many times the mean number.
 std::uint32_t MeshMaps::texels_across(const GpuMesh& mesh) const {
     constexpr double kMostTrianglesPerTexel = 0.5;
     const double texels = double(resolution_) * resolution_ * kMostTrianglesPerTexel;

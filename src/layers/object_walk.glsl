@@ -41,8 +41,7 @@ SurfaceHit find_surface_among_objects(vec3 origin, vec3 direction, float t_min, 
         uint axis = along.x > along.y ? (along.x > along.z ? 0u : 2u) : (along.y > along.z ? 1u : 2u);
         float t_end;
         SurfaceHit hit = find_surface(maps[mapped.first_map + axis], from, way, t_min, search, t_end);
-        // A mirroring transform reverses both the triangles' winding and their outward normals, so `leaving` stays
-        // right.
+        // A mirroring transform reverses both the winding and the outward normals of triangles, so `leaving` holds.
         if (hit.t < nearest.t) nearest = hit;
     }
     search.object_traits = search.first_triangle = 0u;

@@ -3,7 +3,7 @@
 
 // Lists of pixels (pixel_list.h): the arguments of a dispatch, the number of pixels, and the pixels as x | y << 16. The
 // dispatch has one invocation per pixel, in workgroups of PELLUCID_LIST_GROUP. Vulkan guarantees only 65,535 workgroups
-// in a row, so the dispatch has as many rows as the longest possible list of the image needs.
+// in a row. So the dispatch has as many rows as the longest possible list needs.
 #define PELLUCID_LIST_GROUP 64
 
 uint list_word(ivec2 texel) { return uint(texel.x) | uint(texel.y) << 16; }

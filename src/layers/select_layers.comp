@@ -1,6 +1,6 @@
 #version 460
 // Writes the nearest fragments of each pixel's list in order. Selection reads the list once per layer and needs no
-// memory of its own, so neither the list length nor the layer count is limited.
+// memory of its own. So a list may have any length, and a pixel any number of layers.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu/frame.glsl"
 layout(std430, set = 0, binding = 1) readonly buffer Objects { ObjectRecord objects[]; };

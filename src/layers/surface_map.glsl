@@ -41,8 +41,7 @@ uint pack_range(float low, float high) {
     return l | h << 16;
 }
 
-// Index at which a level of the pyramid starts. Sizes fall by four, so the starts follow the digits of 1/3 in base
-// four.
+// First node of a level of the pyramid. Sizes fall by four, so the starts follow the digits of 1/3 in base four.
 int level_start(MapRecord map, int level) {
     int log2_area = int(map.log2_width + map.log2_height);
     int starts = ((log2_area & 1) == 0 ? 0x55555555 : 0x2aaaaaaa) & ((2 << log2_area) - 1);

@@ -20,7 +20,7 @@ struct MapProjection {
 /// A hierarchy of the scene's triangles for rays. A rasteriser rebuilds it whenever the scene changes.
 ///
 /// Each texel has a list of records: a triangle, and the range of depths at which it crosses the texel. A triangle is
-/// listed in every texel that it touches, so the list holds every surface that a ray can meet in the texel. A pyramid
+/// listed in every texel that it touches. So the list holds every surface that a ray can meet in the texel. A pyramid
 /// over the texels holds up to four depth ranges per node, which cover all of the node's records.
 struct SurfaceMap {
     const Buffer* maps;       ///< MapRecord[]

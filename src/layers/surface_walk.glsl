@@ -1,7 +1,7 @@
 #ifndef PELLUCID_LAYERS_SURFACE_WALK_GLSL
 #define PELLUCID_LAYERS_SURFACE_WALK_GLSL
 
-// Finds the nearest surface that a ray meets by a walk over the texels that the ray passes in a surface map.
+// Finds the nearest surface that a ray meets. The ray walks over the texels that it passes in a surface map.
 //
 // A line in space is a line in the map, so the ray is a + s (b - a) there, s = 0..1. The third coordinate is the depth
 // q. If the ray passes none of the depth ranges of a pyramid node, the walk skips the node and climbs. Otherwise it
@@ -17,7 +17,7 @@ const float kNudge = 0.002;      // texels past the edge of a node; less than kT
 const float kSlack = 1e-4;       // of barycentric weights, so that a ray through an edge meets a triangle there
 const float kFarthest = 1e30;
 // Limits for the nodes and records that a ray visits in one pass. The software driver silently ends all loops of an
-// invocation after 65,535 iterations, and eight invocations run the iterations of each in lockstep.
+// invocation after 65,535 iterations. Eight invocations run together, and each counts the iterations of all.
 const uint kMostTurns = 65535u, kTogether = 8u, kTurnsPerVisit = 2u;
 const uint kMostVisits = 8000u;
 

@@ -16,8 +16,7 @@ ivec2 tile_corner(uint tile) { return kTile * ivec2(tiles[tile].y & 0xffffu, til
 #else
 layout(std430, set = 0, binding = 8) buffer Tiles { uint tile_count, tiles_reserved[3]; uvec2 tiles[]; };
 
-// Lists the tiles of a triangle's box. Tiles beyond the capacity are dropped but counted, so the host enlarges the
-// list.
+// Lists the tiles of a triangle's box. Tiles beyond the capacity are only counted, and the host enlarges the list.
 void cut_into_tiles(uint triangle, ivec2 low, ivec2 high) {
     ivec2 first = low / kTile, count = high / kTile - first + 1;
     uint at = atomicAdd(tile_count, uint(count.x * count.y));

@@ -22,8 +22,7 @@ struct IrradianceNode {
     uint key;       // 0: none
     uint count;     // sum of the samples' weights
     // Signed 64-bit sums, the low word first. 0..2: irradiance, in IrradianceGrid::unit. 3, 4: cosines of directions
-    // sampled by the environment's light, in units of 1 / kCosineUnits; 3: unoccluded directions, 4: all above the
-    // surface.
+    // sampled by the environment's light, in units of 1 / kCosineUnits; 3: unoccluded, 4: all above the surface.
     uvec2 sums[5];
 };
 

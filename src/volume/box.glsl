@@ -3,8 +3,7 @@
 
 #include "volume/volume_record.glsl"
 
-// Clips a ray from x on to the box of a volume. `near` and `far` are in units of d; near > far if the ray misses the
-// box.
+// Clips a ray from x on to the box of a volume. `near` and `far` are in units of d; near > far if the ray misses.
 void clip_to_box(VolumeRecord volume, vec3 x, vec3 d, out float near, out float far) {
     near = 0.0;
     far = 1e30;

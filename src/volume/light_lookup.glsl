@@ -9,8 +9,8 @@
 #include "optics/phase.glsl"
 #include "volume/light_records.h"
 
-// Light at a position in a volume: fluence rate, W/m2, and mean direction, which is shorter than 1 if directions
-// differ.
+// Light at a position in a volume: fluence rate, W/m2, and mean direction. The latter is shorter than 1 if directions
+// differ from each other.
 struct PlaceLight {
     vec3 fluence;
     vec3 way;

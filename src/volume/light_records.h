@@ -13,8 +13,7 @@ using uint = std::uint32_t;
 // NOLINTEND(readability-identifier-naming)
 #endif
 
-// A patch's tag: the volume of its v, its front, its reflections so far, and whether a split has failed for lack of
-// capacity.
+// A patch's tag: the volume of its v, its front, its reflections so far, and whether a split has exceeded the capacity.
 #define PELLUCID_NO_VOLUME 0xffffu
 #define PELLUCID_MOST_FRONTS 0xfffu
 #define PELLUCID_MOST_REFLECTIONS 7u
@@ -22,8 +21,7 @@ using uint = std::uint32_t;
 // A patch of a wavefront: four corners in order around it.
 struct LightPatch {
     vec4 position[4];  // xyz: world, m. w: power, W (three colours); last: bits of the tag
-    // xyz: v, n times the unit direction, world. w: power without absorption, W (three colours); last: optical length,
-    // m
+    // xyz: v, n times the unit direction, world. w: power without absorption, W; last: optical length, m
     vec4 direction[4];
     // The surface that the patch is in: packed direction before it (0: none), n before it, highest and lowest field.
     vec4 surface;
@@ -36,10 +34,9 @@ struct ShownPatch {
 
 // A grid of patches that a light emits towards the box of one volume.
 struct LightFront {
-    vec4
-        corner;  // directional: world; else a direction from `position`, on a plane at distance 1. w: patches along side
-    vec4 side;   // step from one patch to the next; w: patches along up
-    vec4 up;     // side, up and the light's direction are right-handed
+    vec4 corner;     // directional: world, m; else on the plane at distance 1 from `position`. w: patches along side
+    vec4 side;       // step from one patch to the next; w: patches along up
+    vec4 up;         // side, up and the light's direction are right-handed
     vec4 position;   // point and spot: world, m; w: distance from there at which patches begin, m
     vec4 direction;  // directional and spot: unit, world; w: pellucid::Light::Kind
     vec4 intensity;  // rgb: per steradian, or irradiance; w: first power of a patch, W

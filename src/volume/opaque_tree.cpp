@@ -38,8 +38,7 @@ Box box_around(std::span<const gpu::OpaqueTriangle> triangles) {
     return {box.low - margin, box.high + margin};
 }
 
-/// Orders the triangles so that the first half lies below the second. The axis is that of the largest extent of
-/// centres.
+/// Orders the triangles so that the first half lies below the second, along the axis of the largest extent of centres.
 void halve(std::span<gpu::OpaqueTriangle> triangles) {
     Box centers;
     for (const gpu::OpaqueTriangle& triangle : triangles) centers.add(center_of(triangle));

@@ -2,8 +2,7 @@
 #define PELLUCID_VOLUME_OPAQUE_TREE_GLSL
 
 // Intersection of rays with opaque surfaces (opaque_tree.h). Needs: volume/light_records.h; buffers OpaqueNodes {
-// OpaqueNode opaque_nodes[]; } and OpaqueTriangles { OpaqueTriangle opaque_triangles[]; }; uint opaque_count, number of
-// nodes.
+// OpaqueNode opaque_nodes[]; } and OpaqueTriangles { OpaqueTriangle opaque_triangles[]; }; uint opaque_count.
 
 struct OpaqueHit {
     float t;      // in units of the direction; 1e30: no hit

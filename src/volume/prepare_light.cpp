@@ -87,8 +87,7 @@ bool WavefrontTracer::prepare_opaque(const Scene& scene, std::string key) {
     return true;
 }
 
-/// Initial capacity for photons. A patch of the first wavefronts leaves photons on its straight rays and where it
-/// lands.
+/// Initial capacity for photons. A first patch leaves photons along its straight rays and where it lands.
 std::uint64_t WavefrontTracer::guessed_photons() const {
     constexpr double kPerPatch = 48.0, kLeast = 4096.0;
     double patches = 0.0;

@@ -31,8 +31,8 @@ Boundary open_boundary(vec3 x, vec3 v, float field) {
     return Boundary(true, v, index_beside(x, -normalize(v)), field, field);
 }
 
-// Updates the boundary with the field at the end of a step. True if the surface is now behind the ray. If two surfaces
-// are so near that the field does not vanish between them, the first ends in the minimum between them.
+// Updates the boundary with the field at the end of a step. True if the surface is now behind the ray. If the field
+// does not vanish between two surfaces, because they are near, the first ends at the minimum between them.
 bool passes_boundary(inout Boundary boundary, float field, bool inside) {
     if (!boundary.open) return false;
     if (field > boundary.highest) boundary.highest = boundary.lowest = field;

@@ -6,8 +6,8 @@
 // volume/step_bindings.glsl.
 
 // Wide counters, seven per voxel. The first sums trilinear shares of nearby light, as light_lookup.glsl interpolates
-// them. The others sum light inside the voxel: all of it, its red and green parts, and (1 + way) / 2, which is never
-// negative. Ratios of the latter do not depend on how many points fall into a voxel.
+// them. The others sum light inside the voxel: all of it, its red and green parts, and (1 + way) / 2. The latter is
+// never negative. Ratios of these counters do not depend on how many points fall into a voxel.
 layout(std430, set = 0, binding = 11) buffer Sums { uint sums[]; };
 
 const float kPointsPerVoxel = 2.0;  // points per voxel along a side of a patch

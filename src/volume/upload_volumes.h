@@ -6,8 +6,7 @@
 
 namespace pellucid {
 
-/// Uploads the volumes of a scene. Throws Error if the device does not have the memory, or if an image would be too
-/// large.
+/// Uploads the volumes of a scene. Throws Error if they exceed the memory or the image size of the device.
 VolumeImages upload_volumes(const Device& device, const Scene& scene);
 
 /// Positions of boxes in one 3D image, and the size of the image. Boxes are arranged along z, then y, then x.

@@ -34,8 +34,8 @@ vec4 interpolated(texture3D image, ivec3 first, vec3 x) {
 vec4 volume_value(texture3D image, vec3 x) { return interpolated(image, medium_first, x); }
 
 // Interpolation of the index. False: value and central differences are interpolated linearly, each by itself, as in the
-// paper. True: uniform cubic B-splines, with the gradient of the value. They smooth the index by a variance of 1/3
-// voxel^2.
+// paper. True: uniform cubic B-splines, with the gradient of the value. They smooth the index with a variance of
+// 1/3 voxel^2.
 #ifndef PELLUCID_CUBIC_INDEX
 #define PELLUCID_CUBIC_INDEX false
 #endif

@@ -1,5 +1,5 @@
-// Volumes from meshes (Ihrke et al., Eikonal rendering: efficient light transport in refractive objects, 2007, section
-// 5.1).
+// Volumes from meshes: Ihrke et al., "Eikonal rendering: efficient light transport in refractive objects", 2007,
+// section 5.1.
 #include "volume/voxelize.h"
 
 #include "core/fail.h"
