@@ -22,8 +22,8 @@ struct OrbitView {
     std::string description() const;  ///< "orbit:AZ,EL,DIST"
 };
 /// View `index` of `count`: azimuth 360 index / count degrees, elevation 15, field of view 30 degrees. The distance is
-/// equal for all views: a sphere whose diameter is the largest side of the object's box fills 70% of the image's
-/// height, or of its width if that is less.
+/// equal for all views. It is chosen for a sphere whose diameter is the largest side of the object's box: the sphere
+/// fills 70% of the image's height, or of its width if that is less.
 OrbitView comparison_view(const Bounds& bounds, int index, int count, std::uint32_t width, std::uint32_t height);
 
 /// The exact paths of a view, and their reliability.

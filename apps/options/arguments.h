@@ -21,8 +21,8 @@ std::pair<std::uint32_t, std::uint32_t> parse_size(const std::string& text);
 /// Parses "NAME=FILE" of --aov; the file must end in .exr.
 std::pair<std::string, std::string> parse_aov(const std::string& text);
 
-/// Parses "NAME", a camera of the scene, or "orbit:AZ,EL,DIST[,X,Y,Z]" in degrees and bounding-sphere radii, around
-/// the scene's centre or a point in the file's world space.
+/// Parses "NAME", a camera of the scene, or "orbit:AZ,EL,DIST[,X,Y,Z]". Angles are in degrees, the distance is in
+/// bounding-sphere radii. The target is the scene's centre, or X, Y, Z in the file's world space.
 Camera parse_camera(const std::string& text, const Scene& scene, float vertical_fov);
 
 }  // namespace pellucid::cli

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<float, 7> kScales{1.0f, 0.75f, 0.5f, 0.375f, 0.25f, 0.1875f, 0.125f};
 /// Smaller scales lose details of glass; then a faster technique at a larger scale shows more.
 constexpr float kLeastOwnScale = 0.375f;
-/// Frames that must agree before a larger scale is tried, so that a scale that was too slow is not retried in every
+/// Frames that must agree before a larger scale is tried. A scale that was too slow is thus not retried in every
 /// frame.
 constexpr std::size_t kCalmFrames = 6;
 /// Largest expected share of the target time at a larger scale.

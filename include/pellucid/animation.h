@@ -51,8 +51,8 @@ struct Pose {
 
 /// The scene at `time_s`, in seconds from 0; later times clamp to the end of the animation. Vertices have the count
 /// and order of the scene's meshes, so they can go to Renderer::set_positions(). Vertices of skinned meshes are in
-/// world space, where their objects have the identity transform. Meshes and objects of the scene must be those that
-/// load_scene() created; more may be appended.
+/// world space, where their objects have the identity transform. The scene must keep the meshes and objects of
+/// load_scene(); more may be appended.
 ///
 /// Runs on the CPU, on one thread. The cost grows with the vertices moved, their morph targets and joints. Throws
 /// Error if the animation does not exist, the time is negative or not finite, the scene's meshes were changed, or

@@ -29,7 +29,7 @@ struct DeviceInfo {
     std::vector<std::string> absent;   ///< optional features that the device lacks, each with the fallback used
 };
 
-/// Every Vulkan device on this machine, usable or not. Throws DeviceError if Vulkan fails to start.
+/// Every Vulkan device on this machine, usable or not. Throws DeviceError if Vulkan itself fails.
 PELLUCID_API std::vector<DeviceInfo> list_devices();
 
 /// Time that one group of passes took on the device.

@@ -13,9 +13,8 @@ namespace pellucid {
 
 /// Light that arrives from infinitely far away.
 ///
-/// Orientation without rotation: direction (x, y, z), +Y up, lies in the equirectangular map at
-/// `u = 1/2 + atan2(z, x) / 2 pi`, `v = acos(y) / pi` from the top row: +X is the image centre,
-/// -Z is at u = 1/4.
+/// Directions without rotation, +Y up: (x, y, z) lies in the equirectangular map at `u = 1/2 + atan2(z, x) / 2 pi`, `v
+/// = acos(y) / pi` from the top row. +X is the image centre, -Z is at u = 1/4.
 struct Environment {
     /// kMap reads `map`. The other kinds are formulas, evaluated exactly for every direction.
     enum class Kind : std::uint32_t { kMap, kStudio, kChecker, kSky, kUniform };

@@ -79,7 +79,7 @@ PELLUCID_API Image flip_hdr(const Image& reference, const Image& test, const Fli
                             double pixels_per_degree = 67.020645);
 
 /// Mean of a one-channel image over the pixels with a non-zero mask. An empty mask selects all pixels; the mean of no
-/// pixels is 0. Throws Error if sizes differ.
+/// pixels is 0. Throws Error if the mask's size differs or the image has several channels.
 PELLUCID_API double mean(const Image& image, std::span<const std::uint8_t> mask = {});
 
 /// Root of the mean squared difference over the masked pixels and all channels. NaN stays NaN. Throws Error if sizes

@@ -44,7 +44,7 @@ struct RenderSettings {
     /// Jittered frames, averaged in linear light. A single sample, and every AOV, uses pixel centres.
     std::uint32_t samples = 1;
     /// Index of the first sample, 0 to 2^20. Images with other indices have other random numbers. Samples 0 to 7 and 8
-    /// to 15 average to an image of 16, except for what caches learn between samples.
+    /// to 15 average to an image of 16, unless a cache learns between samples.
     std::uint32_t first_sample = 0;
     /// Above 0: adaptive sampling. Each pixel takes samples until its standard error is at most this share of its
     /// luminance plus middle grey (0.18 at exposure 0), `most_samples` at most. `samples` is ignored. 8 pilot samples
@@ -127,7 +127,7 @@ public:
     /// Techniques that bake (TechniqueInfo::bakes) bake again if glass has moved. If the device fails meanwhile, the
     /// shape is undefined until the next call. A camera that was not set keeps framing the scene.
     void set_positions(const std::vector<MovedMesh>& moved);
-    /// Moves objects of the scene. Updates which solid displaces which, and what techniques bake. Throws Error and
+    /// Moves objects of the scene. Recomputes the precedence of overlapping solids, and baked values. Throws Error and
     /// moves nothing if an object does not exist or a placement is not affine and invertible.
     void set_transforms(const std::vector<PosedObject>& moved);
     /// Replaces a material of Scene::materials. The new material must have the same textures. Throws Error and changes

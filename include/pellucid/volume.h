@@ -62,9 +62,9 @@ struct GridMapping {
     float scale = 1.0f;  ///< factor on the grid's values
 };
 
-/// Loads an OpenVDB file: the grids in `mapping`, or if that is empty, the grids named like fields. Voxels must be
-/// cubes along the axes. Throws Error naming the file, in one line, if it is missing, damaged or does not fit into
-/// memory, or if its values are not float, double, vec3s or vec3d.
+/// Loads the grids in `mapping` from an OpenVDB file, or if `mapping` is empty, the grids named like fields. Voxels
+/// must be cubes along the axes. Throws Error naming the file, in one line, if it is missing, damaged or does not fit
+/// into memory. Also throws Error if values are not float, double, vec3s or vec3d.
 PELLUCID_API Volume load_volume(const std::filesystem::path& file, std::span<const GridMapping> mapping = {});
 
 struct VolumeFileOptions {

@@ -17,7 +17,7 @@ struct VoxelSettings {
     std::uint32_t samples = 8;       ///< samples along x and y of a voxel, 1..16; coverage along z is exact
     float scattering = 0.0f;         ///< scattering inside all objects, 1/m, >= 0
     float g = 0.0f;                  ///< mean cosine of scattering, -1..1, both excluded
-    float noise = 0.0f;              ///< 0..1: noise scales absorption and scattering by factors within 1 ± `noise`
+    float noise = 0.0f;              ///< 0..1: noise scales absorption and scattering by 1 - noise..1 + noise
     float noise_scale = 0.0f;        ///< width of the noise, m; 0: a quarter of the box
     bool closed_only = false;        ///< an open mesh is an Error instead of a warning
 };
@@ -28,10 +28,10 @@ struct VoxelizedScene {
 };
 
 /// Voxelizes the glass solids of a scene (Material::refractive) into one volume. Each solid contributes the index,
-/// dispersion and absorption of its material; of overlapping solids, the one with the smaller box displaces the other.
-/// `boundary` is 1 on their surfaces. Columns through holes of an open mesh stay empty, with a warning that names the
-/// object, unless `closed_only`. Throws Error for settings out of range, for a scene without such objects, or if the
-/// voxels do not fit into memory.
+/// dispersion and absorption of its material. Of overlapping solids, the solid with the smaller box displaces the
+/// other. `boundary` is 1 on their surfaces. Columns through holes of an open mesh stay empty, with a warning that
+/// names the object, unless `closed_only`. Throws Error for settings out of range, for a scene without such objects,
+/// or if the voxels do not fit into memory.
 PELLUCID_API VoxelizedScene voxelize(const Scene& scene, const VoxelSettings& settings = {},
                                      const DeviceOptions& device = {});
 

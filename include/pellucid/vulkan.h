@@ -28,7 +28,7 @@ namespace pellucid::vulkan {
 /// supports. A caller may enable more. Movable, not copyable.
 class PELLUCID_API DeviceFeatures {
 public:
-    /// Throws DeviceError, naming what is missing, if Pellucid cannot use the device.
+    /// Throws DeviceError naming the missing features if Pellucid cannot use the device.
     DeviceFeatures(VkInstance instance, VkPhysicalDevice physical_device);
     ~DeviceFeatures();
     DeviceFeatures(DeviceFeatures&&) noexcept;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The one place that configures GLM.
+// The only header that configures GLM.
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -28,8 +28,7 @@ class SizedLights;
 /// - Light crosses the faces of boxes unbent. Where boxes overlap, the smaller box applies.
 /// - Out-scattered light is lost; in-scattered light is ignored.
 /// - Surfaces of a volume (Volume::boundary) reflect by Fresnel's equations between the indices on either side.
-/// Reflection
-///   is sampled at random, or the transmitted path is attenuated by it.
+///   Reflection is sampled at random, or the transmitted path is attenuated by it.
 /// - A volume assigned to objects of a solid bends rays inside that solid only. The solid's surfaces are sharp.
 class CurvedVolumes {
 public:

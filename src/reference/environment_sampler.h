@@ -32,7 +32,7 @@ public:
     };
     Sample sample(Random& random) const;
 
-    /// Density of sample() for `direction` (unit), per steradian; 0 where there is no light.
+    /// Density of sample() for `direction` (unit), per steradian; 0 in directions without light.
     double pdf(const glm::dvec3& direction) const;
 
 private:

@@ -21,9 +21,9 @@ struct ArrivingLight {
     double pdf = 0.0;  ///< density of the direction, per steradian; 0: the light has no size, and paths cannot hit it
 };
 
-/// Light from the light's centre, as if it had no size, with the recommended falloffs of KHR_lights_punctual (Khronos
-/// Group, glTF 2.0 extension), sections "Inner and Outer Cone Angles" and "Range Property". Empty where no light
-/// arrives.
+/// Light from the light's centre, as if it had no size. The falloffs are those recommended by KHR_lights_punctual
+/// (Khronos Group, glTF 2.0 extension), sections "Inner and Outer Cone Angles" and "Range Property". Empty where no
+/// light arrives.
 std::optional<ArrivingLight> arriving_from_center(const Light& light, const glm::dvec3& position);
 
 /// Light from a direction uniform in the solid angle that the light subtends at `position`. Lights without a size do

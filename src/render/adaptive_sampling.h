@@ -25,8 +25,8 @@ public:
 
     /// Samples that reduce the standard error of each pixel to `error`, rows from the top. The error is that of its
     /// noisiest channel, as a share of luminance plus middle grey (0.18 at exposure 0). The variance is the larger of
-    /// the pixel's own and the mean over 5x5 pixels around it, since few samples may have missed rare light. Result:
-    /// kFewestSamples to `most`.
+    /// the pixel's own and the mean over 5x5 pixels around it. Few samples of one pixel may have missed rare light.
+    /// Result: kFewestSamples to `most`.
     std::vector<std::uint32_t> samples_for(float error, float exposure_ev, std::uint32_t most) const;
 
 private:

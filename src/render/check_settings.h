@@ -6,7 +6,7 @@
 
 namespace pellucid {
 
-/// Throws Error if a setting is out of range, or if the picture does not fit this machine's memory.
+/// Throws Error if a setting is out of range, or if the image does not fit this machine's memory.
 void check_settings(const RenderSettings& settings, const Device& device);
 
 }  // namespace pellucid

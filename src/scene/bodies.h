@@ -27,7 +27,7 @@ struct BodySurface {
 /// The objects that together bound one solid of glass.
 struct Body {
     std::vector<std::uint32_t> objects;  ///< indices into Scene::objects
-    std::uint32_t material = 0;          ///< material of the solid: the one with the largest share of its surface
+    std::uint32_t material = 0;          ///< material of the solid: the material with the largest share of its surface
     /// Unique, from 0. Where bodies overlap, the body of the highest rank displaces the others. Ranks order by
     /// Object::priority, then smaller volume, then later position in the file. Volumes within a relative 1e-4 count as
     /// equal.

@@ -12,8 +12,9 @@ namespace pellucid {
 ///
 /// The distribution of a shell's edge angles determines the crease angle. Shapes with creases have gentle and sharp
 /// edges with a gap between them. Scans and organic models have no gap. A gap is an interval of 15 degrees, between 25
-/// and 90 degrees, with at most a tenth as many edges as above it. The edges above it must number at least the square
-/// root of all edges, about as many as one line across the shell. The crease angle is the middle of the lowest gap.
+/// and 90 degrees. It contains at most a tenth as many edges as lie above it. The edges above it must number at least
+/// the square root of all edges, about as many as one line across the shell. The crease angle is the middle of the
+/// lowest gap.
 std::vector<float> crease_angles(const Mesh& mesh, const std::vector<std::uint32_t>& weld);
 
 }  // namespace pellucid

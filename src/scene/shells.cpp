@@ -73,7 +73,7 @@ void join_leaves(std::vector<Leaf> leaves, DisjointSets& sets) {
                 left.push_back(leaves[i]);
                 continue;
             }
-            // Among ends in equal directions, choose the one nearest in the file, because a file stores shells
+            // Among ends in equal directions, choose the triangle nearest in the file, because a file stores shells
             // contiguously.
             const std::uint32_t start = begun.back().triangle;
             const auto apart = [&](const Leaf& leaf) {

@@ -6,7 +6,7 @@
 
 #define PELLUCID_ADAPTATION_GROUP 256  // invocations of a summing workgroup
 
-const float kDarkest = 1e-4;  // cd/m2, a moonless night; added before logarithms
+const float kDarkest = 1e-4;    // cd/m2, a moonless night; added before logarithms
 const float kBrightest = 1e10;  // cd/m2; the sun's disc has 1.6e9
 
 // Rec.709 luminance in cd/m2, 0..kBrightest. `unit_cd_m2`: luminance of radiance 1.

@@ -1,5 +1,5 @@
 #version 460
-// Copies the pixels that a technique has shaded itself (Refraction::picture) over the image.
+// Copies the pixels that a technique has shaded itself (Refraction::picture) into the frame.
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -8,9 +8,9 @@
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(constant_id = 3) const bool kTextured = false;  // some glass varies in colour or transmission
+layout(constant_id = 3) const bool kTextured = false;      // some glass varies in colour or transmission
 layout(constant_id = 4) const bool kPathRadiance = false;  // paths gather radiance
-layout(constant_id = 5) const bool kReflected = false;  // the technique supplies the reflection at the first surface
+layout(constant_id = 5) const bool kReflected = false;     // the technique supplies the reflection at the first surface
 // that reflection contains lights only; rough glass reflects the environment besides
 layout(constant_id = 8) const bool kHighlights = false;
 

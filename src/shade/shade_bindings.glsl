@@ -7,7 +7,7 @@
 #include "gpu/frame.glsl"
 
 layout(constant_id = 0) const uint kEnvironmentKind = 0u;
-layout(constant_id = 1) const bool kAnalysis = false;    // View::kAnalysis
+layout(constant_id = 1) const bool kAnalysis = false;   // View::kAnalysis
 layout(constant_id = 2) const bool kThinWalls = false;  // the scene has thin-walled objects
 #define PELLUCID_ENVIRONMENT_KIND kEnvironmentKind
 

@@ -17,14 +17,14 @@ struct LitPoint {
     vec3 in_mesh;  // position in the frame of the object's mesh
     vec3 way_in_mesh;
     uint triangle;  // triangle that contains the point
-    bool leaving;  // the light leaves the solid at the point
+    bool leaving;   // the light leaves the solid at the point
 };
 
 struct SolidOnRay {
     float thickness;     // m
     vec3 optical_depth;  // sum of c d
-    bool shadowed;  // an opaque object is in front
-    bool cut;  // more surfaces in front than layers
+    bool shadowed;       // an opaque object is in front
+    bool cut;            // more surfaces in front than layers
 };
 
 // Intersection of the light ray with the plane of a triangle.

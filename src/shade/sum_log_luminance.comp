@@ -10,7 +10,7 @@ layout(set = 0, binding = 0, rgba32f) readonly uniform image2DArray radiance;
 layout(std430, set = 0, binding = 1) writeonly buffer TileSums { float tile_sums[]; };
 layout(push_constant) uniform Push {
     float unit_cd_m2;
-    int side;  // pixels per invocation along each axis
+    int side;        // pixels per invocation along each axis
     uint first_sum;  // index of the first sum of this part of the image
 };
 

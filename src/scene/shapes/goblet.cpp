@@ -4,8 +4,8 @@
 namespace pellucid {
 namespace {
 
-/// Control points of the profile (distance from the axis, height) from the middle of the foot's
-/// underside over foot, stem, outside of the bowl and rim to the bottom of the inside.
+/// Control points of the profile (distance from the axis, height). They run from the middle of the foot's underside
+/// over foot, stem, outside of the bowl and rim to the bottom of the inside.
 std::vector<glm::dvec2> control_points(double wall) {
     std::vector<glm::dvec2> points = {{0.000, -0.985}, {0.180, -0.985}, {0.380, -0.995}, {0.520, -1.000},
                                       {0.560, -0.998}, {0.575, -0.985}, {0.560, -0.965}, {0.440, -0.950},

@@ -74,8 +74,8 @@ bool tube_is_clear(const std::vector<glm::dvec3>& centers, double radius) {
         const double bend = glm::length(glm::cross(b - a, c - b));
         const double circumradius = 0.5 * glm::length(b - a) * glm::length(c - b) * glm::length(c - a);
         if (circumradius <= radius * bend) return false;
-        // A curve whose curvature radius is nowhere below the radius can come closer than a diameter only after more
-        // than half a circle (Schur's theorem).
+        // If the curvature radius is nowhere below the tube's radius, the curve can approach itself to a diameter only
+        // after more than half a circle (Schur's theorem).
         for (std::size_t j = i + 1; j < count; ++j) {
             const double apart = length_to[j] - length_to[i];
             if (std::min(apart, length - apart) > std::numbers::pi * radius &&

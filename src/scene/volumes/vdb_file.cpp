@@ -181,7 +181,7 @@ std::vector<MappedGrid> choose_grids(const fs::path& file, const vdb::GridPtrVec
 }
 
 /// The voxels of a grid. Our files store their box. For other files it is the box of active voxels plus one voxel
-/// around it, so that densities fall to the background at the faces.
+/// around it. Densities then fall to the background at the faces.
 vdb::CoordBBox box_of(const vdb::GridBase& grid) {
     const auto size = grid.getMetadata<vdb::Vec3IMetadata>(kVoxels);
     if (size) return {vdb::Coord(0), vdb::Coord(size->value()).offsetBy(-1)};

@@ -36,7 +36,7 @@ void fill_field(const Volume& volume, std::vector<T>& field, const Value& value)
 /// first octave has spacing `scale`, m; each further octave has half the spacing and half the weight.
 double fractal_noise(glm::dvec3 x, double scale, int octaves = 5);
 
-/// Factor of a medium for noise of value 0..1: within 1 - share..1 + share.
+/// Factor of a medium for noise of value 0..1, within 1 - share..1 + share.
 float noise_factor(double share, double value);
 
 /// Converts a signed distance (m, positive outside) into the index, boundary and medium of a solid. `arguments`

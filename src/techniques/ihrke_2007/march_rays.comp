@@ -15,11 +15,11 @@ layout(constant_id = 19) const bool kScatters = false;
 layout(constant_id = 20) const bool kEmits = false;
 layout(constant_id = 21) const bool kDisperses = false;
 layout(constant_id = 22) const bool kSurfacesInside = false;  // objects may lie in volumes
-layout(constant_id = 23) const bool kOverlapping = false;  // volumes may lie in volumes
-layout(constant_id = 26) const bool kLit = false;  // light was traced through the volumes
+layout(constant_id = 23) const bool kOverlapping = false;     // volumes may lie in volumes
+layout(constant_id = 26) const bool kLit = false;             // light was traced through the volumes
 layout(constant_id = 24) const float kStep = 0.5;             // voxels
-layout(constant_id = 27) const bool kCubic = false;  // cubic interpolation of the index
-layout(constant_id = 25) const uint kMostSteps = 8192u;  // steps between two surfaces or boxes
+layout(constant_id = 27) const bool kCubic = false;           // cubic interpolation of the index
+layout(constant_id = 25) const uint kMostSteps = 8192u;       // steps between two surfaces or boxes
 
 layout(set = 0, binding = 5) uniform texture3D volume_index;
 layout(set = 0, binding = 38) uniform texture3D volume_bricks;
@@ -35,8 +35,8 @@ layout(set = 0, binding = 27) uniform texture3D volume_emission;
 PELLUCID_APPENDED_LIST(NextList, 18, next_groups, next_length, next_pixels, append_next)
 PELLUCID_APPENDED_LIST(EndedList, 25, ended_groups, ended_length, ended_pixels, append_ended)
 
-const float kAirIndex = 1.01;  // a ray in a lower index has left the glass
-const float kReachGrows = 4.0;  // look-ahead for surfaces, relative to the path length since the last search
+const float kAirIndex = 1.01;        // a ray in a lower index has left the glass
+const float kReachGrows = 4.0;       // look-ahead for surfaces, relative to the path length since the last search
 const float kStraight = 1.0 - 1e-6;  // cosine above which a ray keeps its search direction
 
 void branch_from(PathState state, vec3 place, vec3 way, vec3 weight, uint mark) {

@@ -32,13 +32,13 @@ layout(set = 0, binding = 16, rgba32f) writeonly uniform image2DArray reflected_
 
 layout(push_constant) uniform Push {
     uint mode;
-    uint surfaces;  // surfaces considered; one more layer exists, to detect that there are more
-    float power;  // p of section 2.2
+    uint surfaces;  // surfaces considered; one more layer exists, to detect further surfaces
+    float power;    // p of section 2.2
     float min_transparency;
     float max_transparency;
-    float thickness;  // h, metres
+    float thickness;         // h, metres
     float log_transmission;  // log of T1 per metre, <= 0
-    uint own_slabs;  // 1: h and T1 come from the surface's material
+    uint own_slabs;          // 1: h and T1 come from the surface's material
     uint light_count;
     float least_alpha;  // least GGX width of highlights
 };

@@ -1,7 +1,7 @@
 #version 460
-// Oliveira & Brauwers, "Real-Time Refraction Through Deformable Objects", I3D 2007: the exit point of the refracted
-// ray is searched in the depths of the object's back faces, as relief mapping searches a height field: in linear, then
-// in binary steps.
+// Oliveira & Brauwers, "Real-Time Refraction Through Deformable Objects", I3D 2007. The exit point of the refracted
+// ray is searched in the depths of the object's back faces. As in relief mapping of a height field, the search takes
+// linear, then binary steps.
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/technique_bindings.glsl"
 
@@ -33,7 +33,7 @@ bool is_behind(vec3 position) { return -position.z > stored_depth(position); }
 
 struct Hit {
     float distance;  // negative: no hit
-    uint status;  // reason for a missing hit
+    uint status;     // reason for a missing hit
 };
 
 // Finds where the ray passes behind the back layer.

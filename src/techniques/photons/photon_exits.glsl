@@ -4,9 +4,9 @@
 // Photons at their exits from glass, per texel of the lights' windows.
 struct PhotonExit {
     vec3 position;   // m, world
-    uint events;  // 0: no photon
+    uint events;     // 0: no photon
     vec3 direction;  // unit
-    float spacing;  // m, spacing of photons at the entry into glass
+    float spacing;   // m, spacing of photons at the entry into glass
     vec3 flux;       // W
     float reserved;
 };

@@ -8,7 +8,7 @@ struct SentLight {
     vec3 origin;     // m, world
     vec3 direction;  // unit
     vec3 flux;       // W
-    vec2 spacing;  // m, and growth in m per m
+    vec2 spacing;    // m, and growth in m per m
 };
 
 // `disc`: position on a lamp's sphere or a directional light's disc, within the unit disc.

@@ -4,7 +4,7 @@
 // The medium of a path. Needs: path_state.glsl, materials, slots (SlotRecord[]).
 #include "gpu/object_traits.glsl"
 
-// The body that fills the path's position, by its first slot: of the bodies around the path, the one that displaces
+// The body that fills the path's position, by its first slot: of the bodies around the path, the body that displaces
 // the others.
 uint filling_body(Media media) {
     for (uint w = kMediumWords; w-- > 0u;) {

@@ -52,7 +52,7 @@ vec3 iors_at(uint body, vec3 place) { return filling_iors(body); }
 
 layout(constant_id = 10) const uint kSurfacesPerPass = 1u;
 layout(constant_id = 7) const bool kOpaqueObjects = false;  // the scene has opaque objects
-layout(constant_id = 28) const bool kFinished = false;  // another map finishes paths that this map loses
+layout(constant_id = 28) const bool kFinished = false;      // another map finishes paths that this map loses
 
 // Passes a pane, which bends no light. Its two faces and the reflections between them are one factor.
 void pass_pane(inout Path path, Surface surface) {
@@ -117,7 +117,7 @@ MetSurface met_surface(SurfaceHit hit, vec3 origin, vec3 direction) {
 // Finds a surface of the wanted kind that touches another.
 bool find_touching(MetSurface other, vec3 direction, Search search, out MetSurface touching) {
     const float kGrazing = 512.0;  // rays with a smaller slope than 1 in 512 do not detect contact
-    const float kBehind = 32.0;  // rounding of positions along a flat ray, in contact distances
+    const float kBehind = 32.0;    // rounding of positions along a flat ray, in contact distances
     vec3 place = other.surface.position;
     float t_end, apart = contact_distance(other.object, other.object, place);
     for (int k = 0; k < 2; ++k) {  // the other object may have the larger contact distance
@@ -134,7 +134,7 @@ bool find_touching(MetSurface other, vec3 direction, Search search, out MetSurfa
     return abs(touching.hit.t) * across <= contact_distance(other.object, touching.object, place);
 }
 
-// True if `body` has the boundary: of two bodies whose media meet, the one that displaces the other has it.
+// True if `body` has the boundary: of two bodies whose media meet, the displacing body has it.
 bool has_boundary(uint body, uint other, uint before, uint beyond) {
     bool meets = body == before || body == beyond, other_meets = other == before || other == beyond;
     return meets && (!other_meets || body > other);

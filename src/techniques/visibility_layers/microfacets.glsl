@@ -28,7 +28,7 @@ float random_number(uint seed, uint event) {
 struct Facets {
     mat3 world_from_surface;  // z: the macroscopic normal on the path's incident side
     float alpha;
-    float level;  // share of the surface that lies lower, 0..1, seen from the light's current side
+    float level;       // share of the surface that lies lower, 0..1, seen from the light's current side
     uint seed, event;  // seed and event of the path; `draws`: random numbers taken so far
     uint draws;
 };
@@ -65,8 +65,8 @@ float smith_lambda(vec3 w, float alpha) {
 // Reflection by one facet of a mirror.
 struct FacetReflection {
     vec3 direction;  // unit, away from the surface
-    float cosine;  // cosine to the facet's normal
-    float visible;  // share that no other facet blocks; 0: the facet reflects into the surface
+    float cosine;    // cosine to the facet's normal
+    float visible;   // share that no other facet blocks; 0: the facet reflects into the surface
 };
 
 // Samples a facet visible from `towards`, unit and away from the surface. alpha 0: the surface is flat.

@@ -26,19 +26,19 @@ const uint kFindAll = 0u, kFindShells = 1u, kFindOpaque = 2u;
 
 // A search for a path's next surface.
 struct Search {
-    Media media;  // solids around the path
+    Media media;    // solids around the path
     uint standing;  // triangle on which the path stands
-    uint pixel;  // index of the path's pixel
-    uint wanted;  // kFindAll, ...
+    uint pixel;     // index of the path's pixel
+    uint wanted;    // kFindAll, ...
     uint replaced;  // kMeetNone, ...
     // self-crossing shells crossed at this position, by first slot; their other surfaces here are not hit again
     Media crossed_here;
-    bool deciding;  // true: the search determines the media around the start
-    Media decided;  // slots whose state is known
-    uint decided_shell;  // restricts the search to all surfaces of this self-crossing shell
-    float limit;  // m, longest distance
-    uint visits, most_visits;  // nodes and records visited
-    bool gave_up;  // true if there were too many
+    bool deciding;                       // true: the search determines the media around the start
+    Media decided;                       // slots whose state is known
+    uint decided_shell;                  // restricts the search to all surfaces of this self-crossing shell
+    float limit;                         // m, longest distance
+    uint visits, most_visits;            // nodes and records visited
+    bool gave_up;                        // true if there were too many
     uint object_traits, first_triangle;  // of the object whose maps are searched; its records omit them
 };
 

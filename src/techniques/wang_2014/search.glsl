@@ -51,7 +51,7 @@ vec2 distances_in_box(vec3 origin, vec3 direction) {
 
 struct Hit {
     float distance;  // negative: no hit
-    uint status;  // reason for a missing hit
+    uint status;     // reason for a missing hit
 };
 
 // Narrows the interval between a point in front of the layer and one behind it. Returns the last distance in front.

@@ -70,7 +70,7 @@ void main() {
     vec3 entry = view_position(vec2(texel) + 0.5, imageLoad(layer_depth, at).r);
     vec3 exit = (frame.view_from_world * vec4(imageLoad(exit_position, at).xyz, 1.0)).xyz;
     if (-exit.z < frame.near_plane) return;  // the image contains nothing behind the eye
-    bool behind = false;  // nothing opaque occludes the entry
+    bool behind = false;                     // nothing opaque occludes the entry
     // A path that ends at its first interface has no segment inside. Inner reflections bend it.
     uint events = imageLoad(path_events, at).r;
     bool straight = (events & 0xfffu) > 1u && (events >> 12 & 0xfffu) == 0u;

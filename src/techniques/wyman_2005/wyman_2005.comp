@@ -12,7 +12,7 @@
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(constant_id = 0) const bool kSampled = false;  // use the table of distances instead of d_N
+layout(constant_id = 0) const bool kSampled = false;    // use the table of distances instead of d_N
 layout(constant_id = 1) const bool kAlongView = false;  // use d_V alone
 layout(constant_id = 2) const uint kInnerReflections = 0u;
 
