@@ -23,8 +23,8 @@ struct GroupAccuracy {
 ///
 /// A pixel is right if the exit directions differ by less than the angle. It is wrong if the technique abandoned it
 /// (status other than ok) or did not cover it. If the exact path is cut after K events (Status::kEventLimit), a path
-/// that is also cut is right if the directions there agree. A path that ends on an opaque object is right if both end
-/// on the same object, within a pixel's footprint of the same point.
+/// that is cut after equally many events is right if the directions there agree. A path that ends on an opaque object
+/// is right if both end on the same object, within a pixel's footprint of the same point.
 struct PathAccuracy {
     std::uint64_t covered = 0;
     double within_1deg = 1.0;
@@ -98,7 +98,7 @@ PELLUCID_API Spread spread(std::vector<double> values);
 struct ThicknessError {
     std::uint64_t points = 0;         ///< pixels with a thickness in both images
     std::uint64_t unmatched = 0;      ///< pixels with a thickness in one image, mostly at silhouettes
-    double relative = 0.0;            ///< sum |d - d*| / sum d* (Chen); 0 if both are 0
+    double relative = 0.0;            ///< sum |d - d*| / sum d* (Chen); 0 if both are 0, 1 if only sum d* is
     double mean = 0.0;                ///< mean of |d - d*|, m
     double p95 = 0.0, largest = 0.0;  ///< 95th percentile and maximum of |d - d*|, m
 };

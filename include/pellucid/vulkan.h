@@ -45,7 +45,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// A device of the caller's. All its members must outlive the Renderer, which destroys none of them.
+/// A device of the caller's. Its Vulkan objects and mutex must outlive the Renderer, which destroys none of them.
 ///
 /// Vulkan allows one thread at a time on a queue: the caller must not use `queue` while a function of the Renderer
 /// runs. Pellucid waits for its own work on the queue before it returns, and for no other work.
