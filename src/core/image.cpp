@@ -1,5 +1,6 @@
 #include <pellucid/image.h>
 
+#include "core/exr_colors.h"
 #include "core/fail.h"
 #include "core/file.h"
 
@@ -92,15 +93,20 @@ Image read_image(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) fail(file, "no such file");
     if (!std::filesystem::is_regular_file(file, error)) fail(file, "is not a regular file");
+    const std::optional<glm::mat3> rec709_from_stored = rec709_from_exr(file, first_bytes(file));
     const OIIO::ImageSpec config = keep_alpha_as_stored();
     const auto input = OIIO::ImageInput::open(file.string(), &config);
     if (!input) fail(file, "is no readable image: " + cause_or(OIIO::geterror(), "unknown format"));
-    return read_pixels(*input, file.string());
+    Image image = read_pixels(*input, file.string());
+    if (rec709_from_stored) convert_colors(image, *rec709_from_stored);
+    return image;
 }
 
 Image decode_image(const void* bytes, std::size_t size, const std::string& name) {
     const std::string_view extension = extension_of_content(bytes, size);
     if (extension.empty()) fail(name, "is no image of a known format");
+    const std::optional<glm::mat3> rec709_from_stored =
+        rec709_from_exr(name, {static_cast<const std::byte*>(bytes), size});
     OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);
     OIIO::ImageSpec config = keep_alpha_as_stored();
     // With a configuration, open() ignores a reader that is passed as its own argument.
@@ -108,7 +114,9 @@ Image decode_image(const void* bytes, std::size_t size, const std::string& name)
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     const auto input = OIIO::ImageInput::open("image" + std::string(extension), &config);
     if (!input) fail(name, "is no readable image: " + cause_or(OIIO::geterror(), "unknown format"));
-    return read_pixels(*input, name);
+    Image image = read_pixels(*input, name);
+    if (rec709_from_stored) convert_colors(image, *rec709_from_stored);
+    return image;
 }
 
 void write_image(const std::filesystem::path& file, const Image& image) {

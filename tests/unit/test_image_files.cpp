@@ -199,6 +199,77 @@ TEST(ImageFiles, ReadFileSaysWhatIsWrong) {
     EXPECT_TRUE(read_file(folder.file("b", "")).empty());
 }
 
+template <class T>
+void append(std::string& bytes, const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string attribute(const std::string& name, const std::string& type, const std::string& value) {
+    std::string bytes = name + '\0' + type + '\0';
+    append(bytes, std::int32_t(value.size()));
+    return bytes + value;
+}
+
+/// An OpenEXR file of one texel, with channels in the order of their names.
+std::string exr(const std::vector<std::string>& channels, const std::vector<float>& values,
+                const std::vector<float>& chromaticities) {
+    std::string list, box, unit, center, colors;
+    for (const std::string& channel : channels) {
+        list += channel + '\0';
+        for (const std::int32_t number : {2, 0, 1, 1}) append(list, number);  // float, sampled at every texel
+    }
+    list += '\0';
+    for (int i = 0; i < 4; ++i) append(box, std::int32_t(0));
+    for (int i = 0; i < 2; ++i) append(center, 0.0f);
+    append(unit, 1.0f);
+    for (const float value : chromaticities) append(colors, value);
+    std::string bytes("\x76\x2f\x31\x01\2\0\0\0", 8);
+    bytes += attribute("channels", "chlist", list);
+    if (!colors.empty()) bytes += attribute("chromaticities", "chromaticities", colors);
+    bytes += attribute("compression", "compression", std::string(1, '\0')) + attribute("dataWindow", "box2i", box) +
+             attribute("displayWindow", "box2i", box) + attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
+             attribute("pixelAspectRatio", "float", unit) + attribute("screenWindowCenter", "v2f", center) +
+             attribute("screenWindowWidth", "float", unit) + '\0';
+    append(bytes, std::uint64_t(bytes.size() + 8));
+    append(bytes, std::int32_t(0));
+    append(bytes, std::int32_t(4 * values.size()));
+    for (const float value : values) append(bytes, value);
+    return bytes;
+}
+
+TEST(ImageFiles, ExrColoursBecomeRec709) {
+    const TemporaryFolder folder;
+    const std::vector<float> rec709 = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+    const std::vector<float> rec2020 = {0.708f, 0.292f, 0.170f, 0.797f, 0.131f, 0.046f, 0.3127f, 0.3290f};
+    const std::vector<float> aces = {0.7347f, 0.2653f, 0.0f, 1.0f, 0.0001f, -0.077f, 0.32168f, 0.33767f};
+    // Channels are stored as blue, green, red.
+    const auto read = [&](const std::vector<float>& bgr, const std::vector<float>& chromaticities) {
+        const Image image = read_image(folder.file("a.exr", exr({"B", "G", "R"}, bgr, chromaticities)));
+        const std::string bytes = exr({"B", "G", "R"}, bgr, chromaticities);
+        EXPECT_EQ(decode_image(bytes.data(), bytes.size(), "a").pixels, image.pixels);
+        return image.pixels;
+    };
+    const std::vector<float> plain = {0.75f, 0.5f, 0.25f};
+    EXPECT_EQ(read({0.25f, 0.5f, 0.75f}, {}), plain);
+    EXPECT_EQ(read({0.25f, 0.5f, 0.75f}, rec709), plain);
+    const std::vector<float> white = read({2.0f, 2.0f, 2.0f}, aces);
+    for (const float value : white) EXPECT_NEAR(value, 2.0f, 1e-3f);
+    // ITU-R BT.2087 has this matrix the other way around.
+    const std::vector<float> green = read({0.0880f, 0.9195f, 0.3293f}, rec2020);
+    EXPECT_NEAR(green[0], 0.0f, 2e-3f);
+    EXPECT_NEAR(green[1], 1.0f, 2e-3f);
+    EXPECT_NEAR(green[2], 0.0f, 2e-3f);
+    EXPECT_EQ(read({0.0f, 1.0f, 0.0f}, rec2020)[0], 0.0f) << "beyond Rec.709";
+    EXPECT_NE(error_of([&] {
+                  read({1, 1, 1}, {0, 0, 0, 0, 0, 0, 0, 0});
+              }).find("a.exr: the chromaticities"),
+              std::string::npos);
+    // Of luminance and chroma.
+    const std::string chroma = exr({"BY", "RY", "Y"}, {0, 0, 1}, {});
+    EXPECT_NE(error_of([&] { read_image(folder.file("c.exr", chroma)); }).find("c.exr: stores luminance and chroma"),
+              std::string::npos);
+}
+
 TEST(ImageFiles, ReadsRealPanoramas) {
     const std::filesystem::path folder = test::data_folder() / "hdri";
     if (test::data_folder().empty()) GTEST_SKIP() << "PELLUCID_TEST_DATA does not name a folder";
