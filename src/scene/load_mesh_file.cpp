@@ -2,186 +2,100 @@
 
 #include "core/fail.h"
 #include "core/file.h"
-#include "core/math.h"
 #include "scene/far_positions.h"
-#include "scene/mesh_file_checks.h"
+#include "scene/glass_scene.h"
+#include "scene/mesh_files/file_meshes.h"
+#include "scene/mesh_files/mtl_materials.h"
+#include "scene/mesh_files/obj_scene.h"
+#include "scene/mesh_files/read_mesh_files.h"
 #include "scene/mesh_repair.h"
-#include "scene/text_positions.h"
 
 #include <pellucid/file.h>
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
-#include <assimp/IOSystem.hpp>
-#include <assimp/Importer.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pellucid {
 namespace {
 
-/// Opens nothing. OBJ files name material libraries, which are not wanted, and a hostile one could
-/// name a pipe.
-class NoFiles final : public Assimp::IOSystem {
-public:
-    bool Exists(const char*) const override { return false; }
-    char getOsSeparator() const override { return '/'; }
-    Assimp::IOStream* Open(const char*, const char*) override { return nullptr; }
-    void Close(Assimp::IOStream*) override {}
-};
-
-std::string cause_of(const Assimp::Importer& importer) {
-    std::string cause = importer.GetErrorString();
-    // assimp reads from memory here and reports a name that it made up for that.
-    for (std::size_t at; (at = cause.find("$$$___magic___$$$")) != cause.npos;) cause.replace(at, 17, "file");
-    return cause.empty() ? "cannot be read" : cause;
+PolygonFile read_polygons(const std::filesystem::path& file, const std::string& extension, Warnings& warnings) {
+    std::vector<std::byte> bytes = read_file(file);
+    if (bytes.empty()) fail(file, "is empty");
+    if (extension == ".obj") return read_obj(file, std::move(bytes), warnings);
+    if (extension == ".ply") return read_ply(file, std::move(bytes), warnings);
+    if (extension == ".stl") return read_stl(file, std::move(bytes), warnings);
+    if (extension == ".off") return read_off(file, std::move(bytes), warnings);
+    return read_3ds(file, bytes, warnings);
 }
 
-/// Nothing after this may meet a number that is not finite or an index that points nowhere.
-void check_parts(const std::filesystem::path& file, const aiScene& scene) {
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-        const aiMesh& part = *scene.mMeshes[m];
-        for (unsigned v = 0; v < part.mNumVertices; ++v) {
-            const aiVector3D& p = part.mVertices[v];
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                fail(file, fmt::format("mesh \"{}\": position of vertex {} is not finite", part.mName.C_Str(), v));
-        }
-        for (unsigned f = 0; f < part.mNumFaces; ++f)
-            for (unsigned k = 0; k < part.mFaces[f].mNumIndices; ++k)
-                if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
-                    fail(file, fmt::format("mesh \"{}\": face {} refers to vertex {}, there are {}", part.mName.C_Str(),
-                                           f, part.mFaces[f].mIndices[k], part.mNumVertices));
-    }
+/// Of a file without polygons.
+std::string what_it_is(const PolygonFile& content) {
+    if (content.lines > 0) return fmt::format("contains no triangles, only {} lines", content.lines);
+    if (content.positions.empty()) return "contains no triangles";
+    return fmt::format("contains no triangles, only {} points; make a surface of them first", content.positions.size());
 }
 
-std::uint64_t face_count(const aiScene& scene) {
-    std::uint64_t count = 0;
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m) count += scene.mMeshes[m]->mNumFaces;
-    return count;
+/// Materials of the file. None where it is glass as a whole: it has none, or `options` asks for glass and none is.
+std::vector<MtlMaterial> chosen_materials(const std::filesystem::path& file, const PolygonFile& content,
+                                          const LoadOptions& options, Warnings& warnings) {
+    std::vector<MtlMaterial> materials = read_obj_materials(file, content, warnings);
+    if (materials.empty() || std::any_of(materials.begin(), materials.end(), is_glass)) return materials;
+    const std::string name = file.filename().string();
+    if (!options.ior && !options.attenuation_color && !options.attenuation_distance) {
+        if (!options.translucent)
+            warnings.add(
+                fmt::format("{}: none of its materials is glass; --ior 1.5 draws the whole file as glass", name));
+        return materials;
+    }
+    warnings.add(fmt::format("{}: its materials are left out: none is glass, and glass was asked for", name));
+    return {};
 }
 
-/// Some readers flag polygons where there are none, at which assimp's triangulation aborts the
-/// program (it is built with assertions).
-void correct_primitive_types(const aiScene& scene) {
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-        aiMesh& part = *scene.mMeshes[m];
-        bool polygons = false;
-        for (unsigned f = 0; f < part.mNumFaces; ++f) polygons = polygons || part.mFaces[f].mNumIndices > 3;
-        if (!polygons) part.mPrimitiveTypes = aiPrimitiveType_TRIANGLE;  // no more than triangles
-    }
-}
-
-glm::dmat4 matrix_of(const aiMatrix4x4& m) {
-    // aiMatrix4x4 lists rows.
-    return glm::transpose(
-        glm::dmat4(m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4));
-}
-
-/// What has fewer than three corners after triangulation.
-struct Leftovers {
-    std::uint64_t points = 0;
-    std::uint64_t lines = 0;
-};
-
-void append_part(const std::filesystem::path& file, const aiMesh& part, const glm::dmat4& placed, bool with_normals,
-                 Mesh& mesh, Leftovers& leftovers) {
-    if (!part.HasFaces()) return;
-    const std::size_t base = mesh.positions.size();
-    if (base + part.mNumVertices > std::numeric_limits<std::uint32_t>::max()) fail(file, "more than 2^32 vertices");
-    for (unsigned v = 0; v < part.mNumVertices; ++v) {
-        const aiVector3D& p = part.mVertices[v];
-        mesh.positions.emplace_back(placed * glm::dvec4(p.x, p.y, p.z, 1.0));
-    }
-    const glm::dmat3 linear(placed);
-    if (with_normals) {
-        const glm::dmat3 normal_matrix = glm::transpose(glm::inverse(linear));
-        for (unsigned v = 0; v < part.mNumVertices; ++v) {
-            const aiVector3D& n = part.mNormals[v];
-            mesh.normals.emplace_back(normal_matrix * glm::dvec3(n.x, n.y, n.z));
-        }
-    }
-    const bool mirrored = glm::determinant(linear) < 0.0;
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-        const aiFace& face = part.mFaces[f];
-        leftovers.points += face.mNumIndices == 1;
-        leftovers.lines += face.mNumIndices == 2;
-        if (face.mNumIndices != 3) continue;
-        glm::uvec3 t(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
-        if (mirrored) std::swap(t.y, t.z);
-        mesh.triangles.push_back(t + static_cast<unsigned>(base));
-    }
-}
-
-Mesh merge_parts(const std::filesystem::path& file, const aiScene& scene, Leftovers& leftovers) {
-    Mesh mesh;
-    bool with_normals = true;
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
-        with_normals = with_normals && (scene.mMeshes[m]->HasNormals() || !scene.mMeshes[m]->HasFaces());
-
-    struct Placed {
-        const aiNode* node;
-        glm::dmat4 world_from_parent;
-    };
-    std::vector<Placed> open = {{scene.mRootNode, glm::dmat4(1.0)}};
-    while (!open.empty()) {
-        const Placed placed = open.back();
-        open.pop_back();
-        if (!placed.node) continue;
-        const glm::dmat4 world = placed.world_from_parent * matrix_of(placed.node->mTransformation);
-        for (unsigned i = 0; i < placed.node->mNumMeshes; ++i)
-            append_part(file, *scene.mMeshes[placed.node->mMeshes[i]], world, with_normals, mesh, leftovers);
-        for (unsigned i = placed.node->mNumChildren; i-- > 0;) open.push_back({placed.node->mChildren[i], world});
-    }
-    for (const glm::vec3 p : mesh.positions)
-        if (!std::isfinite(p.x + p.y + p.z)) fail(file, "a transformed position is not finite");
-    const bool all_zero =
-        std::all_of(mesh.normals.begin(), mesh.normals.end(), [](const glm::vec3& n) { return n == glm::vec3(0.0f); });
-    if (all_zero) mesh.normals.clear();
-    return mesh;
+Scene whole_glass(const std::filesystem::path& file, const PolygonFile& content, const glm::dvec3& origin, bool facets,
+                  const LoadOptions& options, Warnings& warnings) {
+    PartChoice part;
+    part.origin = origin;
+    std::size_t lost_normals = 0;
+    Mesh mesh = mesh_of_part(content, part, lost_normals);
+    mesh.name = file.stem().string();
+    if (lost_normals > 0)
+        warnings.add(
+            fmt::format("{}: {} corners of faces have normals, others none: made anew", mesh.name, lost_normals));
+    if (std::any_of(content.colors.begin(), content.colors.end(), [](auto& color) { return color != glm::vec4(1.0f); }))
+        warnings.add(fmt::format("{}: colours of vertices are not used: the file is glass", file.filename().string()));
+    LoadOptions how = options;
+    if (facets && how.crease_angle == kCreasesByShell) how.crease_angle = 0.0f;
+    Scene scene = glass_scene(std::move(mesh), how, !options.remake_normals, warnings);
+    if (facets) join_identical_vertices(scene.meshes.front());  // of facets in one plane
+    return scene;
 }
 
 }  // namespace
 
-MeshFile load_mesh_file(const std::filesystem::path& file, Warnings& warnings) {
-    std::vector<std::byte> bytes = read_file(file);
-    const std::string extension = lower_extension(file);
-    const std::optional<std::uint64_t> announced = check_mesh_file(file, extension, bytes);
-    MeshFile result;
-    result.origin = rebase_stored_positions(extension, bytes);
-
-    Assimp::Importer importer;
-    importer.SetIOHandler(new NoFiles);  // the importer owns it
-    // Polygons become triangles only after check_parts: triangulation believes every index.
-    const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str() + 1);
-    if (!scene || scene->mNumMeshes == 0) {
-        const std::string cause = scene ? "contains no mesh" : cause_of(importer);
-        fail(file, cause);
+Scene load_mesh_file(const std::filesystem::path& file, const LoadOptions& options, Warnings& warnings) {
+    const std::string extension = lower_extension(file), name = file.stem().string();
+    const PolygonFile content = read_polygons(file, extension, warnings);
+    if (content.ends.empty()) fail(file, what_it_is(content));
+    if (content.points + content.lines > 0)
+        warnings.add(fmt::format("{}: {} points and {} lines left out", name, content.points, content.lines));
+    const Box box = used_box(file, content);
+    if (content.single_precision) {
+        CoarsePositions coarse(box.extent());
+        coarse.add(name, box, 1.0);
+        coarse.warn(warnings);
     }
-    check_parts(file, *scene);
-    if (announced && face_count(*scene) < *announced)
-        warnings.add(fmt::format("{}: {} of {} faces could not be read", file.filename().string(),
-                                 *announced - face_count(*scene), *announced));
-    correct_primitive_types(*scene);
-    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-    if (!scene) fail(file, cause_of(importer));
-
-    Leftovers leftovers;
-    Mesh& mesh = result.mesh;
-    mesh = merge_parts(file, *scene, leftovers);
-    mesh.name = file.stem().string();
-    if (mesh.triangles.empty()) fail(file, "contains no triangles");
-    if (leftovers.points + leftovers.lines > 0)
-        warnings.add(fmt::format("{}: {} points and {} lines left out", mesh.name, leftovers.points, leftovers.lines));
-    join_identical_vertices(mesh);
-    const Box box = box_of(mesh.positions);
-    CoarsePositions coarse(box.extent());
-    coarse.add(mesh.name, box, 1.0);
-    coarse.warn(warnings);
-    result.origin += recentre(mesh);
-    return result;
+    const glm::dvec3 origin = frame_origin(box);
+    const std::vector<MtlMaterial> materials = chosen_materials(file, content, options, warnings);
+    // The normals of .stl files are those of the facets, or zero where a program left them out.
+    const bool facets = extension == ".stl" && !options.remake_normals;
+    Scene scene = materials.empty() ? whole_glass(file, content, origin, facets, options, warnings)
+                                    : obj_scene(file, content, materials, origin, options, warnings);
+    scene.origin = origin;
+    return scene;
 }
 
 }  // namespace pellucid

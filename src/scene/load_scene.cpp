@@ -6,9 +6,9 @@
 #include "core/math.h"
 #include "scene/animation_names.h"
 #include "scene/far_positions.h"
+#include "scene/glass_scene.h"
 #include "scene/load_gltf.h"
 #include "scene/load_mesh_file.h"
-#include "scene/mesh_repair.h"
 #include "scene/mesh_tangents.h"
 #include "scene/rig.h"
 #include "scene/shapes.h"
@@ -47,28 +47,6 @@ void check(const LoadOptions& options) {
     if (options.time_s) check_animation_time(*options.time_s);
 }
 
-/// A scene of one solid made of glass.
-Scene glass_scene(Mesh mesh, const LoadOptions& options, bool keep_normals, Warnings& warnings) {
-    MeshOrigin origin;
-    origin.refractive = true;
-    origin.make_normals = mesh.normals.empty() || !keep_normals;
-    origin.crease_angle = options.crease_angle;
-    repair_mesh(mesh, origin, warnings);
-
-    Material glass;
-    glass.name = "glass";
-    glass.transmission = 1.0f;
-    glass.thickness = 1.0f;
-    Object object;
-    object.name = mesh.name;
-
-    Scene scene;
-    scene.materials.push_back(std::move(glass));
-    scene.meshes.push_back(std::move(mesh));
-    scene.objects.push_back(std::move(object));
-    return scene;
-}
-
 Scene volume_scene(Volume volume) {
     Scene scene;
     scene.origin = frame_origin({.low = volume.low, .high = volume.high()});
@@ -92,18 +70,8 @@ Scene load_by_kind(const std::string& source, const LoadOptions& options, Warnin
         // A shape knows its normals exactly; made ones would only be worse.
         return glass_scene(load_shape(source.substr(kShapePrefix.size())), options, true, warnings);
     if (gltf) return load_gltf(file, options, warnings);
-    if (std::find(kMeshExtensions.begin(), kMeshExtensions.end(), extension) != kMeshExtensions.end()) {
-        MeshFile content = load_mesh_file(file, warnings);
-        // The normals of .stl files are those of the facets, or zero where a program left them out.
-        const bool facets = extension == ".stl" && !options.remake_normals;
-        const bool keep_normals = !facets && !options.remake_normals;
-        LoadOptions how = options;
-        if (facets && how.crease_angle == kCreasesByShell) how.crease_angle = 0.0f;
-        Scene scene = glass_scene(std::move(content.mesh), how, keep_normals, warnings);
-        scene.origin = content.origin;
-        if (facets) join_identical_vertices(scene.meshes.front());  // of facets in one plane
-        return scene;
-    }
+    if (std::find(kMeshExtensions.begin(), kMeshExtensions.end(), extension) != kMeshExtensions.end())
+        return load_mesh_file(file, options, warnings);
     fail(file, fmt::format("unknown kind of file \"{}\" (known: .gltf, .glb, .vdb, {}, shape:NAME or volume:NAME)",
                            extension, fmt::join(kMeshExtensions, ", ")));
 }
