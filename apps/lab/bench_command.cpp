@@ -4,6 +4,7 @@
 #include "lab/commands.h"
 #include "options/options.h"
 #include "options/progress_bar.h"
+#include "options/unread_scenes.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,6 +43,7 @@ struct Bench {
     std::vector<BenchCase> cases;
     nlohmann::ordered_json json;
     std::set<std::string> warnings;
+    UnreadScenes unread;
 };
 
 /// One view of one scene, with what ray tracing makes of it.
@@ -82,10 +84,8 @@ void add_deforming(BenchView& view, std::uint32_t threads) {
     view.described["embree_deforming_ms"] = times.best_ms;
 }
 
-BenchView prepare_view(Bench& bench, const BenchCase& bench_case) {
+BenchView prepare_view(Bench& bench, const BenchCase& bench_case, std::unique_ptr<const Scene> scene) {
     const BenchArguments& arguments = bench.arguments;
-    auto scene = std::make_unique<const Scene>(
-        with_copies(load_given_scene(bench_case.source, arguments.how), bench_case.copies));
     bench.warnings.insert(scene->warnings.begin(), scene->warnings.end());
     bench.renderer.set_scene(*scene);
 
@@ -193,7 +193,16 @@ void run_case(Bench& bench, const BenchCase& bench_case) {
         std::erase_if(techniques, [](const NamedTechnique& t) { return !has_parameter(t.info(), "layers"); });
     }
     if (techniques.empty()) return;
-    const BenchView view = prepare_view(bench, bench_case);
+    std::unique_ptr<const Scene> scene;
+    const auto load = [&] {
+        scene = std::make_unique<const Scene>(
+            with_copies(load_given_scene(bench_case.source, bench.arguments.how), bench_case.copies));
+    };
+    if (!bench.unread.read(bench_case.scene, load)) {
+        bench.warnings.insert(bench.unread.errors().back());
+        return;
+    }
+    const BenchView view = prepare_view(bench, bench_case, std::move(scene));
     for (const NamedTechnique& technique : techniques) {
         nlohmann::ordered_json run = run_technique(bench, view, technique);
         print_run(run);
@@ -256,13 +265,15 @@ void run_bench(const BenchArguments& arguments) {
     check_json(arguments, cases);
     std::string environment_warning;
     const Environment environment = load_given_environment(arguments.environment, environment_warning);
+    UnreadScenes unread(cases.size());
     Bench bench{.arguments = arguments,
                 .renderer = Renderer(device_options(arguments.device)),
                 .techniques = {},
                 .parameters = given_parameters(arguments.parameters),
                 .cases = std::move(cases),
                 .json = {},
-                .warnings = {missing.begin(), missing.end()}};
+                .warnings = {missing.begin(), missing.end()},
+                .unread = std::move(unread)};
     if (!environment_warning.empty()) bench.warnings.insert(environment_warning);
     bench.techniques = timed_techniques(arguments.techniques, bench.renderer);
     check_parameters(bench.techniques, bench.parameters);
@@ -283,9 +294,12 @@ void run_bench(const BenchArguments& arguments) {
                   {"runs", nlohmann::ordered_json::array()}};
     print_head();
     for (const BenchCase& each : bench.cases) run_case(bench, each);
+    bench.json["warnings"] = bench.warnings;
     save(bench);
+    for (const std::string& error : bench.unread.errors()) bench.warnings.erase(error);  // printed before
     print_warnings({bench.warnings.begin(), bench.warnings.end()});
     check_validation(bench.renderer);
+    bench.unread.finish();
 }
 
 }  // namespace

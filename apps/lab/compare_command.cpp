@@ -4,6 +4,7 @@
 #include "options/light_options.h"
 #include "options/options.h"
 #include "options/progress_bar.h"
+#include "options/unread_scenes.h"
 
 #include "report/report.h"
 
@@ -53,6 +54,7 @@ struct Comparison {
     std::optional<Report> report;
     nlohmann::ordered_json json;
     std::set<std::string> warnings;
+    UnreadScenes unread;
 };
 
 /// One camera around one scene.
@@ -202,7 +204,11 @@ void print_row(const nlohmann::ordered_json& run) {
 }
 
 void compare_scene(Comparison& comparison, const std::string& name) {
-    const Scene scene = load_given_scene(name, comparison.arguments.how);
+    Scene scene;
+    if (!comparison.unread.read(name, [&] { scene = load_given_scene(name, comparison.arguments.how); })) {
+        comparison.warnings.insert(comparison.unread.errors().back());
+        return;
+    }
     comparison.warnings.insert(scene.warnings.begin(), scene.warnings.end());
     comparison.renderer.set_scene(scene);
     if (comparison.json["runs"].empty()) print_head();
@@ -279,7 +285,8 @@ void compare(const CompareArguments& arguments) {
                           .truth = truth_named(arguments.truth),
                           .report = {},
                           .json = {},
-                          .warnings = {}};
+                          .warnings = {},
+                          .unread = UnreadScenes(arguments.scenes.size())};
     if (!environment_warning.empty()) comparison.warnings.insert(environment_warning);
     comparison.techniques = parse_techniques(arguments.techniques, comparison.renderer);
     check_settings(comparison);
@@ -308,8 +315,12 @@ void compare(const CompareArguments& arguments) {
                                                                       .reference = describe_truth(arguments)});
         fmt::print("Report: {}\n", page.string());
     }
+    comparison.json["warnings"] = comparison.warnings;
+    save(comparison);
+    for (const std::string& error : comparison.unread.errors()) comparison.warnings.erase(error);  // printed before
     print_warnings({comparison.warnings.begin(), comparison.warnings.end()});
     check_validation(comparison.renderer);
+    comparison.unread.finish();
 }
 
 }  // namespace

@@ -72,13 +72,15 @@ void check_json(const ExperimentArguments& arguments, const std::vector<const Ex
 }
 
 /// Runs one experiment and writes its page; what it measured, for the JSON.
-nlohmann::ordered_json run_one(const ExperimentArguments& arguments, const ExperimentSpec& spec, Renderer& renderer) {
+nlohmann::ordered_json run_one(const ExperimentArguments& arguments, const ExperimentSpec& spec, Renderer& renderer,
+                               UnreadScenes& unread) {
     const auto [width, height] = arguments.size ? parse_size(*arguments.size) : spec.size;
     ExperimentRun run{.renderer = renderer,
                       .width = width,
                       .height = height,
                       .frames = arguments.frames,
                       .threads = arguments.device.threads,
+                      .unread = unread,
                       .warnings = {}};
     std::vector<std::string> missing;
     ModelFolder models(arguments.models.value_or(""), missing);
@@ -140,14 +142,16 @@ void run_experiments(const ExperimentArguments& arguments) {
                                 {"cpu", cpu_name()},
                                 {"cpu_threads", renderer.tracer().threads()},
                                 {"experiments", nlohmann::ordered_json::array()}};
+    UnreadScenes unread(0);
     for (const ExperimentSpec* spec : chosen) {
-        json["experiments"].push_back(run_one(arguments, *spec, renderer));
+        json["experiments"].push_back(run_one(arguments, *spec, renderer, unread));
         // After every experiment, so that what fails later loses nothing.
         if (arguments.json) write_json(*arguments.json, json);
         const std::filesystem::path index = write_experiment_index(arguments.report);
         if (spec == chosen.back()) fmt::print("Report: {}\n", index.string());
     }
     check_validation(renderer);
+    unread.finish();
 }
 
 }  // namespace

@@ -71,9 +71,8 @@ void prepare_timing(ExperimentRun& run, ExperimentView& view) {
     view.packet = fastest_packet(view.trace());
 }
 
-ExperimentView prepare_view(ExperimentRun& run, const ExperimentSpec& spec, const ExperimentScene& scene) {
-    auto loaded = std::make_unique<const Scene>(
-        scene.make ? scene.make() : with_copies(load_scene(scene.how.source), scene.how.copies));
+ExperimentView prepare_view(ExperimentRun& run, const ExperimentSpec& spec, const ExperimentScene& scene,
+                            std::unique_ptr<const Scene> loaded) {
     run.warnings.insert(loaded->warnings.begin(), loaded->warnings.end());
     run.renderer.set_scene(*loaded);
     RenderSettings settings;
@@ -186,7 +185,16 @@ void add_zoom(const ExperimentView& view, const Variant& truth, const std::vecto
 
 void run_scene(ExperimentRun& run, const ExperimentSpec& spec, const ExperimentScene& scene,
                const std::vector<Variant>& variants, ExperimentPage& page) {
-    const ExperimentView view = prepare_view(run, spec, scene);
+    std::unique_ptr<const Scene> loaded;
+    const auto load = [&] {
+        loaded = std::make_unique<const Scene>(
+            scene.make ? scene.make() : with_copies(load_scene(scene.how.source), scene.how.copies));
+    };
+    if (!run.unread.read(scene.label, load)) {
+        run.warnings.insert(run.unread.errors().back());
+        return;
+    }
+    const ExperimentView view = prepare_view(run, spec, scene, std::move(loaded));
     page.add_picture(scene.label, spec.truth.label, view.truth.display);
     std::vector<CaptionedPicture> pictures;
     std::optional<double> first_ms;

@@ -1,6 +1,7 @@
 #include "lab/thickness_compare.h"
 
 #include "options/progress_bar.h"
+#include "options/unread_scenes.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,7 +27,7 @@ struct ComparedView {
 class ThicknessTable {
 public:
     explicit ThicknessTable(const ThicknessComparison& comparison)
-        : comparison_(comparison), renderer_(device_options(comparison.device)) {
+        : comparison_(comparison), renderer_(device_options(comparison.device)), unread_(comparison.scenes.size()) {
         std::tie(width_, height_) = parse_size(comparison.size);
         if (comparison.pictures) std::filesystem::create_directories(*comparison.pictures);
         json_ = {{"device", renderer_.device().name},
@@ -42,7 +43,8 @@ public:
     }
 
     void add_scene(const std::string& name) {
-        const Scene scene = load_given_scene(name, comparison_.how);
+        Scene scene;
+        if (!unread_.read(name, [&] { scene = load_given_scene(name, comparison_.how); })) return;
         warnings_.insert(scene.warnings.begin(), scene.warnings.end());
         if (scene.lights.empty()) throw Error(fmt::format("{}: there is no light; give one with --add-light", name));
         renderer_.set_scene(scene);
@@ -67,9 +69,11 @@ public:
 
     void finish() {
         json_["warnings"] = warnings_;
+        for (const std::string& error : unread_.errors()) json_["warnings"].push_back(error);
         if (comparison_.json) write_json(*comparison_.json, json_);
         print_warnings({warnings_.begin(), warnings_.end()});
         check_validation(renderer_);
+        unread_.finish();
     }
 
 private:
@@ -136,6 +140,7 @@ private:
     std::uint32_t width_ = 0, height_ = 0;
     nlohmann::ordered_json json_;
     std::set<std::string> warnings_;
+    UnreadScenes unread_;
 };
 
 }  // namespace

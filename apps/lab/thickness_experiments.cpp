@@ -134,7 +134,8 @@ void measure_speed(ExperimentRun& run, const ExperimentSpec& spec, ModelFolder& 
         run.warnings.insert("nothing is left to measure");
         return;
     }
-    Scene scene = load_scene(file.string());
+    Scene scene;
+    if (!run.unread.read(file.string(), [&] { scene = load_scene(file.string()); })) return;
     run.warnings.insert(scene.warnings.begin(), scene.warnings.end());
     const std::size_t before = scene.meshes[0].triangles.size();
     while (scene.meshes[0].triangles.size() < kDragonTriangles)

@@ -110,10 +110,13 @@ class Bench(CliTest):
         self.assertNotIn("reference", names)
 
     def test_a_bad_scene_loses_nothing(self):
-        result = self.bench("shape:sphere", "missing.obj", "--techniques", "one-interface", "--json", "bench.json")
+        result = self.bench("missing.obj", "shape:sphere", "--techniques", "one-interface", "--json", "bench.json")
         self.assertEqual(result.returncode, 2)
-        self.assertRegex(result.stderr, r"\Apellucid: missing\.obj[^\n]*\n\Z")
-        self.assertEqual(len(json.loads(self.read("bench.json"))["runs"]), 1)
+        self.assertRegex(result.stderr, r"\Apellucid: left out: missing\.obj[^\n]*\n"
+                                        r"pellucid: 1 of 2 scenes could not be read: missing\.obj\n\Z")
+        content = json.loads(self.read("bench.json"))
+        self.assertEqual(len(content["runs"]), 1)
+        self.assertRegex(content["warnings"][0], r"^left out: missing\.obj")
 
     def test_refusals(self):
         for words, arguments in (

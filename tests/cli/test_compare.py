@@ -91,11 +91,17 @@ class Compare(CliTest):
 
     def test_a_bad_scene_loses_nothing(self):
         self.write("bad.obj", "v 1 2\n")
-        result = self.compare("shape:sphere", "bad.obj", "--views", "1", "--json", "runs.json",
+        result = self.compare("bad.obj", "shape:sphere", "--views", "1", "--json", "runs.json",
                               "--techniques", "one-interface")
         self.assertEqual(result.returncode, 2)
-        self.assertRegex(result.stderr, r"\Apellucid: bad\.obj[^\n]*\n\Z")
-        self.assertEqual(len(json.loads(self.read("runs.json"))["runs"]), 1)
+        self.assertRegex(result.stderr, r"\Apellucid: left out: bad\.obj: line 1[^\n]*\n"
+                                        r"pellucid: 1 of 2 scenes could not be read: bad\.obj\n\Z")
+        content = json.loads(self.read("runs.json"))
+        self.assertEqual(len(content["runs"]), 1)
+        self.assertRegex(content["warnings"][0], r"^left out: bad\.obj: line 1")
+
+    def test_a_bad_scene_alone(self):
+        self.assert_refused(self.compare("missing.obj", "--views", "1"), "missing.obj: no such file")
 
     def test_stable_pixels(self):
         """What is unstable on a cube are the pixels within 0.1 px of an edge that is seen: ten times as many

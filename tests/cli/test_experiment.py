@@ -52,6 +52,16 @@ class Experiment(CliTest):
                 self.assert_refused(self.run_cli("experiment", *arguments), *words)
         self.assertEqual(self.files(), [])
 
+    def test_a_bad_model_loses_nothing(self):
+        os.mkdir(self.path("models"))
+        self.write("models/photon_dragon.obj", "v 1 2\n")
+        result = self.experiment("wang-layers", "--models", "models", "--json", "runs.json", size="16x16")
+        self.assertEqual(result.returncode, 2)
+        lines = result.stderr.splitlines()
+        self.assertRegex(lines[0], r"^pellucid: left out: models/photon_dragon\.obj: line 1")
+        self.assertRegex(lines[-1], r"^pellucid: [0-9]+ scenes could not be read: ")
+        self.assertEqual(len(json.loads(self.read("runs.json"))["experiments"]), 1)
+
     def test_missing_models(self):
         """Named in a warning; nothing is left of an experiment that has no other scene."""
         result, content = self.measure("wang-layers")
