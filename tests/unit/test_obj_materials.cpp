@@ -93,11 +93,11 @@ TEST_F(ObjMaterials, WhatIsGlass) {
                                "d 1\nTr 1\nNi 1.5", "illum 4\nKd .5 .5 .5\nTf 1 1 1\nNi 1.0",
                                "illum 4\nTf 1.00 1.00 1.00", "Tr 1\nNi 1.5", "Tf 0 0 0\nPr 0.1", "Ni 1.5"})
         EXPECT_FALSE(material(opaque).transmissive()) << opaque;
-    // Without an index there is nothing to bend light by.
+    // Without an index there is nothing to bend light by: the surface covers a part of what lies behind it.
     const Material veil = material("d 0.25\nNi 1\nKd 1 0 0");
-    EXPECT_TRUE(veil.transmissive() && !veil.refractive());
-    EXPECT_EQ(veil.transmission, 0.75f);
-    EXPECT_EQ(warnings("d 0.25", "d 0.25 without Ni or Tf: drawn as a thin wall"), 1u);
+    EXPECT_FALSE(veil.transmissive());
+    EXPECT_TRUE(veil.alpha_is_coverage);
+    EXPECT_EQ(veil.base_color, glm::vec4(1.0f, 0.0f, 0.0f, 0.25f));
     EXPECT_EQ(warnings("illum 4", "glass without Ni: index of refraction 1.5 used"), 1u);
     EXPECT_EQ(warnings("illum 4\nNi 0.2", "Ni 0.2 is out of range, 1.5 used"), 1u);
     EXPECT_EQ(material("illum 4\nNi 0.2").ior, 1.5f);
@@ -168,6 +168,7 @@ TEST_F(ObjMaterials, Textures) {
     EXPECT_EQ(leaf.images[0].at(0, 0)[0], 1.0f);
     EXPECT_EQ(leaf.images[0].at(0, 0)[3], 0.0f);
     EXPECT_EQ(material("map_Ke wood grain.png").emission, glm::vec3(1.0f));
+    EXPECT_EQ(material("norm wood grain.png").normal_texture.image, 0);
     EXPECT_EQ(material("map_Ke none.png").emission, glm::vec3(0.0f));
     EXPECT_EQ(material("map_d none.png").alpha_cutoff, 0.0f);
     EXPECT_EQ(warnings("map_Kd no such.png", "material a: texture left out: no such.png: no such file"), 1u);

@@ -154,6 +154,7 @@ Material material_from_mtl(const MtlMaterial& from, Scene& scene, Warnings& warn
     if (is_glass(from)) {
         make_glass(from, material, warnings);
         if (!from.map_Kd.name.empty()) warn("map_Kd of glass is not used");
+        if (!from.normal.name.empty()) warn("norm of glass is not used");
     } else {
         glm::vec3 color = from.Kd.value_or(glm::vec3(0.8f));
         // Programs write a black Kd beside a texture that they mean to be seen.
@@ -175,9 +176,10 @@ Material material_from_mtl(const MtlMaterial& from, Scene& scene, Warnings& warn
             material.base_color_texture = textures.read_cut_out(from.map_Kd, from.map_d);
             if (!from.map_d.file.empty()) material.alpha_cutoff = 0.5f;
         }
+        material.normal_texture = textures.read(from.normal);
         if (from.map_d.name.empty() && d < 1.0f) {
-            material.transmission = 1.0f - d;
-            warn(fmt::format("d {} without Ni or Tf: drawn as a thin wall that does not bend light", d));
+            material.base_color.a = d;
+            material.alpha_is_coverage = true;
         }
     }
     material.emission = from.Ke.value_or(glm::vec3(0.0f));
@@ -187,7 +189,6 @@ Material material_from_mtl(const MtlMaterial& from, Scene& scene, Warnings& warn
         if (shown && largest(material.emission) <= 0.0f) material.emission = glm::vec3(1.0f);
     }
     std::vector<std::string> unused = from.unused;
-    if (!from.normal.name.empty()) unused.emplace_back("norm");
     if (!unused.empty()) warn(fmt::format("{} not used", fmt::join(unused, ", ")));
     return material;
 }
