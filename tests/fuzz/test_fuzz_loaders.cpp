@@ -321,9 +321,9 @@ TEST(FuzzGltf, Text) { fuzz("a.gltf", gltf_text(rich_gltf()), load_checked); }
 TEST(FuzzGltf, Binary) { fuzz("a.glb", rich_gltf().glb_bytes(), load_checked); }
 TEST(FuzzGltf, AnimatedText) { fuzz("animated.gltf", gltf_text(animated_gltf()), load_posed); }
 TEST(FuzzGltf, AnimatedBinary) { fuzz("animated.glb", animated_gltf().glb_bytes(), load_posed); }
-TEST(FuzzGltf, Instances) { fuzz("instances.gltf", gltf_text(instanced_gltf()), load_checked); }
-TEST(FuzzGltf, Meshopt) { fuzz("meshopt.glb", meshopt_gltf().glb_bytes(), load_checked); }
-TEST(FuzzGltf, Draco) { fuzz("draco.glb", draco_file(draco_square(false)).glb_bytes(), load_checked); }
+TEST(FuzzGltf, Instances) { fuzz("instances.gltf", gltf_text(instanced_gltf()), load_checked, kImageRounds); }
+TEST(FuzzGltf, Meshopt) { fuzz("meshopt.glb", meshopt_gltf().glb_bytes(), load_checked, kImageRounds); }
+TEST(FuzzGltf, Draco) { fuzz("draco.glb", draco_file(draco_square(false)).glb_bytes(), load_checked, kImageRounds); }
 TEST(FuzzImages, Png) { fuzz("a.png", image_bytes("a.png", 4), load_image, kImageRounds); }
 TEST(FuzzImages, Exr) { fuzz("a.exr", image_bytes("a.exr", 3), load_map, kImageRounds); }
 TEST(FuzzImages, Hdr) { fuzz("a.hdr", hdr_bytes(), load_map, kImageRounds); }
