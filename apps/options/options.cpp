@@ -54,6 +54,8 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
         ->type_name("DEG")
         ->check(CLI::Range(0.0, 180.0));
     command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");
+    command.add_flag("--solid", arguments.solid,
+                     "Closed glTF meshes of transmissive materials are solid glass, also without a volume");
     command
         .add_option(
             "--priority", arguments.priorities,
@@ -90,6 +92,7 @@ LoadOptions load_options(const SceneArguments& arguments) {
     if (arguments.attenuation_distance) options.attenuation_distance = float(*arguments.attenuation_distance);
     if (arguments.crease_angle_deg) options.crease_angle = glm::radians(float(*arguments.crease_angle_deg));
     options.remake_normals = arguments.remake_normals;
+    options.solid = arguments.solid;
     for (const std::string& text : arguments.priorities) options.priorities.push_back(parse_priority(text));
     options.translucent = parse_translucency(arguments.translucency);
     options.animation = arguments.animation;

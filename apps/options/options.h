@@ -36,6 +36,7 @@ struct SceneArguments {
     std::optional<double> attenuation_distance;
     std::optional<double> crease_angle_deg;
     bool remake_normals = false;
+    bool solid = false;
     std::vector<std::string> priorities;
     std::optional<std::string> animation;
     std::optional<double> time_s;

@@ -44,6 +44,7 @@ std::string rgb(const glm::vec3& color) { return fmt::format("{},{},{}", color.r
 void add_loading(CommandLine& line, const cli::SceneArguments& how, const Look& look) {
     line.option("crease-angle", how.crease_angle_deg);
     if (how.remake_normals) line.word("--remake-normals");
+    if (how.solid) line.word("--solid");
     line.each("priority", how.priorities);
     line.option("translucent", how.translucency.translucent);
     line.each("add-light", how.translucency.lights);

@@ -9,6 +9,7 @@
 #include <pellucid/error.h>
 #include <pellucid/exact_thickness.h>
 #include <pellucid/file.h>
+#include <pellucid/gltf_extensions.h>
 #include <pellucid/image.h>
 #include <pellucid/layer_builder.h>
 #include <pellucid/light_options.h>

@@ -264,6 +264,8 @@ struct LoadOptions {
     float crease_angle = kCreasesByShell;
     /// Replace normals that a mesh file brings along by made ones.
     bool remake_normals = false;
+    /// Closed glTF meshes of transmissive materials are solid glass, whether a material has a volume or not.
+    bool solid = false;
     /// Name, or else number from 0, of the animation whose pose is loaded. None, and no time either: the file's own
     /// node transforms and weights.
     std::optional<std::string> animation;

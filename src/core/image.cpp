@@ -56,6 +56,8 @@ std::string_view extension_of_content(const void* bytes, std::size_t size) {
     if (head.starts_with("GIF8")) return ".gif";
     if (head.starts_with("BM")) return ".bmp";
     if (head.starts_with("RIFF")) return ".webp";
+    if (head.starts_with("DDS ")) return ".dds";
+    if (head.size() >= 12 && head.substr(4, 7) == "ftypavi") return ".avif";
     return {};
 }
 

@@ -25,6 +25,11 @@ struct Elements {
     bool normalized = false;
 };
 
+/// "mesh cup primitive 0 POSITION (accessor 3)".
+std::string with_number(const std::string& user, int accessor) {
+    return fmt::format("{} (accessor {})", user, accessor);
+}
+
 const tinygltf::Accessor& accessor_at(const GltfFile& gltf, int index, const std::string& user) {
     if (index < 0 || std::size_t(index) >= gltf.model.accessors.size())
         fail(gltf.path, fmt::format("{}: there is no accessor {}", user, index));
@@ -138,9 +143,14 @@ std::vector<std::uint32_t> integers(const GltfFile& gltf, const Elements& elemen
     return values;
 }
 
-/// Replaces the elements that a sparse accessor lists.
-void replace_sparse(const GltfFile& gltf, const tinygltf::Accessor& accessor, const Elements& base, float* out,
-                    const std::string& user) {
+/// The elements that a sparse accessor replaces.
+struct Replacements {
+    std::vector<std::uint32_t> indices;  ///< less than the accessor's count
+    Elements values;
+};
+
+Replacements replacements_of(const GltfFile& gltf, const tinygltf::Accessor& accessor, const Elements& base,
+                             const std::string& user) {
     const auto& sparse = accessor.sparse;
     if (sparse.count < 0 || std::size_t(sparse.count) > base.count || sparse.indices.byteOffset < 0 ||
         sparse.values.byteOffset < 0)
@@ -153,16 +163,20 @@ void replace_sparse(const GltfFile& gltf, const tinygltf::Accessor& accessor, co
           element_size(gltf, which.component_type, 1, user), which, user);
     place(gltf, sparse.values.bufferView, std::size_t(sparse.values.byteOffset),
           element_size(gltf, values.component_type, values.components, user), values, user);
+    Replacements replacements{integers(gltf, which, user), values};
+    for (const std::uint32_t index : replacements.indices)
+        if (index >= base.count) fail(gltf.path, fmt::format("{}: sparse index {} of {}", user, index, base.count));
+    return replacements;
+}
 
-    const std::vector<std::uint32_t> indices = integers(gltf, which, user);
+void replace_sparse(const GltfFile& gltf, const tinygltf::Accessor& accessor, const Elements& base, float* out,
+                    const std::string& user) {
+    const Replacements replacements = replacements_of(gltf, accessor, base, user);
     const std::size_t width = std::size_t(base.components);
-    std::vector<float> replacements(values.count * width);
-    convert(values, replacements.data());
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        if (indices[i] >= base.count)
-            fail(gltf.path, fmt::format("{}: sparse index {} of {}", user, indices[i], base.count));
-        std::copy_n(replacements.begin() + std::ptrdiff_t(i * width), width, out + indices[i] * width);
-    }
+    std::vector<float> values(replacements.values.count * width);
+    convert(replacements.values, values.data());
+    for (std::size_t i = 0; i < replacements.indices.size(); ++i)
+        std::copy_n(values.begin() + std::ptrdiff_t(i * width), width, out + replacements.indices[i] * width);
 }
 
 /// All values of an accessor; `out` holds zeros.
@@ -177,7 +191,7 @@ void read_into(const GltfFile& gltf, const tinygltf::Accessor& accessor, const E
 template <int N>
 std::vector<glm::vec<N, float>> read_vectors(const GltfFile& gltf, int accessor, const std::string& user) {
     const tinygltf::Accessor& a = accessor_at(gltf, accessor, user);
-    const Elements elements = elements_of(gltf, a, N, user);
+    const Elements elements = elements_of(gltf, a, N, with_number(user, accessor));
     std::vector<glm::vec<N, float>> vectors(elements.count, glm::vec<N, float>(0.0f));
     static_assert(sizeof(glm::vec<N, float>) == N * sizeof(float));
     if (!vectors.empty()) read_into(gltf, a, elements, &vectors.front()[0], user);
@@ -190,7 +204,7 @@ template std::vector<glm::vec4> read_vectors<4>(const GltfFile&, int, const std:
 
 std::vector<float> read_fractions(const GltfFile& gltf, int accessor, int components, const std::string& user) {
     const tinygltf::Accessor& a = accessor_at(gltf, accessor, user);
-    const Elements elements = elements_of(gltf, a, components, user);
+    const Elements elements = elements_of(gltf, a, components, with_number(user, accessor));
     if (elements.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT && !elements.normalized)
         fail(gltf.path, fmt::format("{}: must be floats or normalized integers", user));
     std::vector<float> values(elements.count * std::size_t(components), 0.0f);
@@ -224,9 +238,14 @@ int component_count(const GltfFile& gltf, int accessor) {
 
 std::vector<std::uint32_t> read_indices(const GltfFile& gltf, int accessor, const std::string& user) {
     const tinygltf::Accessor& a = accessor_at(gltf, accessor, user);
-    const Elements elements = elements_of(gltf, a, 1, user);
-    if (a.sparse.isSparse) fail(gltf.path, fmt::format("{}: sparse indices are not supported", user));
-    return integers(gltf, elements, user);
+    const std::string who = with_number(user, accessor);
+    const Elements elements = elements_of(gltf, a, 1, who);
+    std::vector<std::uint32_t> values = integers(gltf, elements, who);
+    if (!a.sparse.isSparse) return values;
+    const Replacements replacements = replacements_of(gltf, a, elements, who);
+    const std::vector<std::uint32_t> replaced = integers(gltf, replacements.values, who);
+    for (std::size_t i = 0; i < replaced.size(); ++i) values[replacements.indices[i]] = replaced[i];
+    return values;
 }
 
 }  // namespace pellucid

@@ -3,17 +3,19 @@
 
 #include "core/fail.h"
 #include "core/file.h"
+#include "scene/gltf_draco.h"
+#include "scene/gltf_json.h"
+#include "scene/gltf_meshopt.h"
+#include "scene/gltf_uri.h"
 
 #include <pellucid/error.h>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 
 namespace pellucid {
@@ -21,15 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 15> kSupportedExtensions = {
-    "KHR_materials_transmission", "KHR_materials_volume",
-    "KHR_materials_ior",          "KHR_materials_dispersion",
-    "KHR_materials_unlit",        "KHR_materials_emissive_strength",
-    "KHR_texture_transform",      "KHR_mesh_quantization",
-    "KHR_lights_punctual",        "KHR_materials_diffuse_transmission",
-    "KHR_materials_clearcoat",    "KHR_materials_sheen",
-    "KHR_materials_specular",     "KHR_materials_iridescence",
-    "KHR_materials_anisotropy"};
+constexpr std::uint32_t kJson = 0x4e4f534a, kBin = 0x004e4942;
 
 std::string_view text_of(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -41,10 +35,14 @@ std::uint32_t u32_at(std::span<const std::byte> bytes, std::size_t offset) {
     return value;
 }
 
+/// Whether the rest of the file, from `at` on, is one chunk of binary data.
+bool begins_chunk(std::span<const std::byte> file, std::size_t at) {
+    return at + 8 <= file.size() && u32_at(file, at + 4) == kBin && u32_at(file, at) <= file.size() - at - 8;
+}
+
 /// Splits the file into its JSON text and the binary chunk, which only .glb files have.
 void split_container(const std::filesystem::path& path, std::span<const std::byte> file, std::string_view& text,
                      std::span<const std::byte>& binary) {
-    constexpr std::uint32_t kJson = 0x4e4f534a, kBin = 0x004e4942;
     if (file.empty()) fail(path, "is empty");
     text = text_of(file);
     if (!text.starts_with("glTF")) return;
@@ -62,88 +60,20 @@ void split_container(const std::filesystem::path& path, std::span<const std::byt
         if (at == 12 && type != kJson) fail(path, "GLB file does not begin with its JSON chunk");
         if (at == 12) text = text_of(chunk);
         if (at != 12 && type == kBin && binary.empty()) binary = chunk;
-        at += 8 + (size + 3) / 4 * 4;
+        // Chunks end at multiples of 4 bytes, but some programs do not fill them up.
+        const std::size_t end = at + 8 + size, padded = at + 8 + (size + 3) / 4 * 4;
+        at = end != padded && begins_chunk(file.first(length), end) ? end : padded;
     }
 }
 
-/// tinygltf recurses into extensions and extras, so their depth must not reach the stack's.
-void check_depth(const std::filesystem::path& path, std::string_view text) {
-    constexpr int kMaxDepth = 100;
-    int depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (c == '"') in_string = !in_string;
-        if (in_string && c == '\\') ++i;
-        if (in_string) continue;
-        if ((c == '{' || c == '[') && ++depth > kMaxDepth) fail(path, "JSON is nested too deeply");
-        if (c == '}' || c == ']') --depth;
-    }
-}
-
-json parse_json(const std::filesystem::path& path, std::string_view text) {
-    check_depth(path, text);
-    json root = json::parse(text.begin(), text.end());
-    if (!root.is_object()) fail(path, "JSON is not an object");
-    return root;
-}
-
-void check_version(const std::filesystem::path& path, const json& root) {
-    const auto asset = root.find("asset");
-    if (asset == root.end() || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
-        fail(path, "is no glTF file: asset.version is missing");
-    const std::string version = (*asset)["version"];
-    if (!version.starts_with("2.")) fail(path, fmt::format("glTF version {} is not supported, only 2", version));
-}
-
-bool supported(const json& extension) {
-    return extension.is_string() && std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(),
-                                              extension.get<std::string>()) != kSupportedExtensions.end();
-}
-
-void check_extensions(const std::filesystem::path& path, const json& root, Warnings& warnings) {
-    for (const json& extension : root.value("extensionsRequired", json::array()))
-        if (!supported(extension))
-            fail(path, fmt::format("requires glTF extension {}, which is not supported",
-                                   extension.is_string() ? extension.get<std::string>() : extension.dump()));
-    for (const json& extension : root.value("extensionsUsed", json::array()))
-        if (!supported(extension))
-            warnings.add(fmt::format("{}: glTF extension {} is ignored", path.filename().string(),
-                                     extension.is_string() ? extension.get<std::string>() : extension.dump()));
-}
-
-/// "%20" and the like as the characters that they stand for.
-std::string percent_decoded(const std::string& uri) {
-    const auto digit = [](char c) {
-        if (c >= '0' && c <= '9') return c - '0';
-        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-        if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-        return -1;
-    };
-    std::string decoded;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
-            decoded += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
-            i += 2;
-        } else {
-            decoded += uri[i];
-        }
-    }
-    return decoded;
-}
-
-/// Content of a data URI, or of a file beside the glTF file. Throws Error.
-std::vector<std::byte> read_uri(const std::filesystem::path& path, const std::string& uri) {
-    if (!tinygltf::IsDataURI(uri)) {
-        if (uri.starts_with("data:")) throw Error("data URI of unknown kind: " + uri.substr(0, uri.find(',')));
-        return read_file(path.parent_path() / percent_decoded(uri));
-    }
-    std::vector<unsigned char> bytes;
-    std::string mime_type;
-    if (!tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false)) throw Error("damaged data URI");
-    std::vector<std::byte> content(bytes.size());
-    if (!bytes.empty()) std::memcpy(content.data(), bytes.data(), bytes.size());
-    return content;
+/// Buffers of EXT_meshopt_compression that only say how large the decoded data is.
+bool is_fallback(const json& buffer) {
+    const auto extensions = buffer.find("extensions");
+    if (extensions == buffer.end() || !extensions->is_object()) return false;
+    for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (const auto found = extensions->find(name); found != extensions->end() && found->is_object())
+            return found->value("fallback", json()) == true;
+    return false;
 }
 
 void read_buffers(GltfFile& gltf, const json& root, std::span<const std::byte> binary) {
@@ -154,10 +84,13 @@ void read_buffers(GltfFile& gltf, const json& root, std::span<const std::byte> b
         std::vector<std::byte> bytes;
         if (!uri.empty()) {
             try {
-                bytes = read_uri(gltf.path, uri);
+                bytes = read_gltf_uri(gltf.path, uri);
             } catch (const Error& error) {
                 fail(gltf.path, fmt::format("buffer {}: {}", i, error.what()));
             }
+        } else if (is_fallback(buffers[i])) {
+            gltf.buffers.emplace_back();
+            continue;
         } else if (i == 0) {
             bytes.assign(binary.begin(), binary.end());
         }
@@ -184,11 +117,12 @@ void read_images(GltfFile& gltf, const json& root) {
             } else if (!name.empty()) {
                 image.name = name;
             }
-            if (!uri.empty()) {
-                image.bytes = read_uri(gltf.path, uri);
+            if (uri.starts_with("data:")) {
+                image.bytes = read_gltf_uri(gltf.path, uri);
+            } else if (!uri.empty()) {
+                image.file = gltf_uri_file(gltf.path, uri);
             } else {
-                const auto bytes = gltf.view(images[i].at("bufferView").get<int>(), image.name);
-                image.bytes.assign(bytes.begin(), bytes.end());
+                image.view = gltf.view(images[i].at("bufferView").get<int>(), image.name);
             }
         } catch (const Error& error) {
             image.problem = error.what();
@@ -199,24 +133,15 @@ void read_images(GltfFile& gltf, const json& root) {
     }
 }
 
-void parse_model(GltfFile& gltf, json root, Warnings& warnings) {
-    root.erase("buffers");
-    root.erase("images");
-    // Skins need not have inverse bind matrices, but tinygltf complains.
-    if (const auto skins = root.find("skins"); skins != root.end() && skins->is_array())
-        for (json& skin : *skins)
-            if (skin.is_object() && !skin.contains("inverseBindMatrices")) skin["inverseBindMatrices"] = -1;
-    const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
-    std::string problem, remark;
-    tinygltf::TinyGLTF parser;
-    if (!parser.LoadASCIIFromString(&gltf.model, &problem, &remark, text.data(), static_cast<unsigned>(text.size()),
-                                    ""))
-        fail(gltf.path, problem.empty() ? "malformed glTF" : problem);
-    if (!problem.empty() || !remark.empty())
-        warnings.add(fmt::format("{}: {} {}", gltf.path.filename().string(), problem, remark));
-}
-
 }  // namespace
+
+bool GltfImage::is_ktx2() const {
+    constexpr std::string_view kMagic = "\xabKTX 20\xbb";
+    if (file.empty()) return text_of(view.empty() ? std::span<const std::byte>(bytes) : view).starts_with(kMagic);
+    std::string head(kMagic.size(), ' ');
+    std::ifstream(file, std::ios::binary).read(head.data(), std::streamsize(head.size()));
+    return head == kMagic;
+}
 
 std::span<const std::byte> GltfFile::view(int buffer_view, const std::string& user) const {
     if (buffer_view < 0 || std::size_t(buffer_view) >= model.bufferViews.size())
@@ -238,11 +163,11 @@ GltfFile read_gltf_file(const std::filesystem::path& path, Warnings& warnings) {
     GltfFile gltf;
     gltf.path = path;
     try {
-        const json root = parse_json(path, text);
-        check_version(path, root);
-        check_extensions(path, root, warnings);
-        parse_model(gltf, root, warnings);
+        const json root = parse_gltf_json(path, text, warnings);
+        gltf.model = gltf_model(path, root, warnings);
         read_buffers(gltf, root, binary);
+        decode_meshopt(gltf);
+        decode_draco(gltf, warnings);
         read_images(gltf, root);
     } catch (const Error&) {
         throw;

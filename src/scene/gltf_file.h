@@ -12,18 +12,22 @@
 
 namespace pellucid {
 
-/// Bytes of an image that a glTF file names; not decoded, since most images are never needed.
+/// An image that a glTF file names; not read yet, since most images are never needed.
 struct GltfImage {
     std::string name;
-    std::vector<std::byte> bytes;
-    std::string problem;  ///< why there are no bytes; empty if there are
+    std::filesystem::path file;       ///< that it is; else
+    std::vector<std::byte> bytes;     ///< of a data URI; else
+    std::span<const std::byte> view;  ///< in GltfFile::buffers
+    std::string problem;              ///< why there is none of these; empty if there is
+
+    bool is_ktx2() const;
 };
 
 /// A glTF file with everything that belongs to it. tinygltf's model holds the JSON part only:
-/// buffers and images are read here, where sizes are checked.
+/// buffers and images are read here, where sizes are checked. Compressed meshes are decoded.
 struct GltfFile {
     std::filesystem::path path;
-    tinygltf::Model model;  ///< its buffers and images are empty
+    tinygltf::Model model;  ///< its buffers and images are empty; views and accessors may follow those of the file
     std::vector<std::vector<std::byte>> buffers;
     std::vector<GltfImage> images;
 
@@ -31,8 +35,8 @@ struct GltfFile {
     std::span<const std::byte> view(int buffer_view, const std::string& user) const;
 };
 
-/// Throws Error for a damaged file, for missing buffers, and for required extensions that are not
-/// supported. Extensions that are only used, and images that are missing, give a warning.
+/// Throws Error for a damaged file, for missing buffers, and for required extensions that are refused. Extensions that
+/// are left out, and images that are missing, give a warning.
 GltfFile read_gltf_file(const std::filesystem::path& path, Warnings& warnings);
 
 }  // namespace pellucid

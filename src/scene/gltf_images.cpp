@@ -1,60 +1,89 @@
 #include "scene/gltf_images.h"
 
+#include "core/file.h"
+#include "core/parallel.h"
+
 #include <pellucid/error.h>
 
 #include <fmt/format.h>
 
+#include <exception>
+#include <utility>
+
 namespace pellucid {
-namespace {
-
-constexpr int kUnknown = -2;
-
-}  // namespace
 
 GltfImages::GltfImages(const GltfFile& gltf, Scene& scene, Warnings& warnings)
-    : gltf_(gltf), scene_(scene), warnings_(warnings), index_(gltf.images.size(), kUnknown),
-      warned_(gltf.images.size(), 0) {}
+    : gltf_(gltf), scene_(scene), warnings_(warnings), entries_(gltf.images.size()) {}
 
-void GltfImages::warn(int gltf_image, const std::string& user, const std::string& problem) {
-    if (warned_[std::size_t(gltf_image)]) return;
-    warned_[std::size_t(gltf_image)] = 1;
-    warnings_.add(fmt::format("{}: texture left out: {}", user, problem));
+void GltfImages::decode(std::size_t gltf_image) {
+    const GltfImage& from = gltf_.images[gltf_image];
+    Entry& entry = entries_[gltf_image];
+    entry.noted = true;
+    entry.problem = from.problem;
+    if (!entry.problem.empty()) return;
+    try {
+        const std::vector<std::byte> read = from.file.empty() ? std::vector<std::byte>() : read_file(from.file);
+        const std::span<const std::byte> bytes = !from.file.empty()    ? read
+                                                 : !from.bytes.empty() ? from.bytes
+                                                                       : from.view;
+        entry.image = decode_image(bytes.data(), bytes.size(), from.name);
+    } catch (const std::exception& error) {
+        entry.problem = error.what();
+    }
+}
+
+void GltfImages::decode_noted() {
+    std::vector<std::size_t> noted;
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+        if (entries_[i].noted) noted.push_back(i);
+    for_each_parallel(noted.size(), [&](std::size_t i) { decode(noted[i]); });
+    noting_ = false;
 }
 
 void GltfImages::expect(int gltf_image, const std::string& user) {
-    if (gltf_image < 0 || std::size_t(gltf_image) >= gltf_.images.size()) {
+    if (noting_) return;
+    if (gltf_image < 0 || std::size_t(gltf_image) >= entries_.size()) {
         warnings_.add(fmt::format("{}: texture without an image left out", user));
         return;
     }
-    const GltfImage& image = gltf_.images[std::size_t(gltf_image)];
-    if (!image.problem.empty()) warn(gltf_image, user, image.problem);
+    Entry& entry = entries_[std::size_t(gltf_image)];
+    const std::string& problem = entry.problem.empty() ? gltf_.images[std::size_t(gltf_image)].problem : entry.problem;
+    if (problem.empty() || entry.warned) return;
+    entry.warned = true;
+    warnings_.add(fmt::format("{}: texture left out: {}", user, problem));
 }
 
-std::optional<Image> GltfImages::decode(int gltf_image, const std::string& user) {
-    expect(gltf_image, user);
-    if (gltf_image < 0 || std::size_t(gltf_image) >= gltf_.images.size()) return std::nullopt;
-    const GltfImage& image = gltf_.images[std::size_t(gltf_image)];
-    if (!image.problem.empty()) return std::nullopt;
-    try {
-        return decode_image(image.bytes.data(), image.bytes.size(), image.name);
-    } catch (const Error& error) {
-        warn(gltf_image, user, error.what());
-        return std::nullopt;
+bool GltfImages::have(int gltf_image, const std::string& user) {
+    if (gltf_image >= 0 && std::size_t(gltf_image) < entries_.size()) {
+        Entry& entry = entries_[std::size_t(gltf_image)];
+        if (!noting_ && !entry.noted) decode(std::size_t(gltf_image));
+        entry.noted = true;
+        if (entry.image || entry.index >= 0) return true;
     }
+    expect(gltf_image, user);
+    return false;
 }
 
 int GltfImages::index(int gltf_image, const std::string& user) {
-    if (gltf_image < 0 || std::size_t(gltf_image) >= gltf_.images.size()) {
-        expect(gltf_image, user);
-        return -1;
+    if (!have(gltf_image, user)) return noting_ ? 0 : -1;
+    Entry& entry = entries_[std::size_t(gltf_image)];
+    if (entry.index < 0) {
+        entry.index = add(std::move(*entry.image), gltf_.images[std::size_t(gltf_image)].name);
+        entry.image.reset();
     }
-    int& index = index_[std::size_t(gltf_image)];
-    if (index != kUnknown) return index;
-    std::optional<Image> image = decode(gltf_image, user);
-    if (!image) return index = -1;
-    scene_.images.push_back(std::move(*image));
-    scene_.image_names.push_back(gltf_.images[std::size_t(gltf_image)].name);
-    return index = static_cast<int>(scene_.images.size()) - 1;
+    return entry.index;
+}
+
+const Image* GltfImages::decoded(int gltf_image, const std::string& user) {
+    if (!have(gltf_image, user)) return nullptr;
+    const Entry& entry = entries_[std::size_t(gltf_image)];
+    return entry.index >= 0 ? &scene_.images[std::size_t(entry.index)] : &*entry.image;
+}
+
+int GltfImages::add(Image image, const std::string& name) {
+    scene_.images.push_back(std::move(image));
+    scene_.image_names.push_back(name);
+    return static_cast<int>(scene_.images.size()) - 1;
 }
 
 }  // namespace pellucid

@@ -2,7 +2,9 @@
 
 #include "core/fail.h"
 #include "core/math.h"
-#include "scene/gltf_images.h"
+#include "scene/gltf_properties.h"
+#include "scene/gltf_spec_gloss.h"
+#include "scene/gltf_textures.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,74 +16,34 @@
 namespace pellucid {
 namespace {
 
-/// An extension's JSON object with defaults for what it lacks.
-class Properties {
-public:
-    Properties(const tinygltf::ExtensionMap& extensions, const char* name) {
-        const auto found = extensions.find(name);
-        if (found != extensions.end()) object_ = &found->second;
-    }
-    bool present() const { return object_ != nullptr; }
-
-    double number(const char* key, double otherwise) const {
-        const tinygltf::Value* value = get(key);
-        return value && value->IsNumber() ? value->GetNumberAsDouble() : otherwise;
-    }
-    /// Element of an array of numbers.
-    double number(const char* key, int element, double otherwise) const {
-        const tinygltf::Value* value = get(key);
-        if (!value || !value->IsArray() || value->ArrayLen() <= std::size_t(element)) return otherwise;
-        const tinygltf::Value& number = value->Get(element);
-        return number.IsNumber() ? number.GetNumberAsDouble() : otherwise;
-    }
-    /// A textureInfo object, as tinygltf returns those outside of extensions.
-    tinygltf::TextureInfo texture(const char* key) const {
-        tinygltf::TextureInfo info;
-        const tinygltf::Value* value = get(key);
-        if (!value || !value->IsObject()) return info;
-        const auto integer = [&](const char* name, int otherwise) {
-            if (!value->Has(name) || !value->Get(name).IsNumber()) return otherwise;
-            return value->Get(name).GetNumberAsInt();
-        };
-        info.index = integer("index", -1);
-        info.texCoord = integer("texCoord", 0);
-        if (value->Has("extensions") && value->Get("extensions").IsObject())
-            for (const std::string& name : value->Get("extensions").Keys())
-                info.extensions[name] = value->Get("extensions").Get(name);
-        return info;
-    }
-    /// A number of a textureInfo object.
-    double texture_number(const char* key, const char* name, double otherwise) const {
-        const tinygltf::Value* value = get(key);
-        if (!value || !value->IsObject() || !value->Has(name) || !value->Get(name).IsNumber()) return otherwise;
-        return value->Get(name).GetNumberAsDouble();
-    }
-
-private:
-    const tinygltf::Value* get(const char* key) const {
-        if (!object_ || !object_->IsObject() || !object_->Has(key)) return nullptr;
-        return &object_->Get(std::string(key));
-    }
-    const tinygltf::Value* object_ = nullptr;
-};
-
 class MaterialReader {
 public:
-    MaterialReader(const GltfFile& gltf, Scene& scene, Warnings& warnings)
-        : gltf_(gltf), images_(gltf, scene, warnings), warnings_(warnings) {}
+    MaterialReader(const GltfFile& gltf, GltfTextures& textures, Warnings& warnings)
+        : gltf_(gltf), textures_(textures), specular_glossiness_(gltf, textures, warnings), warnings_(warnings) {}
 
     Material read(const tinygltf::Material& from, std::size_t number) {
         Material material;
         material.name = from.name.empty() ? fmt::format("material {}", number) : from.name;
         user_ = fmt::format("material {}", material.name);
         if (from.name.empty()) user_ = material.name;
+        textures_.begin(number, user_);
+        if (!specular_glossiness_.read(from, user_, material)) read_base(from.pbrMetallicRoughness, material);
         read_surface(from, material);
         read_glass(from.extensions, material);
         read_alpha(from, material);
         read_diffuse_transmission(from.extensions, material);
         read_directions(from, material);
         read_finish(from.extensions, material);
+        if (material.transmissive() && textures_.lacks_basis())
+            fail(gltf_.path, fmt::format("{}: glass with a texture of KTX2 (KHR_texture_basisu), which is not decoded; "
+                                         "export the file with PNG or JPEG images",
+                                         user_));
         return material;
+    }
+
+    void warn_about_leftovers() {
+        specular_glossiness_.warn_about_conversions();
+        textures_.warn_about_leftovers();
     }
 
 private:
@@ -93,24 +55,25 @@ private:
         return static_cast<float>(used);
     }
 
-    void read_surface(const tinygltf::Material& from, Material& material) {
-        constexpr double kBrightest = 1e6;
-        const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    void read_base(const tinygltf::PbrMetallicRoughness& pbr, Material& material) {
         for (int k = 0; k < 4 && pbr.baseColorFactor.size() == 4; ++k)
             material.base_color[k] = in_range(pbr.baseColorFactor[std::size_t(k)], 0.0, 1.0, "baseColorFactor");
         material.base_color_texture = texture(pbr.baseColorTexture, "base colour");
         material.metallic = in_range(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
         material.roughness = in_range(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
         material.metallic_roughness_texture = texture(pbr.metallicRoughnessTexture, "metallic-roughness");
+    }
 
+    void read_surface(const tinygltf::Material& from, Material& material) {
+        constexpr double kBrightest = 1e6;
         const double strength =
-            in_range(Properties(from.extensions, "KHR_materials_emissive_strength").number("emissiveStrength", 1.0),
+            in_range(GltfProperties(from.extensions, "KHR_materials_emissive_strength").number("emissiveStrength", 1.0),
                      0.0, kBrightest, "emissiveStrength");
         for (int k = 0; k < 3 && from.emissiveFactor.size() == 3; ++k)
             material.emission[k] = static_cast<float>(
                 strength * double(in_range(from.emissiveFactor[std::size_t(k)], 0.0, kBrightest, "emissiveFactor")));
         if (material.emission != glm::vec3(0.0f)) material.emission_texture = texture(from.emissiveTexture, "emission");
-        material.unlit = Properties(from.extensions, "KHR_materials_unlit").present();
+        material.unlit = GltfProperties(from.extensions, "KHR_materials_unlit").present();
         material.double_sided = from.doubleSided;
     }
 
@@ -130,7 +93,7 @@ private:
     }
 
     void read_diffuse_transmission(const tinygltf::ExtensionMap& extensions, Material& material) {
-        const Properties diffuse(extensions, "KHR_materials_diffuse_transmission");
+        const GltfProperties diffuse(extensions, "KHR_materials_diffuse_transmission");
         material.diffuse_transmission =
             in_range(diffuse.number("diffuseTransmissionFactor", 0.0), 0.0, 1.0, "diffuseTransmissionFactor");
         for (int k = 0; k < 3; ++k)
@@ -139,9 +102,7 @@ private:
         for (const char* name : {"diffuseTransmissionTexture", "diffuseTransmissionColorTexture"}) {
             const int index = diffuse.texture(name).index;
             if (index < 0) continue;
-            tinygltf::TextureInfo info;
-            info.index = index;
-            images_.expect(image_of(info), user_);
+            textures_.expect(index);
             warnings_.add(fmt::format("{}: {} is not used", user_, name));
         }
         // Light that goes straight through leaves no share to be scattered; glass with a little of both is drawn as glass.
@@ -150,21 +111,21 @@ private:
     }
 
     void read_glass(const tinygltf::ExtensionMap& extensions, Material& material) {
-        const Properties transmission(extensions, "KHR_materials_transmission");
+        const GltfProperties transmission(extensions, "KHR_materials_transmission");
         material.transmission =
             in_range(transmission.number("transmissionFactor", 0.0), 0.0, 1.0, "transmissionFactor");
         if (material.transmission > 0.0f)
             material.transmission_texture = texture(transmission.texture("transmissionTexture"), "transmission");
 
-        const double ior = Properties(extensions, "KHR_materials_ior").number("ior", 1.5);
+        const double ior = GltfProperties(extensions, "KHR_materials_ior").number("ior", 1.5);
         // The extension lets 0 stand for an infinite index: a mirror. Glass has none.
         material.ior = ior == 0.0 ? 1.5f : in_range(ior, 1.0, 100.0, "ior");
         if (ior == 0.0) warnings_.add(fmt::format("{}: ior 0 (infinite) is not supported, 1.5 used", user_));
-        material.dispersion = in_range(Properties(extensions, "KHR_materials_dispersion").number("dispersion", 0.0),
+        material.dispersion = in_range(GltfProperties(extensions, "KHR_materials_dispersion").number("dispersion", 0.0),
                                        0.0, 100.0, "dispersion");
 
         // thicknessTexture is for renderers that do not follow light through the solid.
-        const Properties volume(extensions, "KHR_materials_volume");
+        const GltfProperties volume(extensions, "KHR_materials_volume");
         constexpr double kHuge = std::numeric_limits<float>::max();
         material.thickness = in_range(volume.number("thicknessFactor", 0.0), 0.0, kHuge, "thicknessFactor");
         for (int k = 0; k < 3; ++k)
@@ -175,56 +136,7 @@ private:
             material.attenuation_distance = in_range(distance, 1e-6, kHuge, "attenuationDistance");
     }
 
-    /// Index of the image behind a texture, -1 if there is none.
-    int image_of(const tinygltf::TextureInfo& info) const {
-        if (info.index < 0 || std::size_t(info.index) >= gltf_.model.textures.size()) return -1;
-        return gltf_.model.textures[std::size_t(info.index)].source;
-    }
-
-    Texture texture(const tinygltf::TextureInfo& info, const char* what) {
-        Texture texture;
-        if (info.index < 0) return texture;
-        if (std::size_t(info.index) >= gltf_.model.textures.size())
-            fail(gltf_.path, fmt::format("{}: there is no texture {}", user_, info.index));
-        const Properties transform(info.extensions, "KHR_texture_transform");
-        texture.texcoord_set = static_cast<int>(std::clamp(transform.number("texCoord", info.texCoord), -1.0, 9.0));
-        if (texture.texcoord_set < 0 || texture.texcoord_set > 1) {
-            warnings_.add(
-                fmt::format("{}: {} texture left out: only texture coordinates 0 and 1 are read", user_, what));
-            return {};
-        }
-        texture.image = images_.index(image_of(info), user_);
-        if (texture.image < 0) return {};
-        read_sampler(gltf_.model.textures[std::size_t(info.index)].sampler, texture);
-        if (transform.present()) texture.uv_from_texcoord = uv_transform(transform);
-        return texture;
-    }
-
-    void read_sampler(int index, Texture& texture) const {
-        if (index < 0 || std::size_t(index) >= gltf_.model.samplers.size()) return;
-        const tinygltf::Sampler& sampler = gltf_.model.samplers[std::size_t(index)];
-        const auto wrap = [](int mode) {
-            if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::kClamp;
-            return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::kMirror : Wrap::kRepeat;
-        };
-        texture.wrap_u = wrap(sampler.wrapS);
-        texture.wrap_v = wrap(sampler.wrapT);
-        texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-    }
-
-    /// translation * rotation * scale; the rotation is counter-clockwise with v running downwards.
-    glm::mat3 uv_transform(const Properties& transform) {
-        constexpr double kFar = 1e6;
-        const auto value = [&](const char* key, int k, double otherwise) {
-            return in_range(transform.number(key, k, otherwise), -kFar, kFar, "KHR_texture_transform");
-        };
-        const float angle = in_range(transform.number("rotation", 0.0), -kFar, kFar, "KHR_texture_transform");
-        const float c = std::cos(angle), s = std::sin(angle);
-        const glm::mat3 translation(1, 0, 0, 0, 1, 0, value("offset", 0, 0.0), value("offset", 1, 0.0), 1);
-        const glm::mat3 rotation(c, -s, 0, s, c, 0, 0, 0, 1);
-        const glm::mat3 scale(value("scale", 0, 1.0), 0, 0, 0, value("scale", 1, 1.0), 0, 0, 0, 1);
-        return translation * rotation * scale;
-    }
+    Texture texture(const tinygltf::TextureInfo& info, const char* what) { return textures_.texture(info, what); }
 
     /// Textures of normals and occlusion.
     void read_directions(const tinygltf::Material& from, Material& material) {
@@ -248,9 +160,10 @@ private:
     /// What extensions add to opaque surfaces.
     void read_finish(const tinygltf::ExtensionMap& extensions, Material& material) {
         if (material.unlit) return;
-        const Properties coat(extensions, "KHR_materials_clearcoat"), sheen(extensions, "KHR_materials_sheen");
-        const Properties specular(extensions, "KHR_materials_specular"), film(extensions, "KHR_materials_iridescence");
-        const Properties along(extensions, "KHR_materials_anisotropy");
+        const GltfProperties coat(extensions, "KHR_materials_clearcoat"), sheen(extensions, "KHR_materials_sheen");
+        const GltfProperties specular(extensions, "KHR_materials_specular"),
+            film(extensions, "KHR_materials_iridescence");
+        const GltfProperties along(extensions, "KHR_materials_anisotropy");
         if (material.transmissive()) {
             // Thin-walled and solid glass have smooth boundaries of their index alone.
             std::vector<const char*> left_out;
@@ -280,7 +193,7 @@ private:
         }
     }
 
-    static bool changes(const Properties& specular) {
+    static bool changes(const GltfProperties& specular) {
         bool changes = specular.number("specularFactor", 1.0) != 1.0 ||
                        specular.texture("specularTexture").index >= 0 ||
                        specular.texture("specularColorTexture").index >= 0;
@@ -288,11 +201,11 @@ private:
         return changes;
     }
 
-    float factor(const Properties& from, const char* key, double otherwise) {
+    float factor(const GltfProperties& from, const char* key, double otherwise) {
         return in_range(from.number(key, otherwise), 0.0, 1.0, key);
     }
 
-    void read_coat(const Properties& coat, Finish& finish) {
+    void read_coat(const GltfProperties& coat, Finish& finish) {
         finish.clearcoat = factor(coat, "clearcoatFactor", 0.0);
         if (!finish.coated()) return;
         finish.clearcoat_texture = texture(coat.texture("clearcoatTexture"), "clearcoat");
@@ -303,7 +216,7 @@ private:
                                                  "scale of the clearcoat normal texture");
     }
 
-    void read_sheen(const Properties& sheen, Finish& finish) {
+    void read_sheen(const GltfProperties& sheen, Finish& finish) {
         for (int k = 0; k < 3; ++k)
             finish.sheen_color[k] = in_range(sheen.number("sheenColorFactor", k, 0.0), 0.0, 1.0, "sheenColorFactor");
         if (!finish.has_sheen()) return;
@@ -312,7 +225,7 @@ private:
         finish.sheen_roughness_texture = texture(sheen.texture("sheenRoughnessTexture"), "sheen roughness");
     }
 
-    void read_specular(const Properties& specular, Finish& finish) {
+    void read_specular(const GltfProperties& specular, Finish& finish) {
         finish.specular = factor(specular, "specularFactor", 1.0);
         finish.specular_texture = texture(specular.texture("specularTexture"), "specular");
         for (int k = 0; k < 3; ++k)
@@ -321,7 +234,7 @@ private:
         finish.specular_color_texture = texture(specular.texture("specularColorTexture"), "specular colour");
     }
 
-    void read_film(const Properties& film, Finish& finish) {
+    void read_film(const GltfProperties& film, Finish& finish) {
         finish.iridescence = factor(film, "iridescenceFactor", 0.0);
         if (finish.iridescence == 0.0f) return;
         constexpr double kThickest = 1e6;  // nm
@@ -336,17 +249,25 @@ private:
     }
 
     const GltfFile& gltf_;
-    GltfImages images_;
+    GltfTextures& textures_;
+    SpecularGlossiness specular_glossiness_;
     Warnings& warnings_;
     std::string user_;  ///< the material at hand, for messages
 };
 
 }  // namespace
 
-void read_gltf_materials(const GltfFile& gltf, Scene& scene, Warnings& warnings) {
-    MaterialReader reader(gltf, scene, warnings);
-    for (std::size_t i = 0; i < gltf.model.materials.size(); ++i)
-        scene.materials.push_back(reader.read(gltf.model.materials[i], i));
+std::vector<TexcoordSets> read_gltf_materials(const GltfFile& gltf, Scene& scene, Warnings& warnings) {
+    const auto& materials = gltf.model.materials;
+    GltfTextures textures(gltf, scene, warnings);
+    Warnings unheard;
+    MaterialReader first(gltf, textures, unheard);
+    for (std::size_t i = 0; i < materials.size(); ++i) first.read(materials[i], i);
+    textures.begin_again();
+    MaterialReader second(gltf, textures, warnings);
+    for (std::size_t i = 0; i < materials.size(); ++i) scene.materials.push_back(second.read(materials[i], i));
+    second.warn_about_leftovers();
+    return textures.sets();
 }
 
 Material default_gltf_material() {

@@ -37,7 +37,7 @@ std::vector<glm::uvec3> triangles_of(int mode, const std::vector<std::uint32_t>&
 }
 
 /// Index of an attribute's accessor, or -1.
-int accessor_of(const tinygltf::Primitive& primitive, const char* attribute) {
+int accessor_of(const tinygltf::Primitive& primitive, const std::string& attribute) {
     const auto found = primitive.attributes.find(attribute);
     return found == primitive.attributes.end() ? -1 : found->second;
 }
@@ -71,10 +71,11 @@ void follow_repair(Shape& shape, const MeshRepair& repair, const MeshOrigin& ori
 
 }  // namespace
 
-GltfMeshes::GltfMeshes(const GltfFile& gltf, const LoadOptions& options, Scene& scene, Rig& rig, Warnings& warnings)
-    : gltf_(gltf), options_(options), scene_(scene), rig_(rig), warnings_(warnings),
+GltfMeshes::GltfMeshes(const GltfFile& gltf, const LoadOptions& options, const std::vector<TexcoordSets>& sets,
+                       Scene& scene, Rig& rig, Warnings& warnings)
+    : gltf_(gltf), options_(options), sets_(sets), scene_(scene), rig_(rig), warnings_(warnings),
       primitives_(gltf.model.meshes.size()), skins_(gltf.model.skins.size(), -1),
-      animated_weights_(gltf.model.nodes.size(), 0) {
+      animated_weights_(gltf.model.nodes.size(), 0), solid_glass_(options.solid, scene, warnings) {
     for (const Animation& animation : rig.animations)
         for (const Channel& channel : animation.channels)
             if (channel.part == AnimatedPart::kWeights) animated_weights_[std::size_t(channel.node)] = 1;
@@ -174,16 +175,19 @@ void GltfMeshes::read(const tinygltf::Mesh& from, int gltf_mesh, std::vector<Pri
             continue;
         }
         Reading reading;
+        reading.material = material_of(primitive, user);
         reading.mesh = read_triangles(primitive, user);
         reading.mesh.name = name;
         if (from.primitives.size() > 1) reading.mesh.name += fmt::format(" primitive {}", p);
-        reading.material = material_of(primitive, user);
         const std::size_t vertices = reading.mesh.positions.size();
         reading.shape.targets = read_gltf_targets(gltf_, primitive, vertices, user, warnings_);
         if (!gltf_.model.skins.empty())
             reading.shape.influences = read_gltf_influences(gltf_, primitive, vertices, user, warnings_);
         readings.push_back(std::move(reading));
     }
+    std::vector<SolidGlass::Part> parts;
+    for (Reading& reading : readings) parts.push_back({&reading.mesh, &reading.material});
+    solid_glass_.apply(parts);
     const bool in_parts = repair_solid_of(readings, name);
     for (Reading& reading : readings) keep(reading, in_parts, primitives);
 }
@@ -264,7 +268,7 @@ Mesh GltfMeshes::read_triangles(const tinygltf::Primitive& from, const std::stri
 
 void GltfMeshes::read_attributes(const tinygltf::Primitive& from, const std::string& user, Mesh& mesh) {
     // One value per vertex, or none at all.
-    const auto fits = [&](auto& values, const char* attribute) {
+    const auto fits = [&](auto& values, const std::string& attribute) {
         if (values.size() >= mesh.positions.size()) {
             values.resize(mesh.positions.size());
             return;
@@ -286,11 +290,12 @@ void GltfMeshes::read_attributes(const tinygltf::Primitive& from, const std::str
             mesh.tangents.clear();
         }
     }
-    for (int set = 0; set < 2; ++set) {
-        const char* const attribute = set == 0 ? "TEXCOORD_0" : "TEXCOORD_1";
+    const TexcoordSets sets = from.material < 0 ? TexcoordSets{0, 1} : sets_[std::size_t(from.material)];
+    for (std::size_t slot = 0; slot < sets.size(); ++slot) {
+        const std::string attribute = fmt::format("TEXCOORD_{}", sets[slot]);
         const int texcoord = accessor_of(from, attribute);
         if (texcoord < 0) continue;
-        auto& texcoords = mesh.texcoords[set];
+        auto& texcoords = mesh.texcoords[slot];
         texcoords = read_vectors<2>(gltf_, texcoord, user + " " + attribute);
         fits(texcoords, attribute);
         if (!finite(texcoords)) {

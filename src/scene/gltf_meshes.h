@@ -1,6 +1,8 @@
 #pragma once
 
 #include "scene/gltf_file.h"
+#include "scene/gltf_solid_glass.h"
+#include "scene/gltf_textures.h"
 #include "scene/pose_nodes.h"
 #include "scene/rig.h"
 
@@ -22,10 +24,11 @@ struct GltfPart {
 };
 
 /// Reads glTF meshes when they are first asked for, into scene.meshes; what deforms goes into the rig, too.
-/// Materials, and the rig's nodes and animations, must be there.
+/// Materials, and the rig's nodes and animations, must be there. `sets`: see read_gltf_materials().
 class GltfMeshes {
 public:
-    GltfMeshes(const GltfFile& gltf, const LoadOptions& options, Scene& scene, Rig& rig, Warnings& warnings);
+    GltfMeshes(const GltfFile& gltf, const LoadOptions& options, const std::vector<TexcoordSets>& sets, Scene& scene,
+               Rig& rig, Warnings& warnings);
 
     /// Parts of the mesh that a node shows; points and lines are left out and counted. Nodes share them, unless
     /// they deform them differently.
@@ -62,6 +65,7 @@ private:
 
     const GltfFile& gltf_;
     const LoadOptions& options_;
+    const std::vector<TexcoordSets>& sets_;
     Scene& scene_;
     Rig& rig_;
     Warnings& warnings_;
@@ -70,6 +74,7 @@ private:
     std::vector<char> animated_weights_;  ///< by node
     std::map<Deformation, int> deformed_;
     int default_material_ = -1;
+    SolidGlass solid_glass_;
     std::size_t points_or_lines_ = 0;
 };
 

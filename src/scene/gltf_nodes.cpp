@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pellucid {
 namespace {
@@ -17,6 +18,7 @@ public:
         const std::size_t count = gltf.model.nodes.size();
         nodes_.tree.rest.resize(count);
         nodes_.tree.parent.assign(count, -1);
+        nodes_.hidden.assign(count, 0);
         placed_.assign(count, 0);
     }
 
@@ -56,10 +58,19 @@ private:
             placed_[n] = 1;
             nodes_.tree.rest[n] = transform(gltf_.model.nodes[n], next.node);
             nodes_.tree.parent[n] = next.parent;
+            nodes_.hidden[n] =
+                hides(gltf_.model.nodes[n]) || (next.parent >= 0 && nodes_.hidden[std::size_t(next.parent)]);
             nodes_.tree.order.push_back(next.node);
             const std::vector<int>& children = gltf_.model.nodes[n].children;
             for (auto child = children.rbegin(); child != children.rend(); ++child) open.push_back({*child, next.node});
         }
+    }
+
+    static bool hides(const tinygltf::Node& node) {
+        const auto found = node.extensions.find("KHR_node_visibility");
+        if (found == node.extensions.end() || !found->second.IsObject() || !found->second.Has("visible")) return false;
+        const tinygltf::Value& visible = found->second.Get("visible");
+        return visible.IsBool() && !visible.Get<bool>();
     }
 
     /// Root nodes of the default scene, else of the first, else all that are nobody's child.
@@ -91,9 +102,14 @@ private:
         };
         NodeTransform result;
         if (given(node.matrix, 16, "matrix")) {
-            const glm::dmat4 m = glm::make_mat4(node.matrix.data());
-            if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0)
-                fail(gltf_.path, fmt::format("{}: matrix is not affine", gltf_node_name(gltf_, index)));
+            glm::dmat4 m = glm::make_mat4(node.matrix.data());
+            constexpr double kRounding = 1e-5;
+            const glm::dvec4 last_row(m[0][3], m[1][3], m[2][3], m[3][3] - 1.0);
+            for (int k = 0; k < 4; ++k) {
+                if (!(std::abs(last_row[k]) <= kRounding))
+                    fail(gltf_.path, fmt::format("{}: matrix is not affine", gltf_node_name(gltf_, index)));
+                m[k][3] = k == 3 ? 1.0 : 0.0;
+            }
             result.matrix = m;
             return result;
         }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace pellucid {
 
@@ -12,6 +13,7 @@ namespace pellucid {
 struct GltfNodes {
     NodeTree tree;
     std::size_t in_scene = 0;  ///< the first ones of tree.order are the default scene's, each before its children
+    std::vector<char> hidden;  ///< by node: KHR_node_visibility hides it, itself or through its ancestors
 };
 
 /// Throws Error for transforms that cannot be, and for nodes of the default scene that are their own ancestors or

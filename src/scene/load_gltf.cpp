@@ -7,6 +7,7 @@
 #include "scene/far_positions.h"
 #include "scene/gltf_animations.h"
 #include "scene/gltf_file.h"
+#include "scene/gltf_instances.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,8 +38,9 @@ bool finite(const glm::dmat4& m) {
 
 class SceneReader {
 public:
-    SceneReader(const GltfFile& gltf, const LoadOptions& options, Scene& scene, Warnings& warnings)
-        : gltf_(gltf), options_(options), scene_(scene), warnings_(warnings) {}
+    SceneReader(const GltfFile& gltf, const LoadOptions& options, const std::vector<TexcoordSets>& sets, Scene& scene,
+                Warnings& warnings)
+        : gltf_(gltf), options_(options), sets_(sets), scene_(scene), warnings_(warnings) {}
 
     void read() {
         const GltfNodes nodes = read_gltf_nodes(gltf_);
@@ -46,7 +49,7 @@ public:
         NodePose pose =
             pose_nodes(rig_.tree, chosen_animation(gltf_, rig_.animations, options_), options_.time_s.value_or(0.0));
         const std::span<const int> order(rig_.tree.order.data(), nodes.in_scene);
-        read_objects(order, pose);
+        read_objects(order, pose, nodes.hidden);
         choose_frame(pose);
         rebase(pose, scene_.origin);
         place(pose);
@@ -55,6 +58,7 @@ public:
             const tinygltf::Node& node = gltf_.model.nodes[std::size_t(index)];
             const glm::dmat4& world = pose.world_from_node[std::size_t(index)];
             add_camera(node, index, world);
+            if (nodes.hidden[std::size_t(index)]) continue;
             add_gltf_light(gltf_, node, gltf_node_name(gltf_, index), world, scene_, warnings_);
         }
         keep_rig();
@@ -62,14 +66,15 @@ public:
 
 private:
     /// Objects and volumes of the nodes. They are placed later, but for vertices of skins.
-    void read_objects(std::span<const int> order, const NodePose& pose) {
-        GltfMeshes meshes(gltf_, options_, scene_, rig_, warnings_);
+    void read_objects(std::span<const int> order, const NodePose& pose, const std::vector<char>& hidden) {
+        GltfMeshes meshes(gltf_, options_, sets_, scene_, rig_, warnings_);
         GltfVolumes volumes(gltf_, scene_);
         for (const int index : order) {
             const tinygltf::Node& node = gltf_.model.nodes[std::size_t(index)];
             const glm::dmat4& world = pose.world_from_node[std::size_t(index)];
             const std::string name = gltf_node_name(gltf_, index);
             if (!finite(world)) fail(gltf_.path, fmt::format("{}: transform is not finite", name));
+            if (hidden[std::size_t(index)]) continue;
             const std::size_t first_object = scene_.objects.size();
             if (node.mesh >= 0) add_objects(meshes, index, name, pose);
             volumes.add(node, name, world, first_object);
@@ -94,7 +99,7 @@ private:
             const int mesh = scene_.objects[std::size_t(object.object)].mesh;
             goes_with_node[std::size_t(object.object)] = 1;
             object.mesh_origin = origins[std::size_t(mesh)];
-            world.add(boxes[std::size_t(mesh)], pose.world_from_node[std::size_t(object.node)]);
+            world.add(boxes[std::size_t(mesh)], world_from_mesh(pose, object));
         }
         for (std::size_t i = 0; i < scene_.objects.size(); ++i)
             if (!goes_with_node[i]) world.add(boxes[std::size_t(scene_.objects[i].mesh)], glm::dmat4(1.0));
@@ -111,7 +116,7 @@ private:
         CoarsePositions coarse(scene_extent);
         for (const NodeObject& object : rig_.objects) {
             const auto mesh = std::size_t(scene_.objects[std::size_t(object.object)].mesh);
-            const double volume = glm::determinant(pose.world_from_node[std::size_t(object.node)]);
+            const double volume = glm::determinant(world_from_mesh(pose, object));
             coarse.add(scene_.meshes[mesh].name, boxes[mesh], std::cbrt(std::abs(volume)));
         }
         for (const DeformedMesh& mesh : rig_.meshes)
@@ -147,7 +152,16 @@ private:
         const int mesh = gltf_.model.nodes[std::size_t(node)].mesh;
         if (std::size_t(mesh) >= gltf_.model.meshes.size())
             fail(gltf_.path, fmt::format("{}: there is no mesh {}", name, mesh));
-        const glm::dmat4& world = pose.world_from_node[std::size_t(node)];
+        const std::optional<std::vector<glm::dmat4>> instances = gltf_instances(gltf_, node, name, warnings_);
+        if (!instances) return add_parts(meshes, node, name, pose, std::nullopt);
+        for (const glm::dmat4& node_from_mesh : *instances) add_parts(meshes, node, name, pose, node_from_mesh);
+    }
+
+    void add_parts(GltfMeshes& meshes, int node, const std::string& name, const NodePose& pose,
+                   const std::optional<glm::dmat4>& node_from_mesh) {
+        const NodeObject placed{.object = -1, .node = node, .mesh_origin = {}, .node_from_mesh = node_from_mesh};
+        const glm::dmat4 world = world_from_mesh(pose, placed);
+        if (!finite(world)) fail(gltf_.path, fmt::format("{}: transform of an instance is not finite", name));
         const bool rigid = invertible(world);
         const std::string left_out = fmt::format("{}: scaled to nothing or out of all proportion, left out", name);
         if (!rigid && gltf_.model.nodes[std::size_t(node)].skin < 0) return warnings_.add(left_out);
@@ -155,21 +169,21 @@ private:
         const auto refracts = [&](const GltfPart& part) {
             return scene_.materials[std::size_t(part.material)].refractive();
         };
-        // Refracting primitives of one node bound one solid.
-        const int body = std::count_if(parts.begin(), parts.end(), refracts) > 1 ? node : -1;
+        // Refracting primitives of one instance bound one solid.
+        const int body = std::count_if(parts.begin(), parts.end(), refracts) > 1 ? bodies_++ : -1;
         const int priority = read_priority(node, name);
         for (const GltfPart& part : parts) {
             // A skin says where in the world its vertices are, whatever the node's own transform is.
-            if (part.in_world) {
-                scene_.objects.push_back(
-                    {name, part.mesh, part.material, glm::mat4(1.0f), refracts(part) ? body : -1, priority});
-            } else if (rigid) {
-                rig_.objects.push_back({.object = static_cast<int>(scene_.objects.size()), .node = node});
-                scene_.objects.push_back(
-                    {name, part.mesh, part.material, glm::mat4(1.0f), refracts(part) ? body : -1, priority});
-            } else {
+            if (!part.in_world && !rigid) {
                 warnings_.add(left_out);
+                continue;
             }
+            if (!part.in_world) {
+                rig_.objects.push_back(placed);
+                rig_.objects.back().object = static_cast<int>(scene_.objects.size());
+            }
+            scene_.objects.push_back(
+                {name, part.mesh, part.material, glm::mat4(1.0f), refracts(part) ? body : -1, priority});
         }
     }
 
@@ -260,10 +274,12 @@ private:
 
     const GltfFile& gltf_;
     const LoadOptions& options_;
+    const std::vector<TexcoordSets>& sets_;
     Scene& scene_;
     Warnings& warnings_;
     Rig rig_;
     std::vector<int> volume_nodes_;  ///< one per volume object
+    int bodies_ = 0;                 ///< given out to objects so far
 };
 
 }  // namespace
@@ -271,8 +287,8 @@ private:
 Scene load_gltf(const std::filesystem::path& file, const LoadOptions& options, Warnings& warnings) {
     const GltfFile gltf = read_gltf_file(file, warnings);
     Scene scene;
-    read_gltf_materials(gltf, scene, warnings);
-    SceneReader(gltf, options, scene, warnings).read();
+    const std::vector<TexcoordSets> sets = read_gltf_materials(gltf, scene, warnings);
+    SceneReader(gltf, options, sets, scene, warnings).read();
     return scene;
 }
 

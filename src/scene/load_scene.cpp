@@ -5,6 +5,7 @@
 #include "core/fail.h"
 #include "core/math.h"
 #include "scene/animation_names.h"
+#include "scene/attenuation_hints.h"
 #include "scene/far_positions.h"
 #include "scene/glass_scene.h"
 #include "scene/load_gltf.h"
@@ -127,6 +128,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     if (!(glm::length(glm::dvec3(bounds.center) + scene.origin) < double(kLargest) && bounds.radius < kLargest))
         fail(source, "positions are too large (more than 1e15)");
     if (!(bounds.radius > kSmallest)) fail(source, "all positions are the same");
+    hint_at_units(scene, warnings);
     scene.warnings = warnings.lines();
     return scene;
 }

@@ -56,8 +56,13 @@ void rebase(NodePose& pose, const glm::dvec3& origin) {
     for (glm::dmat4& world_from_node : pose.world_from_node) world_from_node[3] -= glm::dvec4(origin, 0.0);
 }
 
+glm::dmat4 world_from_mesh(const NodePose& pose, const NodeObject& object) {
+    const glm::dmat4& world_from_node = pose.world_from_node[std::size_t(object.node)];
+    return object.node_from_mesh ? world_from_node * *object.node_from_mesh : world_from_node;
+}
+
 glm::mat4 world_from_object(const NodePose& pose, const NodeObject& object) {
-    return glm::mat4(glm::translate(pose.world_from_node[std::size_t(object.node)], object.mesh_origin));
+    return glm::mat4(glm::translate(world_from_mesh(pose, object), object.mesh_origin));
 }
 
 std::vector<char> moved_nodes(const NodeTree& tree, const Animation& animation) {

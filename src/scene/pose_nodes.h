@@ -19,6 +19,9 @@ NodePose pose_nodes(const NodeTree& tree, const Animation* animation, double tim
 /// Changes the world's frame to one whose origin lies at `origin` (world, m).
 void rebase(NodePose& pose, const glm::dvec3& origin);
 
+/// From the file's mesh to the world, in a pose.
+glm::dmat4 world_from_mesh(const NodePose& pose, const NodeObject& object);
+
 /// An object's transform in a pose, rounded once.
 glm::mat4 world_from_object(const NodePose& pose, const NodeObject& object);
 

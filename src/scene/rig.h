@@ -97,7 +97,8 @@ struct DeformedMesh {
 struct NodeObject {
     int object = 0;  ///< Scene::objects
     int node = 0;
-    glm::dvec3 mesh_origin{0.0};  ///< in the node's frame: where the origin of Scene's mesh lies
+    glm::dvec3 mesh_origin{0.0};               ///< in the file's mesh: where the origin of Scene's mesh lies
+    std::optional<glm::dmat4> node_from_mesh;  ///< of an instance (EXT_mesh_gpu_instancing); none: the identity
 };
 
 struct Rig {

@@ -66,17 +66,37 @@ class SceneFiles(CliTest):
         self.refuses(["a.gltf", "gone.bin", "no such file"], scene="a.gltf")
 
     def test_required_extension(self):
-        name = "KHR_draco_mesh_compression"
+        name = "KHR_gaussian_splatting"
         self.write("a.gltf", gltf(extensionsRequired=[name], extensionsUsed=[name]))
         self.refuses(["a.gltf", name], scene="a.gltf")
 
     def test_ignored_extension_is_a_warning(self):
-        self.write("a.gltf", gltf(extensionsUsed=["KHR_materials_sheen"]))
+        self.write("a.gltf", gltf(extensionsUsed=["ADOBE_materials_clearcoat_tint"]))
         result = self.render("a.gltf", "--json", "out.json")
         self.assert_rendered(result)
-        self.assertRegex(result.stderr, r"(?m)^pellucid: warning: [^\n]*KHR_materials_sheen")
-        self.assertEqual(result.stderr.count("KHR_materials_sheen"), 1)
-        self.assertIn("KHR_materials_sheen", " ".join(json.loads(self.read("out.json"))["warnings"]))
+        self.assertRegex(result.stderr, r"(?m)^pellucid: warning: [^\n]*ADOBE_materials_clearcoat_tint")
+        self.assertEqual(result.stderr.count("ADOBE_materials_clearcoat_tint"), 1)
+        self.assertIn("ADOBE_materials_clearcoat_tint", " ".join(json.loads(self.read("out.json"))["warnings"]))
+
+    def test_solid(self):
+        corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+        quads = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+        triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+        numbers = b"".join(struct.pack("<3f", *corners[v]) for t in triangles for v in t)
+        self.write("a.gltf", gltf(
+            accessors=[{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 36}],
+            meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+            materials=[{"name": "ice", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}],
+            bufferViews=[{"buffer": 0, "byteLength": len(numbers)}],
+            buffers=[{"byteLength": len(numbers), "uri": "data:;base64," + base64.b64encode(numbers).decode()}]))
+        hint = self.run_cli("info", "a.gltf")
+        self.assertRegex(hint.stderr, r"\Apellucid: warning: material ice: [^\n]*--solid[^\n]*\n\Z")
+        solid = self.run_cli("info", "a.gltf", "--solid")
+        self.assertEqual((solid.returncode, solid.stderr), (0, ""))
+        self.assert_rendered(self.render("a.gltf"))
+        thin = self.read("out.png")
+        self.assert_rendered(self.render("a.gltf", "--solid"))
+        self.assertNotEqual(thin, self.read("out.png"))
 
     def test_names_need_not_be_utf8(self):
         name = os.fsdecode(b"gla\xdf.obj")

@@ -2,6 +2,7 @@
 // loads or is refused with an Error. Anything else (another exception, a crash, a sanitizer's report)
 // is a bug. A file that is slow to refuse shows as the test's time limit.
 #include "unit/animated_gltf.h"
+#include "unit/compressed_gltf.h"
 #include "unit/gltf_builder.h"
 #include "unit/test_files.h"
 
@@ -245,6 +246,34 @@ GltfBuilder animated_gltf() {
     return b;
 }
 
+/// Instances of a mesh with a converted material, and a second set of texture coordinates.
+GltfBuilder instanced_gltf() {
+    GltfBuilder b = rich_gltf();
+    const int places = b.attribute<float>({0, 0, 0, 5, 0, 0}, kFloat, "VEC3", 3);
+    const int turns = b.attribute<std::int16_t>({0, 0, 0, 32767, 0, 32767, 0, 0}, kShort, "VEC4", 4);
+    b.root["accessors"][std::size_t(turns)]["normalized"] = true;
+    b.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places},
+                                                                                 {"ROTATION", turns}};
+    b.root["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] =
+        json::parse(R"({"diffuseTexture": {"index": 0}, "specularGlossinessTexture": {"index": 0, "texCoord": 4}})");
+    json& attributes = b.root["meshes"][0]["primitives"][0]["attributes"];
+    attributes["TEXCOORD_4"] = attributes["TEXCOORD_0"];
+    return b;
+}
+
+/// Triangles of meshopt.
+GltfBuilder meshopt_gltf() {
+    GltfBuilder b = GltfBuilder::triangle();
+    set_meshopt(b, 0, encoded_vertices(kPositions, 3, 12), 12, 3, "ATTRIBUTES");
+    const unsigned indices[] = {0, 1, 2, 2, 1, 0};
+    std::vector<unsigned char> encoded(1000);
+    encoded.resize(meshopt_encodeIndexBuffer(encoded.data(), encoded.size(), indices, 6));
+    const int view = b.view<std::uint16_t>({9, 9, 9, 9, 9, 9});
+    set_meshopt(b, view, encoded, 2, 6, "TRIANGLES");
+    b.root["meshes"][0]["primitives"][0]["indices"] = b.accessor(view, kUnsignedShort, "SCALAR", 6);
+    return b;
+}
+
 /// As text, with its buffer inside.
 std::string gltf_text(GltfBuilder b) {
     constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -341,6 +370,9 @@ TEST(FuzzGltf, Text) { fuzz("a.gltf", gltf_text(rich_gltf()), load_checked); }
 TEST(FuzzGltf, Binary) { fuzz("a.glb", rich_gltf().glb_bytes(), load_checked); }
 TEST(FuzzGltf, AnimatedText) { fuzz("animated.gltf", gltf_text(animated_gltf()), load_posed); }
 TEST(FuzzGltf, AnimatedBinary) { fuzz("animated.glb", animated_gltf().glb_bytes(), load_posed); }
+TEST(FuzzGltf, Instances) { fuzz("instances.gltf", gltf_text(instanced_gltf()), load_checked, kImageRounds); }
+TEST(FuzzGltf, Meshopt) { fuzz("meshopt.glb", meshopt_gltf().glb_bytes(), load_checked, kImageRounds); }
+TEST(FuzzGltf, Draco) { fuzz("draco.glb", draco_file(draco_square(false)).glb_bytes(), load_checked, kImageRounds); }
 TEST(FuzzImages, Png) { fuzz("a.png", image_bytes("a.png", 4), load_image, kImageRounds); }
 TEST(FuzzImages, Exr) { fuzz("a.exr", image_bytes("a.exr", 3), load_map, kImageRounds); }
 TEST(FuzzImages, Hdr) { fuzz("a.hdr", hdr_bytes(), load_map, kImageRounds); }
