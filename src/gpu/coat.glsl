@@ -13,4 +13,10 @@ float coat_reflectance(float ior, float cos_theta) {
     return at_normal > 0.0 ? mix(at_normal, 1.0, schlick_weight(cos_theta)) : 0.0;
 }
 
+// Its mean over diffuse light.
+float mean_coat_reflectance(float ior) {
+    float root = (ior - 1.0) / (ior + 1.0), at_normal = root * root;
+    return at_normal > 0.0 ? at_normal + (1.0 - at_normal) / 21.0 : 0.0;
+}
+
 #endif

@@ -71,9 +71,8 @@ vec3 opaque_reflection(OpaqueSurface surface, vec3 normal, vec3 to_viewer, vec3 
     float cos_viewer = max(dot(normal, to_viewer), 1e-4), cos_light = dot(normal, to_light);
     if (cos_light <= 0.0) return vec3(0.0);
     float root = (surface.ior - 1.0) / (surface.ior + 1.0), coat_at_normal = root * root;
-    float mean_coat = coat_at_normal > 0.0 ? coat_at_normal + (1.0 - coat_at_normal) / 21.0 : 0.0;
     float passes = (1.0 - coat_reflectance(surface.ior, cos_viewer)) * (1.0 - coat_reflectance(surface.ior, cos_light)) /
-                   (1.0 - mean_coat);
+                   (1.0 - mean_coat_reflectance(surface.ior));
     vec3 reflected = (1.0 - surface.metallic) * surface.base_color * (passes * cos_light / kPi);
     float alpha = surface.roughness * surface.roughness;
     if (alpha < kSmoothAlpha) return reflected;

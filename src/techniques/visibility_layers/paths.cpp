@@ -147,6 +147,7 @@ private:
                 {"kPhotonsOfEnvironment", frame_.light.photons_of_environment},
                 {"kEnvironmentRays", frame_.environment_shares != nullptr && task_.full_light},
                 {"kGathers", task_.gathers},
+                {"kConverges", frame_.bounces_before_cache > 0 && !task_.gathers},
                 {"kCachedFrom", frame_.irradiance != nullptr ? frame_.bounces_before_cache : kNeverCached}};
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }
@@ -308,7 +309,8 @@ private:
 }  // namespace
 
 SurfaceFinder SurfaceFinder::of_device(Recorder& recorder, const Frame& frame, LayerSource& source) {
-    if (frame.workspace.device().is_cpu() && !frame.recorded) return on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
+    if (frame.workspace.device().is_cpu() && !frame.recorded)
+        return on_host(static_cast<const HostFinder&>(*frame.scene.host_finder));
     return {.map = source.map_meshes(recorder, frame, kMeshMapResolution)};
 }
 
