@@ -26,6 +26,16 @@ struct OpaqueSurface {
     Layers layers;
 };
 
+// Share of light that the boundary over the diffuse layer reflects, by the cosine of its direction.
+float boundary_reflectance(OpaqueSurface surface, float cos_theta) {
+    return mix(surface.boundary.x, surface.boundary.y, schlick_weight(cos_theta));
+}
+
+// Mean of boundary_reflectance() over diffuse light. It is below 1, so that a quotient by what passes stays finite.
+float mean_boundary_reflectance(OpaqueSurface surface) {
+    return min(surface.boundary.x + (surface.boundary.y - surface.boundary.x) / 21.0, 0.999);
+}
+
 // The table of tabulate_facets.comp, bilinear.
 vec4 facet_reflection(float cos_theta, float roughness) {
     vec2 position = clamp(vec2(cos_theta, roughness), 0.0, 1.0) * float(kFacetTableSize - 1);
@@ -52,8 +62,7 @@ float under_layers(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
 // Share of light that the diffuse layer scatters to the viewer, through all that is over it.
 vec3 opaque_diffuse_albedo(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
     float cos_theta = clamp(dot(normal, to_viewer), 1e-4, 1.0);
-    float boundary = mix(surface.boundary.x, surface.boundary.y, schlick_weight(cos_theta));
-    return under_layers(surface, normal, to_viewer) * (1.0 - boundary) * surface.diffuse;
+    return under_layers(surface, normal, to_viewer) * (1.0 - boundary_reflectance(surface, cos_theta)) * surface.diffuse;
 }
 
 // What the diffuse layer alone scatters towards the viewer.
@@ -168,10 +177,8 @@ vec3 opaque_reflection(OpaqueSurface surface, vec3 normal, vec3 to_viewer, vec3 
     const float kPi = 3.14159265;
     float cos_viewer = max(dot(normal, to_viewer), 1e-4), cos_light = dot(normal, to_light);
     if (cos_light <= 0.0) return vec3(0.0);
-    vec2 boundary = surface.boundary;
-    float mean_boundary = min(boundary.x + (boundary.y - boundary.x) / 21.0, 0.999);
-    float passes = (1.0 - mix(boundary.x, boundary.y, schlick_weight(cos_viewer))) *
-                   (1.0 - mix(boundary.x, boundary.y, schlick_weight(cos_light))) / (1.0 - mean_boundary);
+    float passes = (1.0 - boundary_reflectance(surface, cos_viewer)) * (1.0 - boundary_reflectance(surface, cos_light)) /
+                   (1.0 - mean_boundary_reflectance(surface));
     vec3 reflected = surface.diffuse * (passes * cos_light / kPi);
     float alpha = surface.roughness * surface.roughness;
     if (!mirrors_perfectly(surface)) {

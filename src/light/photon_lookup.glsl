@@ -2,6 +2,7 @@
 #define PELLUCID_LIGHT_PHOTON_LOOKUP_GLSL
 
 // Light that photons bring to a place on a surface.
+// Needs: light/photon_reflection.glsl, or another vec3 photon_reflection(Photon, PhotonReceiver).
 #include "gpu/octahedral.glsl"
 #include "light/photons.glsl"
 
@@ -30,8 +31,8 @@ void add_units(float units, inout uvec2 sum) {
 // Silverman's kernel K2 (1986, equation 4.5) at a share of the radius, squared; per area of the kernel's disc.
 float photon_kernel(float squared) { return 3.0 * (1.0 - squared) * (1.0 - squared); }
 
-// Irradiance, W/m2, at a place with that unit normal, on its side of the surface.
-vec3 photon_irradiance(vec3 position, vec3 normal) {
+// Sum over the photons around a place with that unit normal, on its side of the surface, each as the receiver reflects it.
+vec3 photon_light(vec3 position, vec3 normal, PhotonReceiver receiver) {
     uvec2 sums[3] = uvec2[3](uvec2(0u), uvec2(0u), uvec2(0u));
     for (uint levels = photon_grid.levels; levels != 0u; levels &= levels - 1u) {
         int level = findLSB(levels);
@@ -47,6 +48,7 @@ vec3 photon_irradiance(vec3 position, vec3 normal) {
             float squared = dot(apart, apart) / (photon.radius * photon.radius);
             if (photon.level != uint(level) || squared >= 1.0 || dot(unpack_unit_vector(photon.normal), normal) < 0.5) continue;
             vec3 units = photon.flux * (share * photon_kernel(squared) / (3.14159265 * photon.radius * photon.radius * photon_grid.unit));
+            units *= photon_reflection(photon, receiver);
             for (int c = 0; c < 3; ++c) add_units(units[c], sums[c]);
         }
     }

@@ -19,7 +19,7 @@ struct Photon {
     std::uint32_t level;   ///< of the grid; kStraightPhoton: not in the grid
     std::uint32_t object;  ///< it landed on; PELLUCID_NO_TRIANGLE: it left the scene; kNotYetLanded: as it was sent
     std::uint32_t texel;   ///< of the light's view that sent it: no two photons that landed share one
-    std::uint32_t reserved;
+    std::uint32_t way;     ///< direction of travel, packed; the lowest bit: facets do not reflect it
 };
 static_assert(sizeof(Photon) == 48);
 inline constexpr std::uint32_t kStraightPhoton = ~0u, kNotYetLanded = ~1u;

@@ -18,8 +18,9 @@ struct Photon {
     uint level;     // of the grid; kStraightPhoton: not in the grid
     uint object;    // it landed on; PELLUCID_NO_TRIANGLE: it left the scene; kNotYetLanded: as it was sent
     uint texel;     // of the light's view that sent it: no two photons share one
-    uint reserved;
+    uint way;       // direction of travel, packed; the lowest bit is kDiffusePhoton
 };
+const uint kDiffusePhoton = 1u;            // paths that facets send bring its light to facets
 const uint kStraightPhoton = 0xffffffffu;  // nothing has bent its path: shadow rays have its light
 const uint kNotYetLanded = 0xfffffffeu;
 const int kPhotonLevels = 24;

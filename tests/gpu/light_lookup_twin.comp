@@ -11,6 +11,11 @@ layout(set = 0, binding = 1) uniform texture3D light_direction;
 #include "volume/light_records.h"
 layout(std430, set = 0, binding = 2) readonly buffer Volumes { VolumeRecord volumes[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Placements { LightPlacement placements[]; };
+#include "light/photons.glsl"
+struct PhotonReceiver {
+    bool none;
+};
+vec3 photon_reflection(Photon photon, PhotonReceiver receiver) { return vec3(1.0); }
 #include "light/photon_lookup.glsl"
 #include "volume/light_lookup.glsl"
 
@@ -33,5 +38,5 @@ void main() {
     vec3 x = (volume.voxel_from_world * vec4(own.position.xyz, 1.0)).xyz;
     vec3 way = mat3(volume.voxel_from_world) * own.way.xyz * volume.voxel;
     answers[i].scattered = vec4(scattered_radiance(0u, x, way, own.medium), 0.0);
-    answers[i].received = vec4(photon_irradiance(own.position.xyz, own.way.xyz), 0.0);
+    answers[i].received = vec4(photon_light(own.position.xyz, own.way.xyz, PhotonReceiver(true)), 0.0);
 }

@@ -122,6 +122,22 @@ TEST_P(RoughLights, EmissiveSurfacesAreSeen) {
     expect_that_of_path(scene, 16, 256);
 }
 
+// Such a small one is met by chance too seldom: shadow rays aim at it.
+TEST_P(RoughLights, SmallEmissiveSurfacesAreAimedAt) {
+    Scene scene = scene_of(box({1.0f, 0.1f, 1.0f}), rough_glass(0.6f));
+    Material bright;
+    bright.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    bright.ior = 1.0f;
+    bright.emission = glm::vec3(3000.0f, 2000.0f, 1000.0f);
+    add(scene, square(), bright, glm::mat4(1.0f));
+    for (const float side : {1.0f, -1.0f}) {
+        SCOPED_TRACE(side);
+        const glm::mat4 aside = glm::translate(glm::mat4(1.0f), {0.3f, 1.5f * side, -2.5f});
+        scene.objects.back().world_from_object = glm::scale(aside, glm::vec3(0.02f));
+        expect_that_of_path(scene, 32, 256, 0.03);
+    }
+}
+
 // One refraction is `indirect` behind the first rough surface, and its reflection `direct`.
 TEST_P(RoughLights, PartsAreThoseOfThePathTracer) {
     Scene scene = scene_of(box({1.0f, 0.1f, 1.0f}), rough_glass(0.6f));

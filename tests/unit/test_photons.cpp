@@ -1,5 +1,6 @@
 // Light that mirrors and refracts before it meets something that scatters, against known answers.
 #include "closed_form/lights.h"
+#include "path_pictures.h"
 #include "reference/dielectric.h"
 #include "reference/photon_emission.h"
 #include "traced_scenes.h"
@@ -277,6 +278,27 @@ TEST(Photons, APaneMirrorsALampOntoTheFloor) {
     const double error = double(image.standard_error.pixels[0]);
     EXPECT_NEAR(double(image.radiance.pixels[0]) - direct, mirrored, 4 * error + 0.01 * mirrored);
     EXPECT_LT(error, 0.15 * mirrored);
+}
+
+TEST(Photons, AnEmissiveBallIsALampOfItsSize) {
+    // Photons have the lamp's light behind glass, and chance that of the emissive ball.
+    Scene scene = load_scene("shape:sphere,segments=128");
+    add(scene, floor_at(-1.6f, 2.0f), matt(0.1f));
+    const Camera camera = parallel_camera({0, -1.6f, 0}, {0, -1, 0}, 1.2f, 0.3f);
+    const auto mean = [&](const Scene& lit, std::uint32_t samples, std::uint32_t photons) {
+        return mean_of(trace_picture(lit, camera, 0.0f, 16, samples, photons));
+    };
+    const float radius = 0.4f, intensity = 5.0f;
+    Scene by_lamp = scene, by_surface = scene;
+    by_lamp.lights = {lamp({0.2f, 3.0f, 0.1f}, intensity, radius)};
+    Mesh shell = load_scene("shape:sphere,segments=128").meshes[0];
+    for (glm::vec3& p : shell.positions) p *= radius / glm::length(p);
+    Material bright = matt(0.0f);
+    bright.emission = glm::vec3(intensity / (float(pi) * radius * radius));
+    add(by_surface, shell, bright, glm::translate(glm::mat4(1.0f), glm::vec3(0.2f, 3.0f, 0.1f)));
+    const Seen lamp_seen = mean(by_lamp, 64, 4000), surface_seen = mean(by_surface, 1000, 4000);
+    EXPECT_NEAR(surface_seen.radiance, lamp_seen.radiance, 0.02 * lamp_seen.radiance);
+    EXPECT_LT(surface_seen.error, 0.015 * lamp_seen.radiance);
 }
 
 TEST(Photons, WhatLiesInGlassShowsTheLightThatComesIn) {

@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 35) readonly buffer Lights { PunctualLight lig
 vec3 irradiance_of_lights(vec3 position, vec3 normal) {
     // Photons have what arrives of the light that lights send to volumes, less what it would have been straight
     // (volume/land_light.comp).
-    vec3 sum = photon_irradiance(position, normal);
+    vec3 sum = photon_light(position, normal, irradiance_alone());
     for (uint i = 0u; i < light_count; ++i) {
         ArrivingLight arriving = arriving_light(lights[i], position);
         sum += max(-dot(arriving.way, normal), 0.0) * arriving.irradiance * lights[i].intensity;

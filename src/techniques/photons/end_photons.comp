@@ -70,8 +70,8 @@ bool reflect_photon(inout PathState state, Landing landing, MaterialRecord mater
     return true;
 }
 
-// `straight`: nothing has bent its path.
-void store_photon(ivec2 texel, PathState state, uint object, vec3 normal, bool straight) {
+// `straight`: nothing has bent its path. `flag`: 0 or kDiffusePhoton.
+void store_photon(ivec2 texel, PathState state, uint object, vec3 normal, bool straight, uint flag) {
     uint number = atomicAdd(photon_count, 1u);
     if (number >= uint(photons.length())) return;  // counted: the frame is drawn again
     float cosine = max(abs(dot(normal, state.path.direction)), 0.05);
@@ -79,7 +79,7 @@ void store_photon(ivec2 texel, PathState state, uint object, vec3 normal, bool s
     radius = clamp(radius, least_radius, least_radius * float(1 << (kPhotonLevels - 1)));
     uint level = straight ? kStraightPhoton : photon_level(least_radius, radius);
     photons[number] = Photon(state.path.position, radius, state.path.transmittance, pack_direction(normal), level, object,
-                             list_word(texel), 0u);
+                             list_word(texel), (pack_direction(state.path.direction) & ~kDiffusePhoton) | flag);
 }
 
 void end_on_surface(ivec2 texel, PathState state, Landing landing) {
@@ -90,7 +90,8 @@ void end_on_surface(ivec2 texel, PathState state, Landing landing) {
     float relative = distance(light.position, state.path.position) * light.inverse_range, squared = relative * relative;
     if (light.kind != kDirectionalLight) state.path.transmittance *= clamp(1.0 - squared * squared, 0.0, 1.0);
     bool straight = state.path.events == 0u;
-    if (!straight || lists_straight != 0u) store_photon(texel, state, landing.object, landing.geometric, straight);
+    uint flag = windows[window].source == kFromLights ? 0u : kDiffusePhoton;
+    if (!straight || lists_straight != 0u) store_photon(texel, state, landing.object, landing.geometric, straight, flag);
 }
 
 void main() {
@@ -101,7 +102,7 @@ void main() {
     load_path(i, sample_seed(texel), state);
     bool lands = closing == 0u && has_mark(state, kMetOpaque);
     if (!lands) {
-        if (lists_straight != 0u) store_photon(texel, state, PELLUCID_NO_TRIANGLE, state.path.direction, true);
+        if (lists_straight != 0u) store_photon(texel, state, PELLUCID_NO_TRIANGLE, state.path.direction, true, 0u);
         return;
     }
     Landing landing = landing_of(state);

@@ -20,7 +20,10 @@ struct Bounce {
 Bounce diffuse_bounce(OpaquePoint point, vec3 to_viewer, vec2 u) {
     float radius = sqrt(u.x), angle = 6.283185307 * u.y;
     vec3 direction = tangent_frame(point.normal) * vec3(radius * cos(angle), radius * sin(angle), sqrt(max(1.0 - u.x, 0.0)));
-    return Bounce(direction, diffuse_albedo(point, to_viewer), kBounceRoughness * kBounceRoughness, true);
+    // The coat lets light in as opaque_reflection() has it: less of what comes aslant.
+    float passes = 1.0 - boundary_reflectance(point.surface, sqrt(max(1.0 - u.x, 0.0)));
+    vec3 weight = diffuse_albedo(point, to_viewer) * (passes / (1.0 - mean_boundary_reflectance(point.surface)));
+    return Bounce(direction, weight, kBounceRoughness * kBounceRoughness, true);
 }
 
 // By a facet that is visible from the path's side (Heitz 2018). The weight is 0 where the facet sends light into the surface.
@@ -82,7 +85,10 @@ uint mark_of_bounce(PathState state, OpaquePoint point, Bounce chosen) {
 }
 
 // Whether shadow rays follow the environment to the surface which the path has left.
-bool shadow_rays_have(PathState state) { return kEnvironmentRays && has_mark(state, kFromDiffuse) && has_mark(state, kUnbent); }
+bool shadow_rays_have(PathState state) {
+    bool by_facets = kConverges && has_mark(state, kBounced) && spread_of(state.mark) > 0.99 * kWideAlpha;
+    return kEnvironmentRays && has_mark(state, kUnbent) && (by_facets || has_mark(state, kFromDiffuse));
+}
 
 // Sends a branch from the surface to what is there instead of the environment. What it finds counts, less what was assumed:
 // surfaces that stand alone stay as they are, without noise.

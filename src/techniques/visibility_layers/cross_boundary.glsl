@@ -42,6 +42,7 @@ struct Meeting {
     bool rough;         // the path goes from facet to facet
     Facets facets;
     bool looks;         // shadow rays bring the light of lights
+    uint sources;       // they choose from
     Facets lobe;        // of all facets, for these rays
     float alpha;        // of the lobe that stands for facets elsewhere
     float bending;      // of a facet's tilt, beside reflection
@@ -70,6 +71,7 @@ Meeting meet(inout PathState state, Crossing crossing) {
     float roughness = kRough ? surface_roughness(crossing.surface) : 0.0;
     state.mark = after_surface(state.mark, roughness > 0.0);
     m.looks = glass_looks(state, roughness, m.eta) && dot(state.path.direction, m.normal) < 0.0;
+    m.sources = sources_from_glass(state, roughness);
     if (m.looks) m.lobe = Facets(tangent_frame(m.normal), looking_alpha(state, roughness, m.bending), 1.0, ~state.seed, state.path.events, 0u);
     m.rough = samples_facets() && roughness > 0.0 &&
               first_facet(m.normal, state.path, state.seed, roughness, m.facets, m.normal);
@@ -114,6 +116,12 @@ void branch_colors(inout PathState state, Crossing crossing, Meeting m) {
     state.mark |= 2u;
 }
 
+// In stills that converge, a few of the reflections that carry too little branch off for all of them (Russian roulette).
+bool branches_rarely(PathState state, vec3 reflected) {
+    float most = largest(reflected);
+    return kConverges && most > 0.0 && most <= threshold && waiting[state.pixel].y < most_branches;
+}
+
 // What is reflected branches off; where it carries too little for that, its light goes on with what is refracted, so that
 // none is lost.
 void branch_reflection(inout PathState state, Crossing crossing, Meeting m) {
@@ -124,7 +132,14 @@ void branch_reflection(inout PathState state, Crossing crossing, Meeting m) {
         reflectances.b = fresnel_dielectric(m.cosine, crossing.n_i.b / crossing.n_t.b);
     }
     vec3 reflected = m.carried * reflectances;
-    if (may_branch(state.pixel, reflected)) {
+    bool branches = may_branch(state.pixel, reflected);
+    if (branches_rarely(state, reflected)) {
+        float share = largest(reflected) / threshold;
+        branches = random_number(state.seed ^ 0x3c6ef372u, state.path.events) < share;
+        reflected /= share;
+        if (!branches) state.path.transmittance *= 1.0 - m.reflectance;
+    }
+    if (branches) {
         vec3 way = reflect_direction(m.incident, m.normal);
         bool beyond = false;
         if (m.rough) way = leave_facets(way, m.eta, m.facets, beyond);

@@ -33,6 +33,8 @@ layout(std430, set = 0, binding = 44) readonly buffer Slots { SlotRecord slots[]
 #include "techniques/visibility_layers/path_light.glsl"
 #include "techniques/visibility_layers/microfacets.glsl"
 #include "gpu/opaque_surface.glsl"
+#include "gpu/octahedral.glsl"
+#include "light/photon_reflection.glsl"
 #include "light/photon_lookup.glsl"
 #include "light/photon_mirrors.glsl"
 #ifdef PELLUCID_LIT
@@ -104,14 +106,17 @@ void pass_hole(ivec2 texel, PathState state) {
 // What photons have brought to the surface; where lights shine through volumes, what these bring, too.
 void add_stored_light(ivec2 texel, PathState state, OpaquePoint point, bool rasterised) {
     if (point.unlit) return;
-    vec3 irradiance = vec3(0.0);
+    vec3 light = vec3(0.0), to_viewer = -state.path.direction;
 #ifdef PELLUCID_LIT
-    if (!rasterised) irradiance = drawn(part_through(state.mark, PELLUCID_DIRECT), irradiance_of_lights(state.path.position, point.normal));
+    if (!rasterised)
+        light = drawn(part_through(state.mark, PELLUCID_DIRECT),
+                      diffuse_albedo(point, to_viewer) * irradiance_of_lights(state.path.position, point.normal) / 3.14159265);
 #else
-    if (kPhotons) irradiance = drawn(part_through(state.mark, PELLUCID_CAUSTIC), photon_irradiance(state.path.position, point.normal));
+    if (kPhotons)
+        light = drawn(part_through(state.mark, PELLUCID_CAUSTIC),
+                      photon_light(state.path.position, point.normal, PhotonReceiver(true, point.surface, point.normal, to_viewer)));
 #endif
-    vec3 albedo = diffuse_albedo(point, -state.path.direction);
-    add_light(texel, state.mark, state.path.transmittance * albedo * irradiance / (3.14159265 * point.ior * point.ior));
+    add_light(texel, state.mark, state.path.transmittance * light / (point.ior * point.ior));
 }
 
 // Ends a path at an opaque surface. False: there is a hole.

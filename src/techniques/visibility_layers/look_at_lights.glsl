@@ -45,25 +45,43 @@ SkyLook look_to_sky(ivec2 texel, PathState state, OpaquePoint point, uint number
     return look;
 }
 
+// Facets whose reflection of the environment shadow rays bring in stills that converge: their lobe is wide enough for directions that
+// the environment chooses. Elsewhere one look-up stands for the lobe.
+const float kWideAlpha = 0.25;
+
+bool looks_by_facets(OpaquePoint point) {
+    float alpha = point.surface.roughness * point.surface.roughness;
+    return kConverges && kEnvironmentRays && alpha >= kWideAlpha;
+}
+
 // `weight`: what the ray brings if nothing hides the environment there.
 void push_sky_ray(PathState state, SkyLook look, OpaquePoint point, vec3 weight) {
     // Where the ray arrives, light is taken as that of a lamp in the medium.
     push_shadow_ray(state, LightSample(look.direction, kFarLight, vec3(0.0)), weight * (point.ior * point.ior));
 }
 
-// What hides the environment from the diffuse layer. `open`: the share of its light that probably nothing hides. That much of
-// what has been counted as if nothing did stays: a surface that is all open has no noise, and one that is all hidden has none.
+const float kStrongFacets = 0.1;  // Reflectance head-on from which facets need as many rays as what is partly hidden.
+
+// What hides the environment from the surface. `open`: the share of its light that probably nothing hides. That much of what has
+// been counted for the diffuse layer as if nothing did stays: a surface that is all open has no noise, and one that is all hidden has
+// none. In stills that converge rays bring what the whole BRDF reflects, of which that is a good guess.
 void look_at_environment(ivec2 texel, PathState state, OpaquePoint point, float open) {
-    vec3 diffuse = state.path.transmittance * diffuse_albedo(point, -state.path.direction);
+    vec3 to_viewer = -state.path.direction, diffuse = state.path.transmittance * diffuse_albedo(point, to_viewer);
+    OpaqueSurface surface = point.surface;
+    bool facets = looks_by_facets(point);
     add_light(texel, state.mark, (open - 1.0) * diffuse * detailed_diffuse_radiance(point.normal));
-    uint rays = open > kHardlyOpen && open < kHardlyHidden ? kMostSkyRays : 1u;
+    if (facets) add_light(texel, state.mark, -state.path.transmittance * opaque_facet_radiance(surface, point.normal, to_viewer));
+    else surface.roughness = 0.0;
+    bool noisy = (open > kHardlyOpen && open < kHardlyHidden) || (facets && largest(surface.at_normal) > kStrongFacets);
+    uint rays = noisy ? kMostSkyRays : 1u;
     for (uint k = 0u; k < rays; ++k) {
         SkyLook look = look_to_sky(texel, state, point, rays * frame.sample_index + k);
         if (!(look.cosine > 0.0) || !(look.pdf > 0.0)) continue;
-        vec3 weight = diffuse * environment_radiance(look.direction) * (look.cosine / (3.14159265 * look.pdf * float(rays)));
-        if (!(largest(weight) > 0.0)) continue;
-        add_light(texel, state.mark, -open * weight);
-        push_sky_ray(state, look, point, weight);
+        vec3 light = environment_radiance(look.direction) / (look.pdf * float(rays));
+        vec3 guess = diffuse * light * (look.cosine / 3.14159265), weight = guess;
+        if (kConverges) weight = state.path.transmittance * light * opaque_reflection(surface, point.normal, to_viewer, look.direction);
+        add_light(texel, state.mark, -open * guess);
+        if (largest(weight) > 0.0) push_sky_ray(state, look, point, weight);
     }
 }
 

@@ -8,10 +8,23 @@
 #include "techniques/visibility_layers/facet_scattering.glsl"
 #include "techniques/visibility_layers/shadow_rays.glsl"
 
+// Facets so rough leave emissive surfaces to shadow rays. Those that are smoother meet them by chance. Nothing combines both: where a
+// path ends, nobody knows any more how likely its direction was.
+const float kLooksAtEmitters = 0.3;
+
+bool looks_at_emitters(PathState state, float roughness) {
+    return emitter_count > 0u && roughness >= kLooksAtEmitters && !has_mark(state, kBounced | kFromDiffuse);
+}
+
+// Lights, and emissive surfaces as one more.
+uint sources_from_glass(PathState state, float roughness) {
+    return direct_lights + (looks_at_emitters(state, roughness) ? 1u : 0u);
+}
+
 // Whether shadow rays bring the light of lights to such a boundary. Photons bring it to diffuse surfaces, and straight shadow rays
 // that glass lets pass.
 bool glass_looks(PathState state, float roughness, float eta) {
-    if (!kRough || !kLightsSurfaces || kFromLight || direct_lights == 0u) return false;
+    if (!kRough || !kLightsSurfaces || kFromLight || sources_from_glass(state, roughness) == 0u) return false;
     bool brought = has_mark(state, kFromDiffuse) && (kPhotons || tinted_shadows != 0u);
     bool only_looks_ahead = kGathers && has_mark(state, kMainPath);
     return roughness > 0.0 && eta != 1.0 && !brought && !only_looks_ahead;
@@ -43,7 +56,7 @@ void look_from_glass(PathState state, Crossing crossing, Meeting m) {
     vec3 wo = -m.incident * m.lobe.world_from_surface, wi;
     LightSample light;
     float sum = 0.0, share = 0.0, density, pdf;
-    for (uint i = 0u; i < direct_lights; ++i) {
+    for (uint i = 0u; i < m.sources; ++i) {
         LightSample seen = sample_source(i, state.path, hash(uvec3(state.seed, 5003u + i, 0u)).x);
         vec3 to_light = seen.to_light * m.lobe.world_from_surface;
         float stand_in = stand_in_density(wo, to_light, m.eta, m.lobe.alpha), contribution = largest(seen.irradiance) * stand_in;
@@ -53,7 +66,7 @@ void look_from_glass(PathState state, Crossing crossing, Meeting m) {
         wi = to_light;
         share = contribution;
         density = stand_in;
-        pdf = light_density(scene_lights[i], state.path.position);
+        pdf = i < direct_lights ? light_density(scene_lights[i], state.path.position) : 0.0;
     }
     if (!(share > 0.0) || !sides_agree(crossing, light.to_light, wi)) return;
     state.path.direction = light.to_light;
@@ -72,6 +85,7 @@ void leave_lights(inout PathState state, Crossing crossing, Meeting m) {
     vec3 wi = state.path.direction * m.lobe.world_from_surface;
     if (!sides_agree(crossing, state.path.direction, wi)) return;  // shadow rays do not look there
     state.mark |= kFromGlass;
+    if (m.sources > direct_lights) state.mark |= kUnbent;
     if (!samples_facets() || !draws_part(part_met(state.mark))) return;
     float density = 0.0;
     for (uint i = 0u; i < kVisibleLights; ++i) {

@@ -58,7 +58,7 @@ const uint kLost = 256u;        // the map cannot say what it meets: another wil
 const uint kToLight = 512u;     // a shadow ray: it goes straight to a light, `length_inside` metres away
 const uint kOpaquePixel = 1024u;  // its light is that of the opaque surface which the pixel shows
 const uint kMetLamp = 16384u;     // it has ended on a lamp, whose radiance its transmittance includes
-const uint kUnbent = 32768u;    // scattered by an opaque surface, and in no mirror or refraction since. Photons: not bent yet, as
+const uint kUnbent = 32768u;    // scattered by an opaque surface, or by glass so rough that it looks at emissive surfaces, and in no mirror or refraction since. Photons: not bent yet, as
                                 // far apart as they are at their targets
 const uint kFromDiffuse = 65536u;  // reflected diffusely; since then by nothing but what photons follow
 const uint kScatteredShift = 17u, kScatteredMask = 3u << kScatteredShift;  // times that it was scattered: none, one, more

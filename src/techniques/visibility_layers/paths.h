@@ -93,7 +93,7 @@ struct PathTask {
     const PathVolumes* volumes = nullptr;
     /// Whether rough glass looks to lights.
     bool looks_from_glass(const GpuScene& scene) const {
-        return lights_surfaces && scene.rough_glass && push.direct_lights > 0;
+        return lights_surfaces && scene.rough_glass && (push.direct_lights > 0 || push.emitter_count > 0);
     }
     bool from_light = false;  ///< paths are photons: weights are flux, W, and count as the reversed paths would
 };
