@@ -2,6 +2,7 @@
 
 #include "lab/experiment_page.h"
 #include "lab/experiments.h"
+#include "options/console.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,7 @@ struct ExperimentRun {
     std::uint32_t width, height;  ///< pixels
     int frames;                   ///< that are timed
     std::uint32_t threads;        ///< of Embree; 0: all
+    const Console& console;
     std::set<std::string> warnings;
     nlohmann::ordered_json runs = nlohmann::ordered_json::array();
 };
