@@ -5,6 +5,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pellucid)
 
 install(TARGETS pellucid EXPORT pellucid-targets)
+install(TARGETS pellucid_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})  # pellucid looks for it beside itself
 install(EXPORT pellucid-targets NAMESPACE pellucid:: DESTINATION ${package_dir})
 install(DIRECTORY include/pellucid DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 

@@ -9,5 +9,8 @@ void add_render_command(CLI::App& app);
 void add_thickness_command(CLI::App& app);
 void add_volume_command(CLI::App& app);
 void add_info_command(CLI::App& app);
+void add_techniques_command(CLI::App& app);
+/// The last one: it describes those that were added before.
+void add_help_command(CLI::App& app);
 
 }  // namespace pellucid::cli

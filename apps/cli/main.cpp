@@ -1,7 +1,9 @@
 #include "commands.h"
 #include "lab/commands.h"
+#include "options/help.h"
 
 #include <pellucid/error.h>
+#include <pellucid/names.h>
 #include <pellucid/pellucid.h>
 
 #include <fmt/format.h>
@@ -26,12 +28,22 @@ int complain(const std::string& message, int exit_code) {
 
 /// The parser would only say that a command is missing.
 void check_command(const CLI::App& app, const std::string& command) {
-    std::vector<std::string> known;
+    std::vector<std::string> names;
     for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
         if (subcommand->get_name() == command) return;
-        known.push_back(subcommand->get_name());
+        names.push_back(subcommand->get_name());
     }
-    throw pellucid::Error(fmt::format("unknown command '{}'; known: {}", command, fmt::join(known, ", ")));
+    throw pellucid::unknown_name("command", command, std::vector<std::string_view>(names.begin(), names.end()));
+}
+
+/// An error of the parser in one line, with the option that may have been meant, and where to read on.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+    const std::vector<const CLI::App*> parsed =
+        app.get_subcommands([&](const CLI::App* command) { return argc > 1 && command->get_name() == argv[1]; });
+    const CLI::App& command = parsed.empty() ? app : *parsed.front();
+    const std::string unknown = pellucid::cli::unknown_option(command, argc, argv);
+    return fmt::format("{} (see 'pellucid{} --help')", unknown.empty() ? error.what() : unknown,
+                       parsed.empty() ? "" : " " + command.get_name());
 }
 
 /// The command as it can be typed again.
@@ -50,10 +62,14 @@ std::string command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Pellucid renders glass in real time.", "pellucid"};
+    CLI::App app{
+        "Pellucid renders glass in real time. Exit codes: 0 done, 2 bad input or usage, 3 no suitable device, 1 a bug.",
+        "pellucid"};
     app.set_version_flag("--version", std::string(pellucid::version()));
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 2 bad input or usage, 3 no suitable device, 1 a bug.");
+    pellucid::cli::use_short_help(app);
+    pellucid::cli::set_examples(app, {"pellucid render shape:goblet -o goblet.png", "pellucid techniques",
+                                      "pellucid help lights    # 'pellucid help' lists the topics"});
     pellucid::cli::add_render_command(app);
     pellucid::cli::add_compare_command(app, command_line(argc, argv));
     pellucid::cli::add_bench_command(app);
@@ -62,14 +78,17 @@ int main(int argc, char** argv) {
     pellucid::cli::add_thickness_command(app);
     pellucid::cli::add_volume_command(app);
     pellucid::cli::add_info_command(app);
+    pellucid::cli::add_techniques_command(app);
+    pellucid::cli::add_help_command(app);
     try {
-        if (argc > 1 && argv[1][0] != '-') check_command(app, argv[1]);
+        if (argc == 1) throw pellucid::Error("no command given (see 'pellucid --help')");
+        if (argv[1][0] != '-') check_command(app, argv[1]);
         app.parse(argc, argv);
         return kDone;
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
-        return complain(fmt::format("{} (see 'pellucid --help')", error.what()), kBadInput);
+        return complain(usage_error(app, error, argc, argv), kBadInput);
     } catch (const pellucid::Error& error) {
         return complain(error.what(), kBadInput);
     } catch (const pellucid::DeviceError& error) {

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "options/arguments.h"
+#include "options/help.h"
 #include "options/light_options.h"
 #include "options/named_technique.h"
 #include "options/options.h"
@@ -19,8 +20,6 @@
 
 namespace pellucid::cli {
 namespace {
-
-constexpr std::uint64_t kQuickPixels = 1u << 22;  ///< larger pictures take so long that progress is shown
 
 /// The command line as given; strings are parsed when the command runs, so that errors are ours.
 struct RenderArguments {
@@ -47,14 +46,8 @@ struct RenderArguments {
     ThicknessArguments thickness;
     SceneArguments how;
     DeviceArguments device;
+    Console console;
 };
-
-std::string aov_help() {
-    std::string help = "NAME=FILE.exr, taken at pixel centres; may be repeated:";
-    for (const AovInfo& aov : aov_infos()) help += fmt::format(" {}: {};", aov.name, aov.doc);
-    help.pop_back();
-    return help;
-}
 
 /// The camera that the arguments ask for; none: the file's first, or one that frames the scene.
 std::optional<Camera> chosen_camera(const RenderArguments& arguments, const RenderSettings& settings,
@@ -170,7 +163,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
     if (arguments.how.animation) json["animation"] = *arguments.how.animation;
     if (arguments.how.time_s) json["time_s"] = *arguments.how.time_s;
     add_technique(json, technique);
-    json["parameters"] = describe_parameters(technique.info(), parameters_of(technique, settings.parameters));
+    add_parameters(json, technique.info(), parameters_of(technique, settings.parameters));
     for (std::uint32_t status = 0; status < kStatusCount; ++status) {
         const double share = result.covered > 0 ? double(result.status[status]) / double(result.covered) : 0.0;
         json["status"][std::string(status_name(Status(status)))] = share;
@@ -233,7 +226,7 @@ void render(const RenderArguments& arguments) {
     check_render_outputs(arguments);
     RenderSettings settings = render_settings(arguments);
     check_technique_name(settings.technique);  // said before any work
-    const Scene scene = load_given_scene(arguments.scene, arguments.how);
+    const Scene scene = load_given_scene(arguments.scene, arguments.how, arguments.console);
     std::vector<std::string> warnings = scene.warnings;
     std::string environment_warning;
     const Environment environment = load_given_environment(arguments.environment, environment_warning);
@@ -244,17 +237,14 @@ void render(const RenderArguments& arguments) {
     const NamedTechnique technique{settings.technique, renderer.choose(settings.technique)};
     renderer.set_environment(environment);
     if (const std::optional<Camera> camera = chosen_camera(arguments, settings, scene)) renderer.set_camera(*camera);
-    ProgressBar bar(settings.technique);
-    if (technique.info().reference || technique.info().bakes ||
-        settings.thickness.method == ThicknessMethod::kLocalThickness ||
-        std::uint64_t(settings.width) * settings.height > kQuickPixels)
-        settings.progress = bar.progress();
+    ProgressBar bar(arguments.console, settings.technique);
+    settings.progress = bar.progress();
     const RenderResult result = renderer.render(settings);
     bar.clear();
     warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
 
     write_outputs(arguments, result, describe(arguments, settings, technique, scene, renderer, result, warnings));
-    print_warnings(warnings);
+    arguments.console.warn(warnings);
     check_validation(renderer);
 }
 
@@ -263,57 +253,41 @@ void render(const RenderArguments& arguments) {
 void add_render_command(CLI::App& app) {
     auto arguments = std::make_shared<RenderArguments>();
     RenderArguments& a = *arguments;
-    CLI::App* command = app.add_subcommand("render", "Render a scene into a picture");
+    CLI::App* command = app.add_subcommand("render", "Render a scene into an image");
     // A script's defaults can be overridden by what a user appends.
     command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    command->add_option("scene", a.scene, shape_help())->required()->type_name("SCENE");
-    command->add_option("-o,--output", a.output, "Picture: .png (tone mapped, sRGB) or .exr (linear)")
+    command->add_option("scene", a.scene, kSceneHelp)->required()->type_name("SCENE");
+    command->option_defaults()->group("Output");
+    command->add_option("-o,--output", a.output, "Image: .png (tone mapped, sRGB) or .exr (linear)")
         ->required()
         ->type_name("FILE");
-    command->add_option("--technique", a.technique, "How refraction is computed:" + preset_list() + technique_list())
+    command->add_option("--aov", a.aovs, "Also write this quantity per pixel; may be repeated (help aovs)")
+        ->type_name("NAME=FILE.exr")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
+    command->option_defaults()->group("Image");
+    command->add_option("--technique", a.technique, "A preset or a technique (help presets, pellucid techniques)")
         ->capture_default_str()
         ->type_name("NAME");
-    command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
-    add_environment_options(*command, a.environment);
-    command
-        ->add_option(
-            "--camera", a.camera,
-            "A camera of the file, or azimuth and elevation in degrees and distance in radii, from the scene's centre "
-            "or the point X,Y,Z; "
-            "default: the file's first camera, or one that frames the scene")
-        ->type_name("NAME|orbit:AZ,EL,DIST[,X,Y,Z]");
-    add_number(*command, "--fov", a.fov_deg,
-               "Vertical field of view, degrees, of an orbit camera or of the one that frames the scene (default 30)")
-        ->check(CLI::Range(1.0, 170.0));
-    add_number(*command, "--samples", a.samples,
-               "Jittered frames, averaged in linear light; of the technique path: paths per pixel")
+    add_size_option(*command, a.size);
+    add_camera_options(*command, a.camera, a.fov_deg);
+    add_number(*command, "--samples", a.samples, "Jittered frames, averaged in linear light; of path: paths per pixel")
         ->capture_default_str();
     add_number(*command, "--first-sample", a.first_sample,
                "Number of the first of them: other samples have other random numbers");
-    add_number(
-        *command, "--error", a.error,
-        "Each pixel takes the samples that its standard error needs to be at most X, as a share of its luminance "
-        "and middle grey; smooth pixels take few, noisy ones many")
+    add_number(*command, "--error", a.error, "Sample each pixel until its standard error is X (help images)")
         ->check(CLI::PositiveNumber)
         ->type_name("X")
         ->excludes("--samples");
     add_number(*command, "--most-samples", a.most_samples, "Of a pixel, with --error")
         ->capture_default_str()
         ->needs("--error");
-    command
-        ->add_option("--tonemap", a.tonemap, "none, reinhard, aces, neutral, or krawczyk, which adapts to the picture")
-        ->capture_default_str()
-        ->type_name("NAME");
-    add_number(*command, "--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
+    add_display_options(*command, a.tonemap, a.exposure_ev);
     add_number(*command, "--unit-luminance", a.unit_luminance_cd_m2, "Of --tonemap krawczyk: luminance of radiance 1")
         ->capture_default_str()
         ->type_name("CD/M2");
-    command
-        ->add_option(
-            "--view", a.view,
-            "radiance, or analysis: red up to two interfaces, blue more, green total internal "
-            "reflection, grey where the technique gave up; or wavefront: light in volumes, by irradiance in W/m2 "
-            "times the exposure, dark blue 1/16, white 1, red 16")
+    command->add_option("--view", a.view, "radiance, analysis or wavefront (help images)")
         ->capture_default_str()
         ->type_name("NAME");
     command
@@ -321,16 +295,18 @@ void add_render_command(CLI::App& app) {
                      "automatic, single-pass, compute, depth-peeling or dual-depth-peeling")
         ->capture_default_str()
         ->type_name("NAME");
-    command->add_option("--aov", a.aovs, aov_help())
-        ->type_name("NAME=FILE.exr")
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
+    add_environment_options(*command, a.environment);
     add_light_options(*command, a.light);
-    add_thickness_options(*command, a.thickness, "--thickness-method", "--thickness-layers");
     add_scene_options(*command, a.how);
+    add_thickness_options(*command, a.thickness);
     add_device_options(*command, a.device);
+    add_console_options(*command, a.console);
     add_parameter_options(*command, a.parameters);
+    set_examples(*command, {"pellucid render model.glb -o model.png --environment studio.hdr --samples 16",
+                            "pellucid render shape:goblet -o goblet.png --camera orbit:30,20,4 --fov 40",
+                            "pellucid render bunny.obj -o amber.png --attenuation-color 0.9,0.5,0.1 "
+                            "--attenuation-distance 0.05",
+                            "pellucid render bunny.obj -o truth.exr --technique path --samples 256"});
     command->callback([arguments] { render(*arguments); });
 }
 

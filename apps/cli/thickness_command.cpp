@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "options/help.h"
 #include "options/options.h"
 #include "options/progress_bar.h"
 #include "options/translucency_options.h"
@@ -28,6 +29,7 @@ struct ThicknessCommandArguments {
     std::optional<std::string> json;
     SceneArguments how;
     DeviceArguments device;
+    Console console;
 };
 
 nlohmann::ordered_json statistics(const Image& thickness) {
@@ -74,7 +76,7 @@ void check_arguments(const ThicknessCommandArguments& arguments) {
 void measure(const ThicknessCommandArguments& arguments) {
     check_arguments(arguments);
     const auto [width, height] = parse_size(arguments.size);
-    const Scene scene = load_given_scene(arguments.scene, arguments.how);
+    const Scene scene = load_given_scene(arguments.scene, arguments.how, arguments.console);
     if (scene.lights.empty())
         throw Error(fmt::format("{}: there is no light; give one with --add-light", arguments.scene));
     if (arguments.light >= scene.lights.size())
@@ -89,7 +91,7 @@ void measure(const ThicknessCommandArguments& arguments) {
     std::vector<std::string> warnings = scene.warnings;
     nlohmann::ordered_json json;
     Image thickness;
-    ProgressBar bar(arguments.thickness.method);
+    ProgressBar bar(arguments.console, arguments.thickness.method);
     if (arguments.thickness.method == kExact) {
         thickness = ThicknessTracer(scene, arguments.device.threads)
                         .trace(camera, width, height, arguments.light, bar.progress());
@@ -128,10 +130,11 @@ void measure(const ThicknessCommandArguments& arguments) {
     write_image(arguments.output, thickness, {"thickness"});
     if (arguments.picture) write_image(*arguments.picture, color_thickness(thickness, largest_value(thickness)));
     if (arguments.json) write_json(*arguments.json, json);
-    fmt::print("{} points, {} of them lit, {} in shadow; through the others: mean {:.6g} m, largest {:.6g} m\n",
-               json["points"].get<std::uint64_t>(), json["lit"].get<std::uint64_t>(),
-               json["shadowed"].get<std::uint64_t>(), json["mean_m"].get<double>(), json["largest_m"].get<double>());
-    print_warnings(warnings);
+    arguments.console.print(
+        "{} points, {} of them lit, {} in shadow; through the others: mean {:.6g} m, largest {:.6g} m\n",
+        json["points"].get<std::uint64_t>(), json["lit"].get<std::uint64_t>(), json["shadowed"].get<std::uint64_t>(),
+        json["mean_m"].get<double>(), json["largest_m"].get<double>());
+    arguments.console.warn(warnings);
 }
 
 }  // namespace
@@ -142,29 +145,26 @@ void add_thickness_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "thickness", "Measure how much solid lies between a light and every visible point of what is translucent");
     command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    command->add_option("scene", a.scene, shape_help())->required()->type_name("SCENE");
-    command
-        ->add_option("-o,--output", a.output,
-                     ".exr, one channel: metres; -1 where nothing translucent is seen or no light arrives, -2 in the "
-                     "shadow of something opaque")
+    command->add_option("scene", a.scene, kSceneHelp)->required()->type_name("SCENE");
+    command->option_defaults()->group("Output");
+    command->add_option("-o,--output", a.output, ".exr, one channel: metres, or below 0 (help translucency)")
         ->required()
         ->type_name("FILE");
-    add_thickness_options(*command, a.thickness, "--method", "--layers");
-    command->get_option("--method")
-        ->description(command->get_option("--method")->get_description() + "; or exact (rays of Embree)");
-    command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
-    command
-        ->add_option("--camera", a.camera,
-                     "A camera of the file, or azimuth and elevation in degrees and distance in radii; "
-                     "default: the file's first camera, or one that frames the scene")
-        ->type_name("NAME|orbit:AZ,EL,DIST[,X,Y,Z]");
-    add_number(*command, "--light", a.light, "Which light: the file's are numbered from 0, then those of --add-light")
-        ->capture_default_str();
     command->add_option("--picture", a.picture, "Also a .png: thin is dark blue, thick is pale yellow")
         ->type_name("FILE");
     command->add_option("--json", a.json, "Write statistics, passes, time and warnings")->type_name("FILE");
+    add_size_option(*command, a.size);
+    command->add_option("--camera", a.camera, "A camera of the file, or orbit:AZ,EL,DIST[,X,Y,Z] (help cameras)")
+        ->type_name("CAMERA");
+    add_thickness_options(*command, a.thickness, true);
+    command->get_option("--method")->description("Method, or exact: rays of Embree (help translucency)");
+    add_number(*command, "--light-number,--light", a.light, "Of the file's lights from 0, then those of --add-light")
+        ->capture_default_str();
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);
+    add_console_options(*command, a.console);
+    set_examples(*command, {"pellucid thickness shape:torus -o torus.exr --translucent 0.8,0.3,0.2,0.1 "
+                            "--add-light sun:30,40"});
     command->callback([arguments] { measure(*arguments); });
 }
 

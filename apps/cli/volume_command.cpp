@@ -1,5 +1,7 @@
 #include "commands.h"
+#include "options/help.h"
 #include "options/options.h"
+#include "options/progress_bar.h"
 
 #include <pellucid/error.h>
 #include <pellucid/file.h>
@@ -23,20 +25,8 @@ struct CommandArguments {
     bool double_precision = false;
     bool uncompressed = false;
     SceneArguments how;
+    Console console;
 };
-
-std::string volume_help() {
-    std::string help =
-        "A scene whose solids of glass become one volume (.gltf, .glb, .obj, .ply, .stl, .off, .3ds, "
-        "shape:NAME[,...]), "
-        "a .vdb file, or volume:NAME[,PARAMETER=VALUE...] with NAME one of";
-    for (const ShapeInfo& volume : volume_infos()) {
-        help += fmt::format("\n {}: {};", volume.name, volume.doc);
-        for (const ShapeParameter& p : volume.parameters)
-            help += fmt::format(" {} ({}) {}.", p.name, p.default_value, p.doc);
-    }
-    return help;
-}
 
 std::string range_of(const std::vector<float>& field) {
     const auto [low, high] = std::minmax_element(field.begin(), field.end());
@@ -50,13 +40,13 @@ std::string range_of(const std::vector<glm::vec3>& field) {
                        high.b);
 }
 
-void print_volume(const Volume& volume) {
+void print_volume(const Console& console, const Volume& volume) {
     const glm::vec3 low = volume.low, high = volume.high();
-    fmt::print("{}: {} x {} x {} voxels of {:.6g} m\n", one_line(volume.name), volume.size.x, volume.size.y,
-               volume.size.z, volume.voxel);
-    fmt::print("box: {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g} m\n", low.x, low.y, low.z, high.x, high.y, high.z);
-    const auto print_field = [](const char* name, const auto& field) {
-        if (!field.empty()) fmt::print("{}: {}\n", name, range_of(field));
+    console.print("{}: {} x {} x {} voxels of {:.6g} m\n", one_line(volume.name), volume.size.x, volume.size.y,
+                  volume.size.z, volume.voxel);
+    console.print("box: {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g} m\n", low.x, low.y, low.z, high.x, high.y, high.z);
+    const auto print_field = [&console](const char* name, const auto& field) {
+        if (!field.empty()) console.print("{}: {}\n", name, range_of(field));
     };
     print_field("n", volume.n);
     print_field("n_red", volume.n_red);
@@ -91,14 +81,16 @@ void make_volume_file(const CommandArguments& arguments) {
     if (lower_extension(arguments.output) != ".vdb")
         throw Error(fmt::format("--output: '{}': volumes are written as .vdb", arguments.output));
     check_outputs({arguments.output}, {arguments.source});
-    const Scene scene = load_given_scene(arguments.source, arguments.how);
+    const Scene scene = load_given_scene(arguments.source, arguments.how, arguments.console);
+    ProgressBar bar(arguments.console, "voxels");
     VoxelizedScene made = make_volume_of(scene, arguments);
+    bar.clear();
     // Back to the file's world. Rounding moves the volume as a whole, by half the spacing of floats there at most.
     made.volume.low = glm::dvec3(made.volume.low) + scene.origin;
     save_volume(arguments.output, made.volume,
                 {.double_precision = arguments.double_precision, .compress = !arguments.uncompressed});
-    print_volume(made.volume);
-    print_warnings(made.warnings);
+    print_volume(arguments.console, made.volume);
+    arguments.console.warn(made.warnings);
 }
 
 }  // namespace
@@ -109,15 +101,22 @@ void add_volume_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "volume", "Make a volume of varying index, or of a scene's glass, and write it as an OpenVDB file");
     command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    command->add_option("source", a.source, volume_help())->required()->type_name("SOURCE");
+    command
+        ->add_option("source", a.source,
+                     "A scene whose glass becomes a volume, a .vdb file or volume:NAME (help volumes)")
+        ->required()
+        ->type_name("SOURCE");
+    command->option_defaults()->group("Output");
     command->add_option("-o,--output", a.output, "OpenVDB file, compressed by Blosc")
         ->required()
         ->type_name("FILE.vdb");
+    command->add_flag("--double", a.double_precision, "Grids of double precision");
+    command->add_flag("--uncompressed", a.uncompressed, "Without compression");
+    command->option_defaults()->group("Voxels");
     add_number(*command, "--smoothing", a.smoothing,
-               "Standard deviation of a Gaussian that smooths the index, voxels, 0 to 16 (0.75 of glass; 0 of volumes, "
-               "which are smoothed further)");
+               "Gaussian that smooths the index, voxels, 0 to 16 (default 0.75 of glass, 0 of volumes)");
     const auto add_voxel_number = [&](const std::string& flag, auto& number, const std::string& help) {
-        add_number(*command, flag, number, help)->capture_default_str()->group("Voxels of glass");
+        add_number(*command, flag, number, help)->capture_default_str();
     };
     add_voxel_number("--resolution", a.voxels.resolution, "Voxels along the longest side of the box, 8 to 65536");
     add_voxel_number("--coverage-samples", a.voxels.samples, "Columns through a voxel per axis, 1 to 16");
@@ -126,10 +125,11 @@ void add_volume_command(CLI::App& app) {
     add_voxel_number("--noise", a.voxels.noise,
                      "Share of absorption and scattering that noise takes away or adds, 0 to 1");
     add_voxel_number("--noise-scale", a.voxels.noise_scale, "Width of that noise, m; 0: a quarter of the box");
-    command->add_flag("--double", a.double_precision, "Grids of double precision");
-    command->add_flag("--uncompressed", a.uncompressed, "Without compression");
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);
+    add_console_options(*command, a.console);
+    set_examples(*command, {"pellucid volume volume:smoke -o smoke.vdb",
+                            "pellucid volume shape:gem -o gem.vdb --resolution 256"});
     command->callback([arguments] { make_volume_file(*arguments); });
 }
 

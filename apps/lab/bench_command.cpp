@@ -2,6 +2,7 @@
 #include "lab/bench_suites.h"
 #include "lab/bench_timing.h"
 #include "lab/commands.h"
+#include "options/help.h"
 #include "options/options.h"
 #include "options/progress_bar.h"
 #include "options/unread_scenes.h"
@@ -31,6 +32,7 @@ struct BenchArguments {
     std::string command;  ///< the command line without folders, which differ from machine to machine
     SceneArguments how;
     DeviceArguments device;
+    Console console;
     ParameterArguments parameters;
 };
 
@@ -94,7 +96,7 @@ BenchView prepare_view(Bench& bench, const BenchCase& bench_case, std::unique_pt
     const Camera camera = bench_camera(bench_case, *scene, settings.width, settings.height);
     bench.renderer.set_camera(camera);
 
-    ProgressBar bar(fmt::format("{}, exact", bench_case.scene));
+    ProgressBar bar(arguments.console, fmt::format("{}, exact", bench_case.scene));
     ExactView exact = trace_exact_view(bench.renderer.tracer(), camera, settings.width, settings.height,
                                        ExactSettings{}.max_events, bar.progress());
     TimedTracer embree = build_timed(*scene, arguments.device.threads);
@@ -134,7 +136,7 @@ nlohmann::ordered_json run_technique(Bench& bench, const BenchView& view, const 
     bench.warnings.insert(result.warnings.begin(), result.warnings.end());
     const PathAccuracy accuracy = judge(view.exact, result.paths).accuracy;
 
-    ProgressBar bar(fmt::format("{}, {}", view.bench_case.scene, technique.name));
+    ProgressBar bar(bench.arguments.console, fmt::format("{}, {}", view.bench_case.scene, technique.name));
     const AlternatingTimes times =
         time_alternately(bench.renderer, settings, bench.arguments.frames, view.trace(), bar.progress());
 
@@ -144,7 +146,7 @@ nlohmann::ordered_json run_technique(Bench& bench, const BenchView& view, const 
     if (view.bench_case.distance) run["distance"] = *view.bench_case.distance;
     run["width"] = settings.width;
     run["height"] = settings.height;
-    run["parameters"] = describe_parameters(technique.info(), settings.parameters);
+    add_parameters(run, technique.info(), settings.parameters);
     run["covered"] = accuracy.covered;
     run["layers"] = most_layers(result);
     run["stable_share"] = accuracy.stable_share;
@@ -166,20 +168,20 @@ nlohmann::ordered_json run_technique(Bench& bench, const BenchView& view, const 
     return run;
 }
 
-void print_head() {
-    fmt::print("{:<46} {:>9} {:>9} {:<20} {:>8} {:>9} {:>9} {:>9} {:>6}\n", "scene", "size", "triangles", "technique",
-               "stable%", "frame ms", "p95", "Embree ms", "ratio");
+void print_head(const Console& console) {
+    console.print("{:<46} {:>9} {:>9} {:<20} {:>8} {:>9} {:>9} {:>9} {:>6}\n", "scene", "size", "triangles",
+                  "technique", "stable%", "frame ms", "p95", "Embree ms", "ratio");
 }
 
-void print_run(const nlohmann::ordered_json& run) {
+void print_run(const Console& console, const nlohmann::ordered_json& run) {
     std::string scene = run["scene"];
     if (run.contains("distance")) scene += fmt::format(" at {}", run["distance"].get<double>());
-    fmt::print("{:<46} {:>9} {:>9} {:<20} {:>8.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>6.2f}\n", scene,
-               fmt::format("{}x{}", run["width"].get<int>(), run["height"].get<int>()),
-               run["triangles"].get<std::uint64_t>(), run["technique"].get<std::string>(),
-               100.0 * run["within_1deg_stable"].get<double>(), run["frame_ms"]["median"].get<double>(),
-               run["frame_ms"]["p95"].get<double>(), run["embree_ms"].get<double>(), run["ratio_embree"].get<double>());
-    std::fflush(stdout);
+    console.print("{:<46} {:>9} {:>9} {:<20} {:>8.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>6.2f}\n", scene,
+                  fmt::format("{}x{}", run["width"].get<int>(), run["height"].get<int>()),
+                  run["triangles"].get<std::uint64_t>(), run["technique"].get<std::string>(),
+                  100.0 * run["within_1deg_stable"].get<double>(), run["frame_ms"]["median"].get<double>(),
+                  run["frame_ms"]["p95"].get<double>(), run["embree_ms"].get<double>(),
+                  run["ratio_embree"].get<double>());
 }
 
 void save(const Bench& bench) {
@@ -195,8 +197,8 @@ void run_case(Bench& bench, const BenchCase& bench_case) {
     if (techniques.empty()) return;
     std::unique_ptr<const Scene> scene;
     const auto load = [&] {
-        scene = std::make_unique<const Scene>(
-            with_copies(load_given_scene(bench_case.source, bench.arguments.how), bench_case.copies));
+        scene = std::make_unique<const Scene>(with_copies(
+            load_given_scene(bench_case.source, bench.arguments.how, bench.arguments.console), bench_case.copies));
     };
     if (!bench.unread.read(bench_case.scene, load)) {
         bench.warnings.insert(bench.unread.errors().back());
@@ -205,7 +207,7 @@ void run_case(Bench& bench, const BenchCase& bench_case) {
     const BenchView view = prepare_view(bench, bench_case, std::move(scene));
     for (const NamedTechnique& technique : techniques) {
         nlohmann::ordered_json run = run_technique(bench, view, technique);
-        print_run(run);
+        print_run(bench.arguments.console, run);
         bench.json["runs"].push_back(std::move(run));
     }
     bench.json["warnings"] = bench.warnings;
@@ -292,12 +294,12 @@ void run_bench(const BenchArguments& arguments) {
                   {"environment_intensity", arguments.environment.intensity},
                   {"warnings", bench.warnings},
                   {"runs", nlohmann::ordered_json::array()}};
-    print_head();
+    print_head(arguments.console);
     for (const BenchCase& each : bench.cases) run_case(bench, each);
     bench.json["warnings"] = bench.warnings;
     save(bench);
     for (const std::string& error : bench.unread.errors()) bench.warnings.erase(error);  // printed before
-    print_warnings({bench.warnings.begin(), bench.warnings.end()});
+    arguments.console.warn({bench.warnings.begin(), bench.warnings.end()});
     check_validation(bench.renderer);
     bench.unread.finish();
 }
@@ -310,27 +312,27 @@ void add_bench_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "bench", "Time techniques pass by pass, in turn with exact ray tracing of the same view on the CPU");
     command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    command->add_option("scenes", a.scenes, shape_help())
+    command->add_option("scenes", a.scenes, kSceneHelp)
         ->type_name("SCENE...")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--suite", a.suite, "Scenes, cameras and sizes by name:" + suite_help())->type_name("NAME");
+    command->option_defaults()->group("Measurement");
+    command->add_option("--suite", a.suite, "Scenes, cameras and sizes by name (help suites)")->type_name("NAME");
     command->add_option("--models", a.models, "Folder with the model files that a suite asks for")->type_name("DIR");
-    command
-        ->add_option("--techniques", a.techniques,
-                     "Names with commas; default: all that the device offers and that are no reference. There are:" +
-                         preset_list() + technique_list())
-        ->type_name("A,B,..");
+    add_techniques_option(*command, a.techniques);
     command->add_option("--size", a.size, "Width and height in pixels, where the suite does not say")
         ->capture_default_str()
         ->type_name("WxH");
     add_number(*command, "--frames", a.frames, "Frames that are timed, after a warm-up")->capture_default_str();
     command->add_flag("--deforming", a.deforming,
                       "Time as well what ray tracing pays where every vertex moves from frame to frame");
-    add_environment_options(*command, a.environment);
     command->add_option("--json", a.json, "Write every measure of every run")->type_name("FILE");
+    add_environment_options(*command, a.environment);
     add_scene_options(*command, a.how);
     add_device_options(*command, a.device);
+    add_console_options(*command, a.console);
     add_parameter_options(*command, a.parameters);
+    set_examples(*command, {"pellucid bench --suite quick --json times.json",
+                            "pellucid bench bunny.obj --techniques fast,balanced --size 1024x1024"});
     command->callback([arguments, command] {
         arguments->command = "pellucid bench" + arguments_without_folders(*command);
         run_bench(*arguments);

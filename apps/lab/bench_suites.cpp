@@ -104,7 +104,7 @@ Scene with_copies(Scene scene, int copies) {
 }
 
 std::vector<BenchCase> suite_cases(const std::string& name, ModelFolder& models) {
-    std::vector<std::string> known;
+    std::vector<std::string_view> known;
     for (const SuiteInfo& info : kSuites) {
         if (info.name == name) {
             Suite suite(models);
@@ -113,14 +113,13 @@ std::vector<BenchCase> suite_cases(const std::string& name, ModelFolder& models)
         }
         known.emplace_back(info.name);
     }
-    throw Error(fmt::format("unknown suite '{}'; known: {}", name, fmt::join(known, ", ")));
+    throw unknown_name("suite", name, known);
 }
 
-std::string suite_help() {
-    std::string help;
-    for (const SuiteInfo& info : kSuites) help += fmt::format(" {} ({});", info.name, info.doc);
-    help.pop_back();
-    return help;
+std::vector<std::pair<std::string_view, std::string_view>> suite_infos() {
+    std::vector<std::pair<std::string_view, std::string_view>> infos;
+    for (const SuiteInfo& info : kSuites) infos.emplace_back(info.name, info.doc);
+    return infos;
 }
 
 }  // namespace pellucid::cli

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,7 +34,7 @@ Scene with_copies(Scene scene, int copies);
 /// The cases of a suite. Model files come from `models`; one that is missing is left out with a warning.
 /// Throws Error listing the known suites for an unknown name.
 std::vector<BenchCase> suite_cases(const std::string& name, ModelFolder& models);
-/// "quick (...); thesis (...)", for the help.
-std::string suite_help();
+/// Names and what they are.
+std::vector<std::pair<std::string_view, std::string_view>> suite_infos();
 
 }  // namespace pellucid::cli

@@ -1,6 +1,9 @@
 #include "lab/accuracy.h"
 #include "lab/commands.h"
+#include "lab/compare_options.h"
+#include "lab/image_truth.h"
 #include "lab/thickness_compare.h"
+#include "options/help.h"
 #include "options/light_options.h"
 #include "options/options.h"
 #include "options/progress_bar.h"
@@ -19,30 +22,6 @@
 namespace pellucid::cli {
 namespace {
 
-struct CompareArguments {
-    std::vector<std::string> scenes;
-    std::string techniques;  ///< empty: all that the device offers
-    std::string size = "512x512";
-    int views = 4;
-    std::uint32_t samples = 4;
-    std::uint32_t exact_events = ExactSettings{}.max_events;
-    std::string truth = "reference";
-    std::uint32_t truth_samples = 64;
-    EnvironmentArguments environment;
-    std::string tonemap = "neutral";
-    double exposure_ev = 0.0;
-    std::optional<std::string> json;
-    std::optional<std::string> html;
-    bool thickness = false;
-    std::optional<std::string> pictures;
-    ThicknessArguments thickness_how;
-    LightArguments light;
-    SceneArguments how;
-    DeviceArguments device;
-    ParameterArguments parameters;
-    std::string command_line;
-};
-
 /// What stays the same from view to view, and where the results go.
 struct Comparison {
     const CompareArguments& arguments;
@@ -55,6 +34,7 @@ struct Comparison {
     nlohmann::ordered_json json;
     std::set<std::string> warnings;
     UnreadScenes unread;
+    TruthNoise noise = {};
 };
 
 /// One camera around one scene.
@@ -64,8 +44,16 @@ struct ComparedView {
     OrbitView orbit;
     std::uint64_t triangles;
     ExactView exact;
-    std::string truth_name;
-    RenderResult truth;  ///< the picture that the others are held against
+    RenderSettings truth_settings;
+    ImageTruth truth;
+};
+
+/// What one technique has drawn of a view.
+struct Drawn {
+    const NamedTechnique& technique;
+    RenderSettings settings;
+    RenderResult result;
+    Judgement judgement;
 };
 
 double median_frame_ms(const RenderResult& result) {
@@ -90,7 +78,7 @@ RenderSettings settings_for(const Comparison& comparison, const NamedTechnique& 
 
 RenderSettings settings_of_truth(const Comparison& comparison, const NamedTechnique& truth) {
     RenderSettings settings = settings_for(comparison, truth);
-    if (truth.info().all_light) settings.samples = comparison.arguments.truth_samples;
+    if (truth.info().all_light) settings.samples = comparison.arguments.truth_samples.value_or(kTruthSamples);
     return settings;
 }
 
@@ -112,15 +100,24 @@ void add_warnings(Comparison& comparison, const std::string& scene, const std::s
     }
 }
 
-nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedView& view,
-                                         const NamedTechnique& technique) {
+Drawn draw(Comparison& comparison, const ComparedView& view, const NamedTechnique& technique) {
+    ProgressBar bar(comparison.arguments.console,
+                    fmt::format("{}, view {}, {}", view.scene, view.index + 1, technique.name));
     RenderSettings settings = settings_for(comparison, technique);
     settings.paths = true;
-    const RenderResult result = comparison.renderer.render(settings);
+    settings.progress = bar.progress();
+    RenderResult result = comparison.renderer.render(settings);
+    settings.progress = {};
     add_warnings(comparison, view.scene, technique.name, result);
+    Judgement judgement = judge(view.exact, result.paths);
+    result.paths = {};
+    return {technique, settings, std::move(result), std::move(judgement)};
+}
 
-    const Judgement judgement = judge(view.exact, result.paths);
-    const Image flip = flip_ldr(view.truth.display, result.display);
+nlohmann::ordered_json describe(Comparison& comparison, const ComparedView& view, const Drawn& drawn) {
+    const auto& [technique, drawn_settings, result, judgement] = drawn;
+    RenderSettings settings = drawn_settings;
+    const Image flip = flip_ldr(view.truth.result.display, result.display);
     nlohmann::ordered_json run{{"scene", view.scene}};
     add_technique(run, technique);
     run["view"] = view.index;
@@ -128,12 +125,14 @@ nlohmann::ordered_json compare_technique(Comparison& comparison, const ComparedV
     run["width"] = settings.width;
     run["height"] = settings.height;
     run["triangles"] = view.triangles;
-    run["parameters"] = describe_parameters(technique.info(), settings.parameters);
-    if (view.truth_name != comparison.truth.name) run["image_truth"] = view.truth_name;
+    add_parameters(run, technique.info(), settings.parameters);
+    if (view.truth.technique != comparison.truth.name) run["image_truth"] = view.truth.technique;
+    run["truth_samples"] = view.truth.samples;
+    if (view.truth.noise) run["truth_noise"] = *view.truth.noise;
     add_accuracy(run, view.exact, judgement.accuracy);
     if (judgement.accuracy.covered > 0) {
         run["flip_mean"] = mean(flip, view.exact.covered);
-        run["rmse"] = rmse(view.truth.radiance, result.radiance, view.exact.covered);
+        run["rmse"] = rmse(view.truth.result.radiance, result.radiance, view.exact.covered);
     } else {
         run["flip_mean"] = run["rmse"] = nullptr;
     }
@@ -163,7 +162,7 @@ ComparedView exact_view(Comparison& comparison, const std::string& name, const S
     const Camera camera = orbit.camera(bounds);
     comparison.renderer.set_camera(camera);
 
-    ProgressBar bar(fmt::format("{}, view {} of {}, exact", name, index + 1, arguments.views));
+    ProgressBar bar(arguments.console, fmt::format("{}, view {} of {}, exact", name, index + 1, arguments.views));
     ComparedView view{name,
                       index,
                       orbit,
@@ -172,13 +171,27 @@ ComparedView exact_view(Comparison& comparison, const std::string& name, const S
                                        arguments.exact_events, bar.progress()),
                       {},
                       {}};
-    settings = settings_of_truth(comparison, truth_for(comparison, name, scene));
-    view.truth_name = settings.technique;
-    settings.progress = bar.progress();
-    view.truth = comparison.renderer.render(settings);
-    add_warnings(comparison, name, settings.technique, view.truth);
-    if (comparison.report) comparison.report->add_picture({name, index, ""}, PictureKind::kImage, view.truth.display);
+    bar.clear();
+    view.truth_settings = settings_of_truth(comparison, truth_for(comparison, name, scene));
+    ProgressBar truth_bar(arguments.console, fmt::format("{}, view {} of {}, {}", name, index + 1, arguments.views,
+                                                         view.truth_settings.technique));
+    settings = view.truth_settings;
+    settings.progress = truth_bar.progress();
+    view.truth = draw_truth(comparison.renderer, settings, view.exact.covered);
+    add_warnings(comparison, name, settings.technique, view.truth.result);
     return view;
+}
+
+/// Draws the truth with more samples where the differences between techniques need them.
+void reduce_noise(Comparison& comparison, ComparedView& view, const std::vector<Drawn>& all) {
+    ProgressBar bar(comparison.arguments.console,
+                    fmt::format("{}, view {}, {}, more samples", view.scene, view.index + 1, view.truth.technique));
+    RenderSettings settings = view.truth_settings;
+    settings.progress = bar.progress();
+    std::vector<const Image*> images;
+    for (const Drawn& drawn : all) images.push_back(&drawn.result.display);
+    const std::uint32_t most = comparison.arguments.truth_samples ? view.truth.samples : kMostTruthSamples;
+    comparison.noise.add_view(comparison.renderer, settings, view.exact.covered, images, most, view.truth);
 }
 
 void save(const Comparison& comparison) {
@@ -186,44 +199,58 @@ void save(const Comparison& comparison) {
     write_json(*comparison.arguments.json, comparison.json);
 }
 
-void print_head() {
-    fmt::print("{:<28} {:>4} {:<22} {:>7} {:>7} {:>8} {:>7} {:>8}\n", "scene", "view", "technique", "1 deg%", "5 deg%",
-               "stable%", "median", "FLIP");
+void print_head(const Console& console) {
+    console.print("{:<28} {:>4} {:<22} {:>7} {:>7} {:>8} {:>7} {:>8}\n", "scene", "view", "technique", "1 deg%",
+                  "5 deg%", "stable%", "median", "FLIP");
 }
 
-void print_row(const nlohmann::ordered_json& run) {
+void print_row(const Console& console, const nlohmann::ordered_json& run) {
     const auto cell = [&](const char* key, double scale, int width, int digits) {
         const auto& value = run[key];
         return value.is_null() ? fmt::format("{:>{}}", "-", width)
                                : fmt::format("{:>{}.{}f}", scale * value.get<double>(), width, digits);
     };
-    fmt::print("{:<28} {:>4} {:<22} {} {} {} {} {}\n", run["scene"].get<std::string>(), run["view"].get<int>(),
-               run["technique"].get<std::string>(), cell("within_1deg", 100.0, 7, 2), cell("within_5deg", 100.0, 7, 2),
-               cell("within_1deg_stable", 100.0, 8, 2), cell("median_deg", 1.0, 7, 2), cell("flip_mean", 1.0, 8, 4));
-    std::fflush(stdout);
+    console.print("{:<28} {:>4} {:<22} {} {} {} {} {}\n", run["scene"].get<std::string>(), run["view"].get<int>(),
+                  run["technique"].get<std::string>(), cell("within_1deg", 100.0, 7, 2),
+                  cell("within_5deg", 100.0, 7, 2), cell("within_1deg_stable", 100.0, 8, 2),
+                  cell("median_deg", 1.0, 7, 2), cell("flip_mean", 1.0, 8, 4));
+}
+
+/// What was warned of so far, once each.
+std::set<std::string> all_warnings(const Comparison& comparison) {
+    std::set<std::string> warnings = comparison.warnings;
+    if (const std::optional<std::string> noise = comparison.noise.warning()) warnings.insert(*noise);
+    return warnings;
 }
 
 void compare_scene(Comparison& comparison, const std::string& name) {
     Scene scene;
-    if (!comparison.unread.read(name, [&] { scene = load_given_scene(name, comparison.arguments.how); })) {
+    const auto load = [&] { scene = load_given_scene(name, comparison.arguments.how, comparison.arguments.console); };
+    if (!comparison.unread.read(name, load)) {
         comparison.warnings.insert(comparison.unread.errors().back());
         return;
     }
     comparison.warnings.insert(scene.warnings.begin(), scene.warnings.end());
     comparison.renderer.set_scene(scene);
-    if (comparison.json["runs"].empty()) print_head();
+    if (comparison.json["runs"].empty()) print_head(comparison.arguments.console);
     // An older report in the folder is replaced when there is something to replace it with.
     if (comparison.arguments.html && !comparison.report) comparison.report.emplace(*comparison.arguments.html);
     for (int index = 0; index < comparison.arguments.views; ++index) {
-        const ComparedView view = exact_view(comparison, name, scene, index);
-        for (const NamedTechnique& technique : comparison.techniques) {
-            nlohmann::ordered_json run = compare_technique(comparison, view, technique);
-            print_row(run);
+        ComparedView view = exact_view(comparison, name, scene, index);
+        std::vector<Drawn> all;
+        for (const NamedTechnique& technique : comparison.techniques) all.push_back(draw(comparison, view, technique));
+        reduce_noise(comparison, view, all);
+        if (comparison.report)
+            comparison.report->add_picture({name, index, ""}, PictureKind::kImage, view.truth.result.display);
+        for (const Drawn& drawn : all) {
+            nlohmann::ordered_json run = describe(comparison, view, drawn);
+            print_row(comparison.arguments.console, run);
             if (comparison.report) comparison.report->add_run(run);
             comparison.json["runs"].push_back(std::move(run));
         }
     }
-    comparison.json["warnings"] = comparison.warnings;
+    comparison.json["warnings"] = all_warnings(comparison);
+    if (comparison.noise.samples > 0) comparison.json["truth_samples"] = comparison.noise.samples;
     save(comparison);  // after every scene, so that a bad one later loses nothing
 }
 
@@ -257,10 +284,16 @@ RenderSettings settings_of(const CompareArguments& arguments) {
     return settings;
 }
 
-std::string describe_truth(const CompareArguments& arguments) {
+/// Samples of the truth, or the fewest where the differences between techniques choose them.
+std::uint32_t truth_samples(const CompareArguments& arguments) {
     const bool all_light = find_technique(arguments.truth).all_light;
-    return fmt::format("{}, samples per pixel: {}", arguments.truth,
-                       all_light ? arguments.truth_samples : arguments.samples);
+    return all_light ? arguments.truth_samples.value_or(kTruthSamples) : arguments.samples;
+}
+
+std::string describe_truth(const CompareArguments& arguments, std::uint32_t most) {
+    const std::uint32_t least = truth_samples(arguments);
+    return fmt::format("{}, samples per pixel: {}{}", arguments.truth, least,
+                       most > least ? fmt::format(" to {}", most) : "");
 }
 
 /// Says before any work what could not be drawn.
@@ -300,7 +333,9 @@ void compare(const CompareArguments& arguments) {
         {"environment_rotation_deg", arguments.environment.rotation_deg},
         {"environment_intensity", arguments.environment.intensity},
         {"exact_events", arguments.exact_events},
-        {"image_truth", describe_truth(arguments)},
+        {"truth", arguments.truth},
+        {"truth_samples", truth_samples(arguments)},
+        {"image_truth", describe_truth(arguments, 0)},
         {"image_truth_parameters",
          describe_parameters(comparison.truth.info(), settings_of_truth(comparison, comparison.truth).parameters)},
         {"warnings", nlohmann::ordered_json::array()},
@@ -308,17 +343,19 @@ void compare(const CompareArguments& arguments) {
 
     for (const std::string& scene : arguments.scenes) compare_scene(comparison, scene);
     if (comparison.report) {
-        const std::filesystem::path page = comparison.report->finish({.device = device.name,
-                                                                      .driver = device.driver,
-                                                                      .version = std::string(version()),
-                                                                      .command = arguments.command_line,
-                                                                      .reference = describe_truth(arguments)});
-        fmt::print("Report: {}\n", page.string());
+        const std::filesystem::path page =
+            comparison.report->finish({.device = device.name,
+                                       .driver = device.driver,
+                                       .version = std::string(version()),
+                                       .command = arguments.command_line,
+                                       .reference = describe_truth(arguments, comparison.noise.samples)});
+        arguments.console.print("Report: {}\n", page.string());
     }
-    comparison.json["warnings"] = comparison.warnings;
+    std::set<std::string> warnings = all_warnings(comparison);
+    comparison.json["warnings"] = warnings;
     save(comparison);
-    for (const std::string& error : comparison.unread.errors()) comparison.warnings.erase(error);  // printed before
-    print_warnings({comparison.warnings.begin(), comparison.warnings.end()});
+    for (const std::string& error : comparison.unread.errors()) warnings.erase(error);  // printed before
+    arguments.console.warn({warnings.begin(), warnings.end()});
     check_validation(comparison.renderer);
     comparison.unread.finish();
 }
@@ -331,55 +368,14 @@ void add_compare_command(CLI::App& app, const std::string& command_line) {
     a.command_line = command_line;
     CLI::App* command =
         app.add_subcommand("compare", "Hold techniques against exact ray tracing, pixel by pixel, around scenes");
-    command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    command->add_option("scenes", a.scenes, shape_help())
-        ->required()
-        ->type_name("SCENE...")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command
-        ->add_option("--techniques", a.techniques,
-                     "Names with commas; default: all that the device offers and that are no reference. There are:" +
-                         preset_list() + technique_list())
-        ->type_name("A,B,..");
-    command->add_option("--size", a.size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
-    add_number(*command, "--views", a.views, "Cameras around the object, 15 degrees above it, the first from the front")
-        ->capture_default_str();
-    add_number(*command, "--samples", a.samples, "Jittered frames per picture; paths are compared at pixel centres")
-        ->capture_default_str();
-    add_number(*command, "--exact-events", a.exact_events, "Interface events that exact paths may have")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 4095));
-    command
-        ->add_option("--truth", a.truth,
-                     "Whose picture FLIP and RMSE are taken against: reference (the exact transmitted path, shaded as "
-                     "the others are) or path (all light)")
-        ->capture_default_str()
-        ->type_name("NAME");
-    add_number(*command, "--truth-samples", a.truth_samples, "Paths per pixel of --truth path")->capture_default_str();
-    add_environment_options(*command, a.environment);
-    command->add_option("--tonemap", a.tonemap, "none, reinhard, aces, neutral or krawczyk")
-        ->capture_default_str()
-        ->type_name("NAME");
-    add_number(*command, "--exposure", a.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
-    command->add_option("--json", a.json, "Write every measure of every run")->type_name("FILE");
-    command->add_option("--html", a.html, "Write a report that opens in a browser from disk")->type_name("DIR");
-    add_scene_options(*command, a.how);
-    add_device_options(*command, a.device);
-    add_parameter_options(*command, a.parameters);
-    command->add_flag("--thickness", a.thickness,
-                      "Compare the ways to find the thickness of what is translucent instead, against rays of Embree, "
-                      "for every light: from behind, from the side and from the top");
-    add_light_options(*command, a.light);
-    add_light_map_options(*command, a.thickness_how, "--thickness-layers");
-    command->add_option("--pictures", a.pictures, "With --thickness: pictures of thickness and error, .png")
-        ->type_name("DIR");
+    add_compare_options(*command, a);
     command->callback([arguments] {
         const CompareArguments& given = *arguments;
         if (!given.thickness && given.pictures) throw Error("--pictures: goes with --thickness; otherwise give --html");
         if (!given.thickness) return compare(given);
         if (given.html) throw Error("--html: has no thickness; give --pictures");
-        compare_thickness(
-            {given.scenes, given.size, given.thickness_how, given.pictures, given.json, given.how, given.device});
+        compare_thickness({given.scenes, given.size, given.thickness_how, given.pictures, given.json, given.how,
+                           given.device, given.console});
     });
 }
 

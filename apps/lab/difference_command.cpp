@@ -1,4 +1,5 @@
 #include "lab/commands.h"
+#include "options/help.h"
 #include "options/options.h"
 
 #include <pellucid/file.h>
@@ -107,8 +108,10 @@ void add_difference_command(CLI::App& app) {
         *command, "--exposure", a.exposure_ev,
         "FLIP of linear pictures at one exposure; default: the worst of those that suit the reference (HDR-FLIP)")
         ->type_name("EV");
-    command->add_option("--map", a.map, "Write FLIP per pixel, 0 to 1, .exr or .png")->type_name("FILE");
+    command->add_option("--flip-map,--map", a.map, "Write FLIP per pixel, 0 to 1, .exr or .png")->type_name("FILE");
     command->add_option("--json", a.json, "Write the numbers")->type_name("FILE");
+    set_examples(*command, {"pellucid difference truth.exr test.exr --flip-map flip.png",
+                            "pellucid difference truth.png test.png --mask events.exr --json difference.json"});
     command->callback([arguments] { show_difference(*arguments); });
 }
 

@@ -1,6 +1,7 @@
 #include "lab/bench_timing.h"
 #include "lab/commands.h"
 #include "lab/experiment_run.h"
+#include "options/help.h"
 #include "options/options.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ struct ExperimentArguments {
     std::optional<std::string> size;
     int frames = 30;
     DeviceArguments device;
+    Console console;
     std::string options;  ///< the command's options, without folders
 };
 
@@ -81,6 +83,7 @@ nlohmann::ordered_json run_one(const ExperimentArguments& arguments, const Exper
                       .frames = arguments.frames,
                       .threads = arguments.device.threads,
                       .unread = unread,
+                      .console = arguments.console,
                       .warnings = {}};
     std::vector<std::string> missing;
     ModelFolder models(arguments.models.value_or(""), missing);
@@ -115,7 +118,7 @@ nlohmann::ordered_json run_one(const ExperimentArguments& arguments, const Exper
                     run.runs, warnings);
     }
     for (std::string& warning : warnings) warning = fmt::format("{}: {}", spec.name, warning);
-    print_warnings(warnings);
+    arguments.console.warn(warnings);
     return {{"name", spec.name},         {"source", spec.source},
             {"varied", spec.varied},     {"environment", spec.environment},
             {"truth", spec.truth.label}, {"command", command},
@@ -148,7 +151,7 @@ void run_experiments(const ExperimentArguments& arguments) {
         // After every experiment, so that what fails later loses nothing.
         if (arguments.json) write_json(*arguments.json, json);
         const std::filesystem::path index = write_experiment_index(arguments.report);
-        if (spec == chosen.back()) fmt::print("Report: {}\n", index.string());
+        if (spec == chosen.back()) arguments.console.print("Report: {}\n", index.string());
     }
     check_validation(renderer);
     unread.finish();
@@ -162,12 +165,15 @@ void add_experiment_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("experiment", "Repeat experiments of the publications; each writes its table and figure");
     command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    CLI::Option* names = command->add_option("names", a.names, "Experiments, or 'all'; none: what there is")
+    CLI::Option* names = command->add_option("names", a.names, "Experiments, or 'all'; none: list what there is")
                              ->type_name("NAME...")
                              ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->option_defaults()->group("Experiment");
     command->add_flag("--list", a.list, "Print what there is, a line each");
     command->add_option("--models", a.models, "Folder with the model files that experiments ask for")->type_name("DIR");
-    command->add_option("--report", a.report, "Folder of the pages; a page is replaced when its experiment runs again")
+    command
+        ->add_option("--report,--html", a.report,
+                     "Folder of the pages; a page is replaced when its experiment runs again")
         ->capture_default_str()
         ->type_name("DIR");
     command->add_option("--json", a.json, "Write every measure of every run")->type_name("FILE");
@@ -175,6 +181,9 @@ void add_experiment_command(CLI::App& app) {
         ->type_name("WxH");
     add_number(*command, "--frames", a.frames, "Frames that are timed, where times are taken")->capture_default_str();
     add_device_options(*command, a.device);
+    add_console_options(*command, a.console);
+    set_examples(*command, {"pellucid experiment wang-many-objects --report out/experiments",
+                            "pellucid experiment all --models ../models"});
     command->callback([arguments, command, names] {
         arguments->options = arguments_without_folders(*command, names);  // a page names its own experiment
         run_experiments(*arguments);

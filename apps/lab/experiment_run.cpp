@@ -54,7 +54,7 @@ RenderSettings settings_for(const ExperimentView& view, const Variant& variant) 
 RenderResult draw(ExperimentRun& run, const ExperimentSpec& spec, const ExperimentView& view, const Variant& variant) {
     const Environment environment = load_environment(spec.environment);
     run.renderer.set_environment(variant.map_width ? resampled(environment, *variant.map_width) : environment);
-    ProgressBar bar(fmt::format("{}: {}, {}", spec.name, view.scene.label, variant.label));
+    ProgressBar bar(run.console, fmt::format("{}: {}, {}", spec.name, view.scene.label, variant.label));
     RenderSettings settings = settings_for(view, variant);
     settings.progress = bar.progress();
     RenderResult result = run.renderer.render(settings);
@@ -80,7 +80,7 @@ ExperimentView prepare_view(ExperimentRun& run, const ExperimentSpec& spec, cons
     settings.height = run.height;
     const Camera camera = bench_camera(scene.how, *loaded, run.width, run.height);
     run.renderer.set_camera(camera);
-    ProgressBar bar(fmt::format("{}: {}, exact", spec.name, scene.label));
+    ProgressBar bar(run.console, fmt::format("{}: {}, exact", spec.name, scene.label));
     ExperimentView view{.scene = scene,
                         .loaded = std::move(loaded),
                         .camera = camera,
@@ -99,7 +99,7 @@ void add_times(nlohmann::ordered_json& json, ExperimentRun& run, const Experimen
                const Variant& variant) {
     RenderSettings settings = settings_for(view, variant);
     settings.paths = false;
-    ProgressBar bar(fmt::format("{}: {}, {}, timed", spec.name, view.scene.label, variant.label));
+    ProgressBar bar(run.console, fmt::format("{}: {}, {}, timed", spec.name, view.scene.label, variant.label));
     const AlternatingTimes times = time_alternately(run.renderer, settings, run.frames, view.trace(), bar.progress());
     const auto spread_of = [](const std::vector<double>& times_ms) {
         const Spread s = spread(times_ms);
@@ -118,16 +118,15 @@ void add_times(nlohmann::ordered_json& json, ExperimentRun& run, const Experimen
 
 nlohmann::ordered_json measured(ExperimentRun& run, const ExperimentSpec& spec, const ExperimentView& view,
                                 const Variant& variant, const RenderResult& result) {
-    nlohmann::ordered_json json{
-        {"scene", view.scene.label},
-        {"source", view.scene.how.scene},
-        {"variant", variant.label},
-        {"technique", variant.technique},
-        {"width", view.settings.width},
-        {"height", view.settings.height},
-        {"objects", view.loaded->objects.size()},
-        {"triangles", view.loaded->triangle_count()},
-        {"parameters", describe_parameters(find_technique(variant.technique), variant.parameters)}};
+    nlohmann::ordered_json json{{"scene", view.scene.label},
+                                {"source", view.scene.how.scene},
+                                {"variant", variant.label},
+                                {"technique", variant.technique},
+                                {"width", view.settings.width},
+                                {"height", view.settings.height},
+                                {"objects", view.loaded->objects.size()},
+                                {"triangles", view.loaded->triangle_count()}};
+    add_parameters(json, find_technique(variant.technique), variant.parameters);
     if (view.scene.how.distance) json["distance"] = *view.scene.how.distance;
     if (variant.map_width) json["map_width"] = *variant.map_width;
     const PathAccuracy accuracy = judge(view.exact, result.paths).accuracy;
@@ -142,17 +141,16 @@ nlohmann::ordered_json measured(ExperimentRun& run, const ExperimentSpec& spec, 
     return json;
 }
 
-void print_run(const nlohmann::ordered_json& run) {
+void print_run(const Console& console, const nlohmann::ordered_json& run) {
     const auto cell = [&](const char* pointer, double scale, int width, int digits) {
         const nlohmann::ordered_json::json_pointer at(pointer);
         return run.contains(at) && run[at].is_number()
                    ? fmt::format("{:>{}.{}f}", scale * run[at].get<double>(), width, digits)
                    : fmt::format("{:>{}}", "-", width);
     };
-    fmt::print("{:<24} {:<32} {} {} {} {}\n", run["scene"].get<std::string>(), run["variant"].get<std::string>(),
-               cell("/within_1deg", 100.0, 7, 2), cell("/within_1deg_stable", 100.0, 8, 2),
-               cell("/flip_mean", 1.0, 8, 4), cell("/frame_ms/median", 1.0, 9, 2));
-    std::fflush(stdout);
+    console.print("{:<24} {:<32} {} {} {} {}\n", run["scene"].get<std::string>(), run["variant"].get<std::string>(),
+                  cell("/within_1deg", 100.0, 7, 2), cell("/within_1deg_stable", 100.0, 8, 2),
+                  cell("/flip_mean", 1.0, 8, 4), cell("/frame_ms/median", 1.0, 9, 2));
 }
 
 /// A part of a picture, with every pixel as a square of pixels.
@@ -208,7 +206,7 @@ void run_scene(ExperimentRun& run, const ExperimentSpec& spec, const ExperimentS
         }
         // What was published is of the last variant.
         if (&variant == &variants.back() && !scene.published.empty()) json["published"] = scene.published;
-        print_run(json);
+        print_run(run.console, json);
         run.runs.push_back(std::move(json));
         page.add_picture(scene.label, variant.label, result.display);
         if (variant.analysis) {
@@ -249,8 +247,8 @@ std::vector<Variant> available_variants(const ExperimentSpec& spec, ExperimentRu
 
 void run_experiment(ExperimentRun& run, const ExperimentSpec& spec, const std::vector<ExperimentScene>& scenes,
                     const std::vector<Variant>& variants, ExperimentPage& page) {
-    fmt::print("{}\n{:<24} {:<32} {:>7} {:>8} {:>8} {:>9}\n", spec.name, "scene", "variant", "1 deg%", "stable%",
-               "FLIP", "frame ms");
+    run.console.print("{}\n{:<24} {:<32} {:>7} {:>8} {:>8} {:>9}\n", spec.name, "scene", "variant", "1 deg%", "stable%",
+                      "FLIP", "frame ms");
     for (const ExperimentScene& scene : scenes) run_scene(run, spec, scene, variants, page);
 }
 

@@ -2,6 +2,7 @@
 
 #include "lab/experiment_page.h"
 #include "lab/experiments.h"
+#include "options/console.h"
 #include "options/unread_scenes.h"
 
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@ struct ExperimentRun {
     int frames;                   ///< that are timed
     std::uint32_t threads;        ///< of Embree; 0: all
     UnreadScenes& unread;
+    const Console& console;
     std::set<std::string> warnings;
     nlohmann::ordered_json runs = nlohmann::ordered_json::array();
 };

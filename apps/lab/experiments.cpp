@@ -299,12 +299,12 @@ std::span<const ExperimentSpec> experiments() {
 }
 
 const ExperimentSpec& find_experiment(const std::string& name) {
-    std::vector<std::string> known;
+    std::vector<std::string_view> known;
     for (const ExperimentSpec& spec : experiments()) {
         if (spec.name == name) return spec;
         known.emplace_back(spec.name);
     }
-    throw Error(fmt::format("unknown experiment '{}'; known: {}", name, fmt::join(known, ", ")));
+    throw unknown_name("experiment", name, known);
 }
 
 }  // namespace pellucid::cli

@@ -196,9 +196,9 @@ void finish_run(ExperimentRun& run, nlohmann::ordered_json json) {
         return json.contains(name) && json[name].is_number() ? fmt::format("{:>9.4f}", json[name].get<double>())
                                                              : fmt::format("{:>9}", "-");
     };
-    fmt::print("{:<28} {:<20} {} {} {} {}\n", json["scene"].get<std::string>(), json["variant"].get<std::string>(),
-               number("mean_deg"), number("median_deg"), number("converged_mean_deg"), number("frame_ms"));
-    std::fflush(stdout);
+    run.console.print("{:<28} {:<20} {} {} {} {}\n", json["scene"].get<std::string>(),
+                      json["variant"].get<std::string>(), number("mean_deg"), number("median_deg"),
+                      number("converged_mean_deg"), number("frame_ms"));
     run.runs.push_back(std::move(json));
 }
 
@@ -234,7 +234,7 @@ void measure_steps(ExperimentRun& run, const ExperimentSpec& spec) {
     for (int integrator = 0; integrator < int(std::size(kIntegrators)); ++integrator) {
         for (double step = 2.0; step >= kIntegrators[integrator].least_step; step /= 2.0) {
             const RayRun how{kStepResolution, kStepSmoothing, integrator, step};
-            ProgressBar bar(fmt::format("{}: {}", spec.name, how.variant()));
+            ProgressBar bar(run.console, fmt::format("{}: {}", spec.name, how.variant()));
             const RenderResult result = draw(run, how, std::uint32_t(std::max(2, run.frames)));
             bar.clear();
             const Directions shown = shown_directions(result.aovs.at("exit-direction"), ball.exact);
@@ -260,8 +260,8 @@ void measure_steps(ExperimentRun& run, const ExperimentSpec& spec) {
 }
 
 void measure_rays(ExperimentRun& run, const ExperimentSpec& spec, ModelFolder&, ExperimentPage& page) {
-    fmt::print("{}\n{:<28} {:<20} {:>9} {:>9} {:>9} {:>9}\n", spec.name, "scene", "variant", "mean", "median",
-               "converged", "frame ms");
+    run.console.print("{}\n{:<28} {:<20} {:>9} {:>9} {:>9} {:>9}\n", spec.name, "scene", "variant", "mean", "median",
+                      "converged", "frame ms");
     measure_surface(run, page);
     measure_steps(run, spec);
 }

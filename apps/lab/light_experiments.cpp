@@ -2,8 +2,8 @@
 #include "lab/light_experiments.h"
 
 #include "lab/experiment_run.h"
-
 #include "lab/landed_light.h"
+#include "options/progress_bar.h"
 
 #include <pellucid/volume_light.h>
 
@@ -50,7 +50,9 @@ double sum(glm::dvec3 power) { return power.x + power.y + power.z; }
 MeasuredLight measure(ExperimentRun& run, const std::string& scene_name, const std::string& variant, const Scene& scene,
                       const LightSettings& settings, nlohmann::ordered_json& json, int repetitions = kRepetitions) {
     const DeviceOptions options{.device = run.renderer.device().name, .validation = false};
+    ProgressBar bar(run.console, fmt::format("{}, {}", scene_name, variant));
     MeasuredLight light = measure_light(options, scene, settings, repetitions);
+    bar.clear();
     const LightStatistics& s = light.statistics;
     for (const std::string& warning : s.warnings()) run.warnings.insert(fmt::format("{}: {}", variant, warning));
     const double emitted = sum(s.emitted);
@@ -68,9 +70,8 @@ MeasuredLight measure(ExperimentRun& run, const std::string& scene_name, const s
             {"turned", sum(s.turned) / emitted},
             {"weak", sum(s.weak) / emitted},
             {"left", sum(s.left) / emitted}};
-    fmt::print("{:<14} {:<32} {:>9.1f} ms {:>9} patches {:>9} splits, left {:.3f}%\n", scene_name, variant,
-               light.device_ms, s.patches, s.splits, 100.0 * sum(s.left) / emitted);
-    std::fflush(stdout);
+    run.console.print("{:<14} {:<32} {:>9.1f} ms {:>9} patches {:>9} splits, left {:.3f}%\n", scene_name, variant,
+                      light.device_ms, s.patches, s.splits, 100.0 * sum(s.left) / emitted);
     return light;
 }
 
@@ -209,8 +210,8 @@ void compare_with_photons(ExperimentRun& run) {
                 {"apart", apart(found, truth)},
                 {"correlation", correlation(found, truth)}};
         if (rings > 0.0) json["photons"] = std::numbers::pi * rings * rings;
-        fmt::print("{:<18} {:<40} {:>9.1f} ms, {:.0f} rings, apart {:.4f}\n", name, variant, ms, rings,
-                   apart(found, truth));
+        run.console.print("{:<18} {:<40} {:>9.1f} ms, {:.0f} rings, apart {:.4f}\n", name, variant, ms, rings,
+                          apart(found, truth));
         run.runs.push_back(json);
     };
     add("wavefronts", 0.0, light.device_ms, own);

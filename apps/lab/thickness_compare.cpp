@@ -38,20 +38,22 @@ public:
                  {"layers", comparison.thickness.layers},
                  {"light_map", comparison.thickness.resolution},
                  {"runs", nlohmann::ordered_json::array()}};
-        fmt::print("{:<26} {:>5} {:<7} {:<23} {:>8} {:>10} {:>10} {:>10} {:>9} {:>7}\n", "scene", "light", "view",
-                   "method", "error%", "mean m", "95% m", "largest m", "time ms", "passes");
+        comparison_.console.print("{:<26} {:>5} {:<7} {:<23} {:>8} {:>10} {:>10} {:>10} {:>9} {:>7}\n", "scene",
+                                  "light", "view", "method", "error%", "mean m", "95% m", "largest m", "time ms",
+                                  "passes");
     }
 
     void add_scene(const std::string& name) {
         Scene scene;
-        if (!unread_.read(name, [&] { scene = load_given_scene(name, comparison_.how); })) return;
+        const auto load = [&] { scene = load_given_scene(name, comparison_.how, comparison_.console); };
+        if (!unread_.read(name, load)) return;
         warnings_.insert(scene.warnings.begin(), scene.warnings.end());
         if (scene.lights.empty()) throw Error(fmt::format("{}: there is no light; give one with --add-light", name));
         renderer_.set_scene(scene);
         const ThicknessTracer tracer(scene, comparison_.device.threads);
         for (std::uint32_t light = 0; light < scene.lights.size(); ++light) {
             for (const NamedCamera& from : cameras_about_light(scene, scene.lights[light], width_, height_)) {
-                ProgressBar bar(fmt::format("{}, light {}, {}, exact", name, light, from.name));
+                ProgressBar bar(comparison_.console, fmt::format("{}, light {}, {}, exact", name, light, from.name));
                 renderer_.set_camera(from.camera);
                 ComparedView view{name,
                                   light,
@@ -71,14 +73,14 @@ public:
         json_["warnings"] = warnings_;
         for (const std::string& error : unread_.errors()) json_["warnings"].push_back(error);
         if (comparison_.json) write_json(*comparison_.json, json_);
-        print_warnings({warnings_.begin(), warnings_.end()});
+        comparison_.console.warn({warnings_.begin(), warnings_.end()});
         check_validation(renderer_);
         unread_.finish();
     }
 
 private:
     void add_method(const ComparedView& view, const ThicknessMethodInfo& info) {
-        ProgressBar bar(fmt::format("{}, {}", view.scene, info.name));
+        ProgressBar bar(comparison_.console, fmt::format("{}, {}", view.scene, info.name));
         const ThicknessRequest request{
             .width = width_,
             .height = height_,
@@ -95,11 +97,10 @@ private:
                             info.name, result.cut_rays, view.name));
         Image difference;
         const ThicknessError error = thickness_error(view.truth, result.thickness, &difference);
-        fmt::print("{:<26} {:>5} {:<7} {:<23} {:>8.3f} {:>10.3g} {:>10.3g} {:>10.3g} {:>9.1f} {:>7}\n",
-                   std::filesystem::path(view.scene).filename().string(), view.light, view.name, info.name,
-                   100.0 * error.relative, error.mean, error.p95, error.largest, result.wall_ms,
-                   result.geometry_passes);
-        std::fflush(stdout);
+        comparison_.console.print("{:<26} {:>5} {:<7} {:<23} {:>8.3f} {:>10.3g} {:>10.3g} {:>10.3g} {:>9.1f} {:>7}\n",
+                                  std::filesystem::path(view.scene).filename().string(), view.light, view.name,
+                                  info.name, 100.0 * error.relative, error.mean, error.p95, error.largest,
+                                  result.wall_ms, result.geometry_passes);
         write_picture(view, std::string(info.name), result.thickness);
         for (std::size_t i = 0; i < difference.pixels.size(); ++i) {
             if (view.truth.pixels[i] < 0.0f && result.thickness.pixels[i] < 0.0f)

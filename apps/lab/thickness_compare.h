@@ -18,6 +18,7 @@ struct ThicknessComparison {
     std::optional<std::string> pictures, json;
     SceneArguments how;
     DeviceArguments device;
+    Console console;
 };
 
 /// Every method against the exact thickness, for every light, from behind, from the side and from the top: a table,

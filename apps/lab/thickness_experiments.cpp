@@ -55,11 +55,10 @@ Scene three_balls() {
     return scene;
 }
 
-void print_run(const nlohmann::ordered_json& run) {
-    fmt::print("{:<10} {:<32} {:>9.3f}% {:>10.3g} m {:>9.1f} ms\n", run["scene"].get<std::string>(),
-               run["variant"].get<std::string>(), 100.0 * run["relative_error"].get<double>(),
-               run["largest_m"].get<double>(), run.contains("wall_ms") ? run["wall_ms"].get<double>() : 0.0);
-    std::fflush(stdout);
+void print_run(const Console& console, const nlohmann::ordered_json& run) {
+    console.print("{:<10} {:<32} {:>9.3f}% {:>10.3g} m {:>9.1f} ms\n", run["scene"].get<std::string>(),
+                  run["variant"].get<std::string>(), 100.0 * run["relative_error"].get<double>(),
+                  run["largest_m"].get<double>(), run.contains("wall_ms") ? run["wall_ms"].get<double>() : 0.0);
 }
 
 nlohmann::ordered_json run_of(const ExperimentRun& run, const std::string& scene, const std::string& variant,
@@ -105,7 +104,7 @@ void measure_error(ExperimentRun& run, const ExperimentSpec& spec, ModelFolder&,
             const ThicknessError error = thickness_error(truth, thickness, &difference);
             nlohmann::ordered_json json = run_of(run, view, variant, scene.triangle_count(), error);
             for (const auto& [key, value] : more.items()) json[key] = value;
-            print_run(json);
+            print_run(run.console, json);
             run.runs.push_back(std::move(json));
             if (pictured) add_pictures(page, view, variant, truth, thickness, std::move(difference));
         };
@@ -161,7 +160,7 @@ void measure_speed(ExperimentRun& run, const ExperimentSpec& spec, ModelFolder& 
                                            .light = 0,
                                            .time_maps = true,
                                            .progress = {}};
-            ProgressBar bar(fmt::format("{}: {}, {} layers", spec.name, name, layers));
+            ProgressBar bar(run.console, fmt::format("{}: {}, {} layers", spec.name, name, layers));
             ThicknessResult result = run.renderer.measure_thickness(request);  // compiles, and learns of the scene
             std::vector<double> times_ms, maps_ms;
             for (int frame = 0; frame < run.frames; ++frame) {
@@ -187,7 +186,7 @@ void measure_speed(ExperimentRun& run, const ExperimentSpec& spec, ModelFolder& 
             const double map_ms = json["map_ms"];
             if (method == ThicknessMethod::kDepthPeeling) single_ms[layers] = map_ms;
             json["times_as_fast"] = single_ms[layers] / map_ms;
-            print_run(json);
+            print_run(run.console, json);
             run.runs.push_back(std::move(json));
             if (layers == 12) add_pictures(page, "dragon", name, truth, result.thickness, std::move(difference));
         }

@@ -82,13 +82,13 @@ Camera parse_camera(const std::string& text, const Scene& scene, float vertical_
         const glm::vec3 target = glm::dvec3(orbit[3], orbit[4], orbit[5]) - scene.origin;
         return orbit_about(bounds, target, float(orbit[0]), float(orbit[1]), float(orbit[2]), vertical_fov);
     }
-    std::vector<std::string> known;
+    std::vector<std::string_view> known;
     for (const Camera& camera : scene.cameras) {
         if (camera.name == text) return camera;
         known.push_back(camera.name);
     }
     known.push_back("orbit:AZ,EL,DIST[,X,Y,Z]");
-    throw Error(fmt::format("unknown camera '{}'; known: {}", text, fmt::join(known, ", ")));
+    throw unknown_name("camera", text, known);
 }
 
 }  // namespace pellucid::cli

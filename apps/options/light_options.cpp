@@ -5,27 +5,21 @@
 namespace pellucid::cli {
 
 void add_light_options(CLI::App& command, LightArguments& arguments) {
+    command.option_defaults()->group("Light");
     command
-        .add_option(
-            "--light", arguments.transport,
-            "Light that frames follow to opaque surfaces. environment: of the environment alone, unshadowed; direct: "
-            "of lights, too, with shadows; full: also reflected between surfaces, with what hides the environment; "
-            "automatic: environment where there are no lights, full with 8 samples or more, direct with fewer")
+        .add_option("--light", arguments.transport,
+                    "Light on opaque surfaces: environment, direct, full or automatic (help lights)")
         ->capture_default_str()
         ->type_name("NAME");
     command
         .add_option("--shadows", arguments.shadows,
-                    "Of glass. exact: it blocks the straight ray to a light; tinted: it weakens it")
+                    "Of glass: exact blocks a straight ray to a light, tinted weakens it")
         ->capture_default_str()
         ->type_name("NAME");
     command
-        .add_option(
-            "--caustics", arguments.caustics,
-            "Technique that finds where the light of --photons leaves glass, run from the lights' views; default: "
-            "photons follow every interface")
-        ->type_name("NAME");
-    add_number(command, "--bounces", arguments.bounces,
-               "Reflections that rays follow, 0 to 7, before a cache has the rest; --light full")
+        .add_option("--caustics", arguments.caustics, "Technique that finds where the light of --photons leaves glass")
+        ->type_name("TECHNIQUE");
+    add_number(command, "--bounces", arguments.bounces, "Reflections followed before a cache has the rest, 0 to 7")
         ->capture_default_str();
 }
 

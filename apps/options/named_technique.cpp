@@ -8,6 +8,13 @@
 
 namespace pellucid::cli {
 
+void add_techniques_option(CLI::App& command, std::string& techniques) {
+    command
+        .add_option("--techniques", techniques,
+                    "Names with commas (pellucid techniques); default: all that the device offers but truths")
+        ->type_name("A,B,..");
+}
+
 bool has_parameter(const TechniqueInfo& technique, std::string_view name) {
     return std::any_of(technique.parameters.begin(), technique.parameters.end(),
                        [&](const ParameterInfo& parameter) { return parameter.name == name; });
@@ -55,6 +62,15 @@ void add_technique(nlohmann::ordered_json& run, const NamedTechnique& technique)
     run["technique"] = technique.name;
     if (technique.name != technique.info().name) run["stands_for"] = technique.info().name;
     if (!technique.choice.reason.empty()) run["because"] = technique.choice.reason;
+}
+
+void add_parameters(nlohmann::ordered_json& run, const TechniqueInfo& technique, const ParameterMap& given) {
+    run["parameters"] = describe_parameters(technique, given);
+    for (const ParameterInfo& parameter : technique.parameters) {
+        const std::string name(parameter.name);
+        for (const NamedValue& value : parameter.names)
+            if (value.value == run["parameters"][name].get<double>()) run["parameter_names"][name] = value.name;
+    }
 }
 
 nlohmann::ordered_json describe_parameters(const TechniqueInfo& technique, const ParameterMap& given) {

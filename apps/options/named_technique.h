@@ -2,6 +2,7 @@
 
 #include <pellucid/pellucid.h>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <string>
@@ -24,6 +25,9 @@ std::vector<NamedTechnique> parse_techniques(const std::string& names, const Ren
 
 /// The preset's parameters, and those of `given` that the technique has, which go first.
 ParameterMap parameters_of(const NamedTechnique& technique, const ParameterMap& given);
+/// --techniques, of names with commas.
+void add_techniques_option(CLI::App& command, std::string& techniques);
+
 bool has_parameter(const TechniqueInfo& technique, std::string_view name);
 /// Throws Error if one of `given` belongs to none of `techniques`.
 void check_parameters(const std::vector<NamedTechnique>& techniques, const ParameterMap& given);
@@ -31,6 +35,8 @@ void check_parameters(const std::vector<NamedTechnique>& techniques, const Param
 /// Adds the name, and of a preset what it stands for.
 void add_technique(nlohmann::ordered_json& run, const NamedTechnique& technique);
 
+/// Adds "parameters": every parameter of the technique with its value; and "parameter_names" of those whose value has one.
+void add_parameters(nlohmann::ordered_json& run, const TechniqueInfo& technique, const ParameterMap& given);
 /// Every parameter of the technique with its value.
 nlohmann::ordered_json describe_parameters(const TechniqueInfo& technique, const ParameterMap& given);
 

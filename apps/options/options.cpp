@@ -1,11 +1,15 @@
 #include "options/options.h"
 
+#include "options/help.h"
+#include "options/progress_bar.h"
+
 #include <pellucid/file.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -13,11 +17,6 @@
 
 namespace pellucid::cli {
 namespace {
-
-std::string parameter_help(const ParameterInfo& parameter) {
-    return fmt::format("{}{}{} [{} to {}, default {}]", parameter.doc, parameter.unit.empty() ? "" : ", ",
-                       parameter.unit, parameter.minimum, parameter.maximum, parameter.default_value);
-}
 
 namespace fs = std::filesystem;
 
@@ -40,40 +39,38 @@ LoadOptions::Priority parse_priority(const std::string& text) {
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments) {
-    add_number(command, "--ior", arguments.ior, "Index of refraction of all glass")->type_name("X");
+    command.option_defaults()->group("Scene");
+    add_number(command, "--ior", arguments.ior, "Index of refraction of all glass");
     command
         .add_option("--attenuation-color", arguments.attenuation_color,
-                    "What the glass leaves of white light after the distance, 0 to 1")
+                    "What glass leaves of white light after the distance, 0 to 1")
         ->type_name("R,G,B");
-    add_number(command, "--attenuation-distance", arguments.attenuation_distance, "Metres after which that is left")
+    add_number(command, "--attenuation-distance", arguments.attenuation_distance,
+               "Metres of glass after which that is left")
         ->type_name("M");
-    add_number(
-        command, "--crease-angle", arguments.crease_angle_deg,
-        "Made normals are smooth across edges bent less than this, degrees; default: each shell's own, in a gap of "
-        "its bends if there is one; 0 for .stl")
-        ->type_name("DEG")
-        ->check(CLI::Range(0.0, 180.0));
+    add_number(command, "--crease-angle", arguments.crease_angle_deg,
+               "Edges bent less than this look smooth, 0 to 180 degrees (help scenes)")
+        ->check(CLI::Range(0.0, 180.0))
+        ->type_name("DEG");
     command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");
     command.add_flag("--solid", arguments.solid,
                      "Closed glTF meshes of transmissive materials are solid glass, also without a volume");
     command
-        .add_option(
-            "--priority", arguments.priorities,
-            "Where solids overlap, the one of the highest whole number (default 0) displaces the others, then the "
-            "one of less volume; may be repeated, with the names that 'pellucid info SCENE' lists")
+        .add_option("--priority", arguments.priorities,
+                    "Which solid displaces others where they overlap; may be repeated (help scenes)")
         ->type_name("OBJECT=N")
         ->allow_extra_args(false);
     command
         .add_option("--animation", arguments.animation,
-                    "Animation of a glTF file, by name or number ('pellucid info SCENE' lists them), whose pose is "
-                    "shown; default: the file at rest, or with --time its first animation")
+                    "Animation whose pose is shown; 'pellucid info SCENE' lists them (help scenes)")
         ->type_name("NAME|N");
+    add_number(command, "--time", arguments.time_s, "Time in the animation, s, from 0 (default 0)")->type_name("S");
     add_translucency_options(command, arguments.translucency);
     add_volume_options(command, arguments.volumes);
-    add_number(command, "--time", arguments.time_s, "Time in the animation, s, from 0 (default 0)")->type_name("S");
 }
 
-Scene load_given_scene(const std::string& source, const SceneArguments& arguments) {
+Scene load_given_scene(const std::string& source, const SceneArguments& arguments, const Console& console) {
+    const ProgressBar bar(console, fmt::format("load {}", source));
     parse_lights(arguments.translucency, glm::dvec3(0.0));  // wrong ones are reported before any work
     Scene scene = load_scene(source, with_grids(load_options(arguments), source, arguments.volumes));
     add_volumes(scene, arguments.volumes);
@@ -101,6 +98,7 @@ LoadOptions load_options(const SceneArguments& arguments) {
 }
 
 void add_device_options(CLI::App& command, DeviceArguments& arguments) {
+    command.option_defaults()->group(kGeneralGroup);
     command
         .add_option("--device", arguments.device, "Vulkan device: its number in 'pellucid info' or a part of its name")
         ->type_name("DEVICE");
@@ -113,27 +111,39 @@ DeviceOptions device_options(const DeviceArguments& arguments) {
     return {.device = arguments.device, .validation = arguments.validate, .threads = arguments.threads};
 }
 
-void add_parameter_options(CLI::App& command, ParameterArguments& arguments) {
-    struct Flag {
-        std::string owners, help, type;
-    };
-    std::map<std::string, Flag, std::less<>> flags;
+double parse_parameter(const std::string& name, const std::string& text) {
+    std::vector<std::string_view> known;
     for (const TechniqueInfo* technique : techniques()) {
         for (const ParameterInfo& parameter : technique->parameters) {
-            Flag& flag = flags[std::string(parameter.name)];
-            const std::string help = parameter_help(parameter);
-            if (flag.owners.empty()) {
-                flag = {std::string(technique->name), help, parameter.whole ? "N" : "X"};
-                continue;
+            if (parameter.name != name) continue;
+            for (const NamedValue& value : parameter.names) {
+                if (value.name == text) return value.value;
+                if (std::find(known.begin(), known.end(), value.name) == known.end()) known.push_back(value.name);
             }
-            flag.owners += fmt::format(", {}", technique->name);
-            if (flag.help != help) flag.help += fmt::format("; {}: {}", technique->name, help);
         }
     }
-    for (const auto& [name, flag] : flags) {
-        add_number(command, "--" + name, arguments[name], flag.help)
-            ->type_name(flag.type)
-            ->group("Parameters of " + flag.owners);
+    // A word is meant as a name where there are names.
+    if (!known.empty() && !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) && text != "nan" &&
+        text != "inf")
+        throw Error(fmt::format("--{}: {}, or a number", name, unknown_name("value", text, known).what()));
+    return parse_number("--" + name, text);
+}
+
+void add_parameter_options(CLI::App& command, ParameterArguments& arguments) {
+    command.option_defaults()->group(kParameterGroup);
+    for (const TechniqueInfo* technique : techniques()) {
+        for (const ParameterInfo& parameter : technique->parameters) {
+            const std::string name(parameter.name);
+            if (!arguments.try_emplace(name).second) continue;
+            command
+                .add_option_function<std::string>(
+                    "--" + name,
+                    [&arguments, name](const std::string& text) { arguments[name] = parse_parameter(name, text); },
+                    std::string(parameter.doc))
+                ->type_name(!parameter.names.empty() ? "NAME|N"
+                            : parameter.whole        ? "N"
+                                                     : "X");
+        }
     }
 }
 
@@ -145,14 +155,35 @@ ParameterMap given_parameters(const ParameterArguments& arguments) {
     return parameters;
 }
 
+void add_size_option(CLI::App& command, std::string& size) {
+    command.add_option("--size", size, "Width and height in pixels")->capture_default_str()->type_name("WxH");
+}
+
+void add_camera_options(CLI::App& command, std::optional<std::string>& camera, std::optional<double>& fov_deg) {
+    command.add_option("--camera", camera, "A camera of the file, or orbit:AZ,EL,DIST[,X,Y,Z] (help cameras)")
+        ->type_name("CAMERA");
+    add_number(command, "--fov", fov_deg,
+               "Vertical field of view of other cameras than the file's, degrees (default 30)")
+        ->check(CLI::Range(1.0, 170.0))
+        ->type_name("DEG");
+}
+
+void add_display_options(CLI::App& command, std::string& tonemap, double& exposure_ev) {
+    command.add_option("--tonemap", tonemap, "none, reinhard, aces, neutral or krawczyk (help images)")
+        ->capture_default_str()
+        ->type_name("NAME");
+    add_number(command, "--exposure", exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
+}
+
 void add_environment_options(CLI::App& command, EnvironmentArguments& arguments) {
+    command.option_defaults()->group("Light");
     command
         .add_option("--environment", arguments.name_or_file,
                     "studio, checker, sky, uniform, or an equirectangular .hdr or .exr file")
         ->capture_default_str()
         ->type_name("NAME|FILE");
     add_number(command, "--environment-rotation", arguments.rotation_deg,
-               "Turn of the environment about +Y, degrees; 90 brings light from +X to -Z")
+               "Turn of the environment about +Y, degrees (help environments)")
         ->capture_default_str()
         ->type_name("DEG");
     add_number(command, "--environment-intensity", arguments.intensity, "Factor of the environment's radiance")
@@ -204,35 +235,6 @@ std::string arguments_without_folders(const CLI::App& command, const CLI::Option
 
 void write_json(const std::string& file, const nlohmann::ordered_json& json) {
     write_text_file(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-}
-
-std::string shape_help() {
-    std::string help =
-        "Scene: a .gltf, .glb, .obj, .ply, .stl, .off, .3ds or .vdb file, or shape:NAME[,PARAMETER=VALUE...] with "
-        "NAME one of";
-    for (const ShapeInfo& shape : shape_infos()) help += fmt::format(" {}", shape.name);
-    help += ", or volume:NAME[,...] with NAME one of";
-    for (const ShapeInfo& volume : volume_infos()) help += fmt::format(" {}", volume.name);
-    return help;
-}
-
-std::string preset_list() {
-    std::string help;
-    for (const PresetInfo& preset : presets()) help += fmt::format(" {} ({});", preset.name, preset.summary);
-    return help;
-}
-
-std::string technique_list() {
-    std::string help;
-    for (const TechniqueInfo* technique : techniques())
-        help += fmt::format(" {} ({});", technique->name, technique->summary);
-    help.pop_back();
-    return help;
-}
-
-void print_warnings(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings)
-        std::fputs(fmt::format("pellucid: warning: {}\n", warning).c_str(), stderr);
 }
 
 void check_validation(const Renderer& renderer) {

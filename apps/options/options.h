@@ -3,6 +3,7 @@
 // Options that several commands share.
 
 #include "options/arguments.h"
+#include "options/console.h"
 #include "options/translucency_options.h"
 #include "options/volume_options.h"
 
@@ -16,6 +17,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace pellucid::cli {
@@ -23,10 +25,12 @@ namespace pellucid::cli {
 /// An option with a finite number; the parser's own conversion takes "" and "nan".
 template <class Number>
 CLI::Option* add_number(CLI::App& command, const std::string& flag, Number& number, const std::string& help) {
-    return command.add_option(flag, number, help)->check([flag](const std::string& text) {
-        parse_number(flag, text);
-        return std::string();
-    });
+    return command.add_option(flag, number, help)
+        ->check([name = flag.substr(0, flag.find(','))](const std::string& text) {
+            parse_number(name, text);
+            return std::string();
+        })
+        ->type_name(std::is_integral_v<Number> ? "N" : "X");
 }
 
 /// How scenes are loaded. Strings are parsed when the command runs, so that errors are ours.
@@ -47,7 +51,10 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments);
 /// All but --map and what --add-light and --add-volume add.
 LoadOptions load_options(const SceneArguments& arguments);
 /// load_scene(), and the lights and volumes that the command line adds.
-Scene load_given_scene(const std::string& source, const SceneArguments& arguments);
+Scene load_given_scene(const std::string& source, const SceneArguments& arguments, const Console& console);
+
+/// Positional argument of commands that load a scene.
+inline constexpr const char* kSceneHelp = "A file, shape:NAME or volume:NAME (help scenes, shapes, volumes)";
 
 struct DeviceArguments {
     std::string device;
@@ -59,10 +66,18 @@ DeviceOptions device_options(const DeviceArguments& arguments);
 
 /// Every parameter of every technique, by name.
 using ParameterArguments = std::map<std::string, std::optional<double>>;
-/// One flag for each parameter name of the registry, in the group of the techniques that have it.
+/// One flag for each parameter name of the registry, which takes numbers and the names of values.
 void add_parameter_options(CLI::App& command, ParameterArguments& arguments);
+/// A number, or the name of a value that a parameter `name` of some technique has. Throws Error otherwise.
+double parse_parameter(const std::string& name, const std::string& text);
 /// Those that were given.
 ParameterMap given_parameters(const ParameterArguments& arguments);
+
+void add_size_option(CLI::App& command, std::string& size);
+/// --camera and --fov.
+void add_camera_options(CLI::App& command, std::optional<std::string>& camera, std::optional<double>& fov_deg);
+/// --tonemap and --exposure.
+void add_display_options(CLI::App& command, std::string& tonemap, double& exposure_ev);
 
 /// Light from infinitely far away, as given.
 struct EnvironmentArguments {
@@ -87,13 +102,6 @@ std::string arguments_without_folders(const CLI::App& command, const CLI::Option
 /// As text with a line feed at its end. Names inside files need not be UTF-8, as JSON must: what is not is replaced.
 void write_json(const std::string& file, const nlohmann::ordered_json& json);
 
-/// Help texts that list what there is.
-std::string shape_help();
-std::string preset_list();
-std::string technique_list();
-
-/// One line each on stderr.
-void print_warnings(const std::vector<std::string>& warnings);
 /// Throws std::runtime_error, a bug of ours, if the validation layer has said anything.
 void check_validation(const Renderer& renderer);
 

@@ -1,30 +1,50 @@
 #pragma once
 
+#include "options/console.h"
+
 #include <pellucid/progress.h>
 
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <thread>
 
 namespace pellucid::cli {
 
-/// One line on stderr that is drawn over, where stderr is a terminal; nothing elsewhere.
+/// "LABEL [###...] 42%, 12 s left" of work whose share is known, or "LABEL, 5 s". `share_s`: how long the share took.
+std::string progress_line(const std::string& label, std::optional<double> share, double share_s, double elapsed_s);
+
+/// One step of a command. Where stderr is a terminal, a line that is drawn over shows its progress once it has taken two
+/// seconds. With --verbose a line with its time follows when it is done.
 class ProgressBar {
 public:
-    explicit ProgressBar(std::string label);
-    ~ProgressBar() { clear(); }
+    ProgressBar(const Console& console, std::string label);
+    ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
     /// For the functions that report progress; the bar must outlive it.
     Progress progress();
     void show(double share);
-    void set_label(std::string label) { label_ = std::move(label); }
-    /// Leaves the line as if nothing had been there.
+    void set_label(std::string label);
+    /// Ends the step, and leaves the line as if nothing had been there.
     void clear();
 
 private:
+    using Clock = std::chrono::steady_clock;
+    void draw_until_stopped();
+
+    const Console& console_;
+    const Clock::time_point begin_ = Clock::now();
+    std::mutex mutex_;  ///< for what follows
+    std::condition_variable stopped_;
     std::string label_;
-    bool terminal_;
-    int shown_percent_ = -1;
+    std::optional<double> share_;
+    Clock::time_point share_begin_ = begin_;  ///< when `share_` was last 0
+    bool done_ = false;
+    std::thread drawing_;  ///< where stderr is a terminal
 };
 
 }  // namespace pellucid::cli

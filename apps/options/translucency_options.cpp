@@ -26,13 +26,6 @@ constexpr std::array<LightKind, 3> kLightKinds = {{{"sun", "AZ,EL[,W/m2[,DEGREES
                                                    {"lamp", "X,Y,Z,W/sr[,M]", 4, 5},
                                                    {"spot", "X,Y,Z,TO_X,TO_Y,TO_Z,DEGREES,W/sr[,M]", 8, 9}}};
 
-std::string light_forms() {
-    std::string forms;
-    for (const LightKind& kind : kLightKinds)
-        forms += fmt::format("{}{}:{}", forms.empty() ? "" : ", ", kind.name, kind.parameters);
-    return forms;
-}
-
 glm::dvec3 vec3_at(const std::vector<double>& v, std::size_t first) { return {v[first], v[first + 1], v[first + 2]}; }
 
 Light sun(const std::vector<double>& v) {
@@ -68,7 +61,7 @@ Light parse_light(const std::string& text, const glm::dvec3& origin) {
     const auto kind = std::find_if(kLightKinds.begin(), kLightKinds.end(),
                                    [&](const LightKind& k) { return text.substr(0, colon) == k.name; });
     if (colon == std::string::npos || kind == kLightKinds.end())
-        throw Error(fmt::format("--add-light: '{}' should be one of {}", text, light_forms()));
+        throw Error(fmt::format("--add-light: '{}' should be one of {}", text, fmt::join(light_forms(), ", ")));
     const std::string numbers = text.substr(colon + 1);
     const auto count = std::size_t(std::count(numbers.begin(), numbers.end(), ',')) + 1;
     const std::vector<double> v = parse_numbers("--add-light", numbers, std::clamp(count, kind->required, kind->most));
@@ -89,18 +82,21 @@ Light parse_light(const std::string& text, const glm::dvec3& origin) {
 
 }  // namespace
 
+std::vector<std::string> light_forms() {
+    std::vector<std::string> forms;
+    for (const LightKind& kind : kLightKinds) forms.push_back(fmt::format("{}:{}", kind.name, kind.parameters));
+    return forms;
+}
+
 void add_translucency_options(CLI::App& command, TranslucencyArguments& arguments) {
     command
         .add_option("--translucent", arguments.translucent,
-                    "Make every mesh translucent: what is left of white light, 0 to 1, after so many metres of it")
+                    "Make meshes translucent: R,G,B of white light is left after M metres")
         ->type_name("R,G,B,M");
     command
-        .add_option(
-            "--add-light", arguments.lights,
-            "A light beside the file's, which shines through what is translucent; may be repeated: " + light_forms() +
-                "; azimuth and elevation in degrees say where the sun stands, as for --camera; last comes the size: "
-                "a sun's diameter (0.53 degrees), a lamp's or spot's radius (0 m)")
-        ->type_name("KIND:NUMBERS")
+        .add_option("--add-light", arguments.lights,
+                    "Add sun:AZ,EL, lamp:X,Y,Z,W/sr or spot:...; may be repeated (help lights)")
+        ->type_name("LIGHT")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
@@ -120,26 +116,20 @@ std::vector<Light> parse_lights(const TranslucencyArguments& arguments, const gl
     return lights;
 }
 
-std::string thickness_method_list() {
-    std::string help;
-    for (const ThicknessMethodInfo& info : thickness_methods())
-        help += fmt::format(" {} ({});", info.name, info.summary);
-    help.pop_back();
-    return help;
-}
-
-void add_thickness_options(CLI::App& command, ThicknessArguments& arguments, const std::string& method_flag,
-                           const std::string& layers_flag) {
+void add_thickness_options(CLI::App& command, ThicknessArguments& arguments, bool short_names) {
+    command.option_defaults()->group("Thickness");
     command
-        .add_option(method_flag, arguments.method,
-                    "How the length of solid between a light and a point is found:" + thickness_method_list())
+        .add_option(short_names ? "--thickness-method,--method" : "--thickness-method", arguments.method,
+                    "How the length of solid before a point is found (help translucency)")
         ->capture_default_str()
         ->type_name("NAME");
-    add_light_map_options(command, arguments, layers_flag);
+    add_light_map_options(command, arguments, short_names);
 }
 
-void add_light_map_options(CLI::App& command, ThicknessArguments& arguments, const std::string& layers_flag) {
-    add_number(command, layers_flag, arguments.layers, "Surfaces that are kept of every ray of light")
+void add_light_map_options(CLI::App& command, ThicknessArguments& arguments, bool short_names) {
+    command.option_defaults()->group("Thickness");
+    add_number(command, short_names ? "--thickness-layers,--layers" : "--thickness-layers", arguments.layers,
+               "Surfaces that are kept of every ray of light")
         ->capture_default_str();
     add_number(command, "--light-map", arguments.resolution, "Texels along a side of a light's map")
         ->capture_default_str();

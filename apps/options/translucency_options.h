@@ -18,26 +18,24 @@ struct TranslucencyArguments {
     std::optional<std::string> translucent;
     std::vector<std::string> lights;
 };
+/// "sun:AZ,EL[,W/m2[,DEGREES]]", one for each kind of --add-light.
+std::vector<std::string> light_forms();
 void add_translucency_options(CLI::App& command, TranslucencyArguments& arguments);
 std::optional<Translucency> parse_translucency(const TranslucencyArguments& arguments);
 /// Positions are given in the file's world; `origin` is Scene::origin of the scene that the lights are for.
 /// Throws Error naming what is wrong with one of them.
 std::vector<Light> parse_lights(const TranslucencyArguments& arguments, const glm::dvec3& origin);
 
-/// How thickness is found. The names of the flags differ from command to command.
+/// How thickness is found. `short_names`: --method and --layers do as well.
 struct ThicknessArguments {
     std::string method = "layers";
     std::uint32_t layers = ThicknessSettings{}.layers;
     std::uint32_t resolution = ThicknessSettings{}.resolution;
 };
-void add_thickness_options(CLI::App& command, ThicknessArguments& arguments, const std::string& method_flag,
-                           const std::string& layers_flag);
+void add_thickness_options(CLI::App& command, ThicknessArguments& arguments, bool short_names = false);
 /// The same without the method.
-void add_light_map_options(CLI::App& command, ThicknessArguments& arguments, const std::string& layers_flag);
+void add_light_map_options(CLI::App& command, ThicknessArguments& arguments, bool short_names = false);
 ThicknessSettings thickness_settings(const ThicknessArguments& arguments);
-
-/// "translucent-shadow-map (from the first surface ...); ...".
-std::string thickness_method_list();
 
 /// Cameras that look at a scene as light goes through it.
 struct NamedCamera {

@@ -60,20 +60,14 @@ PlacedVolume parse_placed_volume(const std::string& text) {
 
 void add_volume_options(CLI::App& command, VolumeArguments& arguments) {
     command
-        .add_option(
-            "--add-volume", arguments.added,
-            "A volume beside what the scene has: a .vdb file or volume:NAME[,...], moved by X,Y,Z metres after it "
-            "was scaled about its origin (a scale leaves what it absorbs and scatters in all); may be repeated")
-        ->type_name("SOURCE[@X,Y,Z[,SCALE]]")
+        .add_option("--add-volume", arguments.added,
+                    "Add a .vdb file or volume:NAME, scaled, then moved; may be repeated (help volumes)")
+        ->type_name("VOLUME[@X,Y,Z[,SCALE]]")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
-        .add_option("--map", arguments.grids,
-                    "Which field a grid of a .vdb file is, and a factor on its values (1): n, n_red, n_blue, sigma_a, "
-                    "sigma_s, g, emission or boundary; distance, of which surfaces become that reflect; or level-set, "
-                    "which also bounds a solid, whose index the factor is (1.5). May be "
-                    "repeated; default: grids have the names of fields")
-        ->type_name("GRID=FIELD[:SCALE]")
+        .add_option("--map", arguments.grids, "Which field a grid of a .vdb file is; may be repeated (help volumes)")
+        ->type_name("GRID=FIELD")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }

@@ -33,7 +33,7 @@ void keep(Look& look, const Look& old) {
 }  // namespace
 
 LoadedScene load_document_scene(const std::string& source, const cli::SceneArguments& how) try {
-    LoadedScene loaded{.scene = cli::load_given_scene(source, how), .how = how};
+    LoadedScene loaded{.scene = cli::load_given_scene(source, how, {.quiet = true}), .how = how};
     loaded.bounds = scene_bounds(loaded.scene);
     loaded.animations = pellucid::animations(loaded.scene);
     return loaded;

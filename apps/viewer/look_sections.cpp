@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace pellucid::viewer {
 namespace {
@@ -50,6 +51,21 @@ void technique_combo(const char* label, std::string& chosen, const Renderer& ren
     ImGui::EndCombo();
 }
 
+/// A choice among named values. True: another was chosen.
+bool value_combo(const char* label, std::span<const NamedValue> names, double& value) {
+    const auto current = std::ranges::find(names, value, &NamedValue::value);
+    const std::string shown(current == names.end() ? "" : current->name);
+    if (!ImGui::BeginCombo(label, shown.c_str())) return false;
+    bool changed = false;
+    for (const NamedValue& named : names) {
+        if (!ImGui::Selectable(std::string(named.name).c_str(), named.value == value)) continue;
+        value = named.value;
+        changed = true;
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
 void parameter_widget(const ParameterInfo& info, const ParameterMap& of_preset, ParameterMap& given) {
     const auto preset = of_preset.find(info.name);
     const double by_default = preset == of_preset.end() ? info.default_value : preset->second;
@@ -57,8 +73,11 @@ void parameter_widget(const ParameterInfo& info, const ParameterMap& of_preset, 
     double value = found == given.end() ? by_default : found->second;
     const std::string label = info.unit.empty() ? std::string(info.name) : fmt::format("{}, {}", info.name, info.unit);
     const double range = info.maximum - info.minimum;
+    const bool all_named = info.whole && double(info.names.size()) == range + 1.0;
     const float speed = info.whole ? 0.25f : float(std::min(range, 10.0) / 500.0);
-    bool changed = drag_double(label.c_str(), value, speed, info.minimum, info.maximum, info.whole ? "%.0f" : "%.4g");
+    bool changed =
+        all_named ? value_combo(label.c_str(), info.names, value)
+                  : drag_double(label.c_str(), value, speed, info.minimum, info.maximum, info.whole ? "%.0f" : "%.4g");
     tooltip(fmt::format("{} [{} to {}, default {}]; right click: default", info.doc, info.minimum, info.maximum,
                         by_default));
     if (info.whole) value = std::round(value);

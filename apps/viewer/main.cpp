@@ -1,3 +1,4 @@
+#include "options/help.h"
 #include "viewer/options.h"
 #include "viewer/saved_state.h"
 #include "viewer/script_runner.h"
@@ -153,6 +154,7 @@ int run(const Options& options) {
 
 int run_or_complain(int argc, char** argv) {
     CLI::App app{"Shows transparent objects and lets one look around.", "pellucid-view"};
+    cli::use_short_help(app);
     Options options;
     add_options(app, options);
     try {
@@ -161,7 +163,9 @@ int run_or_complain(int argc, char** argv) {
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
-        return complain(fmt::format("{} (see 'pellucid-view --help')", error.what()), kBadInput);
+        const std::string unknown = cli::unknown_option(app, argc, argv);
+        return complain(fmt::format("{} (see 'pellucid-view --help')", unknown.empty() ? error.what() : unknown),
+                        kBadInput);
     } catch (const Error& error) {
         return complain(error.what(), kBadInput);
     } catch (const DeviceError& error) {

@@ -1,6 +1,7 @@
 #include "viewer/options.h"
 
 #include "options/arguments.h"
+#include "options/help.h"
 
 #include <pellucid/pellucid.h>
 
@@ -11,32 +12,32 @@ namespace pellucid::viewer {
 void add_options(CLI::App& app, Options& o) {
     o.app = &app;
     app.set_version_flag("--version", std::string(version()));
-    app.footer(
-        "Files may also be dropped into the window. F1 lists the keys.\nExit codes: 0 done, 2 bad input or usage, 3 no "
-        "suitable device, 1 a bug.");
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    app.add_option("scene", o.scene, cli::shape_help() + "; default: what was open last")->type_name("SCENE");
+    app.add_option("scene", o.scene, cli::kSceneHelp + std::string("; default: what was open last"))
+        ->type_name("SCENE");
+    app.option_defaults()->group("Window");
     app.add_option("--size", o.size, "Of the window, pixels (default: as last, or 960x540)")->type_name("WxH");
-    app.add_option("--technique", o.technique, "How refraction is computed; the panel lists the names")
-        ->capture_default_str()
-        ->type_name("NAME");
-    app.add_option("--camera", o.camera, "As of pellucid render")->type_name("NAME|orbit:AZ,EL,DIST[,X,Y,Z]");
-    cli::add_number(app, "--fov", o.fov_deg, "Vertical field of view, degrees (default 30)")
-        ->check(CLI::Range(1.0, 170.0));
-    cli::add_number(app, "--samples", o.samples, "Of the finished image")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 65536));
-    app.add_option("--tonemap", o.tonemap, "none, reinhard, aces or neutral")->capture_default_str()->type_name("NAME");
-    cli::add_number(app, "--exposure", o.exposure_ev, "Exposure in stops")->capture_default_str()->type_name("EV");
-    cli::add_environment_options(app, o.environment);
     app.add_option("--screenshot", o.screenshot, "Write what the window shows once the image is finished, and exit")
         ->type_name("FILE.png");
     app.add_option("--script", o.script, "Run the commands of a file (docs/viewer.md), and exit")->type_name("FILE");
     app.add_flag("--no-panels", o.no_panels, "Begin without panels; Tab shows them");
     app.add_flag("--fresh", o.fresh, "Neither read nor keep what was open last");
+    app.option_defaults()->group("Image");
+    app.add_option("--technique", o.technique, "A preset or a technique (help presets, pellucid techniques)")
+        ->capture_default_str()
+        ->type_name("NAME");
+    cli::add_camera_options(app, o.camera, o.fov_deg);
+    cli::add_number(app, "--samples", o.samples, "Of the finished image")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 65536))
+        ->type_name("N");
+    cli::add_display_options(app, o.tonemap, o.exposure_ev);
+    cli::add_environment_options(app, o.environment);
     cli::add_scene_options(app, o.how);
     cli::add_device_options(app, o.device);
     cli::add_parameter_options(app, o.parameters);
+    cli::set_examples(app, {"pellucid-view model.glb --environment studio.hdr",
+                            "pellucid-view shape:goblet --screenshot goblet.png --samples 64"});
 }
 
 void Options::check() const {

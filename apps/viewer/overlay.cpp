@@ -2,6 +2,8 @@
 
 #include "report/color_scale.h"
 
+#include <pellucid/names.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,7 +77,7 @@ const OverlayInfo& find_overlay(std::string_view name) {
         if (each.name == name) return each;
         known.push_back(each.name);
     }
-    throw Error(fmt::format("unknown overlay '{}'; known: {}", name, fmt::join(known, ", ")));
+    throw unknown_name("overlay", name, known);
 }
 
 Image draw_overlay(std::string_view name, Renderer& renderer, const Camera& camera, const Bounds& bounds,

@@ -2,7 +2,7 @@
 
 #include "options/arguments.h"
 
-#include <pellucid/error.h>
+#include <pellucid/names.h>
 
 #include <fmt/format.h>
 
@@ -92,7 +92,7 @@ void check(const ScriptLine& line) {
     if (command == kCommands.end()) {
         std::vector<std::string_view> names;
         for (const Command& each : kCommands) names.push_back(each.name);
-        throw Error(fmt::format("unknown command '{}'; known: {}", line.command, fmt::join(names, ", ")));
+        throw unknown_name("command", line.command, names);
     }
     if (line.arguments.size() < command->least || line.arguments.size() > command->most)
         throw Error(fmt::format("should be: {} {}", command->name, command->arguments));

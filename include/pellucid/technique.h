@@ -10,6 +10,13 @@
 
 namespace pellucid {
 
+/// A value of a parameter that has a name.
+struct NamedValue {
+    double value;
+    std::string_view name;  ///< as on the command line, "refraction"
+    std::string_view doc;   ///< a few words; empty where the name says all
+};
+
 /// One number that a technique can be given.
 struct ParameterInfo {
     std::string_view name;  ///< as on the command line, "steps"
@@ -19,6 +26,8 @@ struct ParameterInfo {
     double maximum;
     bool whole;            ///< whole numbers only
     std::string_view doc;  ///< one line
+    /// Names of values. Of a choice, every value has one. Parameters of one name give a name the same value.
+    std::span<const NamedValue> names = {};
 };
 
 /// The publication that a technique follows; empty authors: none.

@@ -1,6 +1,6 @@
 #include "render/aovs.h"
 
-#include <pellucid/error.h>
+#include <pellucid/names.h>
 
 #include <fmt/format.h>
 
@@ -221,9 +221,7 @@ void check_aov_names(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         std::vector<std::string_view> known;
         for (const AovInfo& aov : kAovs) known.push_back(aov.name);
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
-            throw Error(fmt::format("unknown AOV '{}'; known: {}", name, fmt::join(known, ", ")));
-        }
+        if (std::find(known.begin(), known.end(), name) == known.end()) throw unknown_name("AOV", name, known);
     }
 }
 

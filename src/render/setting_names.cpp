@@ -1,9 +1,6 @@
 // Settings of a renderer by the names that commands use.
-#include <pellucid/error.h>
+#include <pellucid/names.h>
 #include <pellucid/renderer.h>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +19,7 @@ Enum parse_name(std::string_view what, std::string_view name,
         if (text == name) return value;
         names.push_back(text);
     }
-    throw Error(fmt::format("unknown {} '{}'; known: {}", what, name, fmt::join(names, ", ")));
+    throw unknown_name(what, name, names);
 }
 
 constexpr std::array<std::pair<std::string_view, LightTransport>, 4> kLightTransports = {

@@ -1,6 +1,7 @@
 #include <pellucid/animation.h>
 
 #include <pellucid/error.h>
+#include <pellucid/names.h>
 
 #include "scene/animation_names.h"
 #include "scene/deform_mesh.h"
@@ -43,7 +44,7 @@ std::size_t find_animation(const std::vector<Animation>& animations, std::string
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
     if (error == std::errc() && end == name.data() + name.size() && number < animations.size()) return number;
-    throw Error(fmt::format("{}: unknown animation '{}'; known: {}", source, name, fmt::join(known, ", ")));
+    throw Error(fmt::format("{}: {}", source, unknown_name("animation", name, known).what()));
 }
 
 void check_animation_time(double time_s) {

@@ -1,6 +1,9 @@
 #include <pellucid/environment.h>
 #include <pellucid/error.h>
 #include <pellucid/file.h>
+#include <pellucid/names.h>
+
+#include <fmt/format.h>
 
 #include "core/fail.h"
 #include "core/math.h"
@@ -178,10 +181,10 @@ Environment load_environment(const std::string& name_or_file, std::string* warni
     const std::string extension = lower_extension(name_or_file);
     if (extension == ".hdr" || extension == ".exr") return load_map(name_or_file, warning);
 
-    std::string known;
-    for (const auto& entry : kNames) known += std::string(entry.first) + ", ";
-    throw Error("environment '" + one_line(name_or_file) + "' is not known; give one of " + known +
-                "or an equirectangular .hdr or .exr file");
+    std::vector<std::string_view> known;
+    for (const auto& entry : kNames) known.push_back(entry.first);
+    throw Error(fmt::format("{}, or an equirectangular .hdr or .exr file",
+                            unknown_name("environment", name_or_file, known).what()));
 }
 
 glm::vec3 radiance(const Environment& environment, glm::vec3 direction) {

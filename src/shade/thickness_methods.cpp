@@ -1,6 +1,6 @@
 #include <pellucid/thickness.h>
 
-#include <pellucid/error.h>
+#include <pellucid/names.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,7 +37,7 @@ ThicknessMethod parse_thickness_method(std::string_view name) {
         if (info.name == name) return info.method;
         known.push_back(info.name);
     }
-    throw Error(fmt::format("unknown thickness method '{}'; known: {}", name, fmt::join(known, ", ")));
+    throw unknown_name("thickness method", name, known);
 }
 
 }  // namespace pellucid

@@ -1,7 +1,7 @@
 // Presets: each names techniques that it may stand for; the fastest that the device offers is taken.
 #include "techniques/technique.h"
 
-#include <pellucid/error.h>
+#include <pellucid/names.h>
 
 #include <fmt/format.h>
 
@@ -75,7 +75,7 @@ void check_technique_name(std::string_view name) {
     for (const PresetInfo& preset : presets()) known.push_back(preset.name);
     for (const TechniqueInfo* info : techniques()) known.push_back(info->name);
     if (std::find(known.begin(), known.end(), name) == known.end())
-        throw Error(fmt::format("unknown technique '{}'; known: {}", name, fmt::join(known, ", ")));
+        throw unknown_name("technique", name, known);
 }
 
 TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes, const MeasuredTimes& times,

@@ -13,6 +13,7 @@
 #include "techniques/wyman_2005/wyman_2005.h"
 
 #include <pellucid/error.h>
+#include <pellucid/names.h>
 
 #include <fmt/format.h>
 
@@ -64,7 +65,7 @@ const TechniqueInfo& find_technique(std::string_view name) {
         if (info->name == name) return *info;
         known.push_back(info->name);
     }
-    throw Error(fmt::format("unknown technique '{}'; known: {}", name, fmt::join(known, ", ")));
+    throw unknown_name("technique", name, known);
 }
 
 const Technique* technique_of(const TechniqueInfo& info) { return find_row(kTechniques, info.name); }
@@ -89,7 +90,8 @@ ParameterValues::ParameterValues(const TechniqueInfo& technique, const Parameter
         std::vector<std::string_view> known;
         for (const ParameterInfo& parameter : technique.parameters) known.push_back(parameter.name);
         if (std::find(known.begin(), known.end(), name) == known.end()) {
-            throw Error(fmt::format("{} has no parameter '{}'; it has: {}", technique.name, name,
+            throw Error(fmt::format("{} has no parameter '{}'{}; it has: {}", technique.name, name,
+                                    did_you_mean(name, known),
                                     known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
         }
     }

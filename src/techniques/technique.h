@@ -13,6 +13,10 @@
 
 namespace pellucid {
 
+/// Names of values that several techniques have.
+inline constexpr NamedValue kOffOn[] = {{0, "off", ""}, {1, "on", ""}};
+inline constexpr NamedValue kBackFaceNames[] = {{0, "first", "back face"}, {1, "farthest", "back face"}};
+
 /// Per pixel, where the view ray ends up after the glass. What follows never asks which technique
 /// filled it. A pixel without glass has no events, and all else is undefined there.
 struct Refraction {

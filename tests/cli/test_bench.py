@@ -58,7 +58,7 @@ class Bench(CliTest):
         """The times belong to paths of known accuracy, those that `compare` measures."""
         run, = self.measure("shape:knot", "--techniques", "wang-2014", size="64x64")["runs"]
         self.assertEqual(self.run_cli("compare", "shape:knot", "--techniques", "wang-2014", "--size", "64x64",
-                                      "--views", "1", "--json", "compare.json").returncode, 0)
+                                      "--truth", "reference", "--views", "1", "--json", "compare.json").returncode, 0)
         compared, = json.loads(self.read("compare.json"))["runs"]
         for key in ("covered", "stable_share", "within_1deg", "within_1deg_stable"):
             self.assertEqual(run[key], compared[key], key)

@@ -12,7 +12,9 @@ STATUSES = ["ok", "missing_layer", "left_screen", "step_limit", "event_limit"]
 
 class Compare(CliTest):
     def compare(self, *arguments, size="48x48", **options):
-        return self.run_cli("compare", *arguments, "--size", size, "--validate", **options)
+        """By the exact transmitted path where no truth is given, which is quick."""
+        truth = () if "--truth" in arguments else ("--truth", "reference")
+        return self.run_cli("compare", *arguments, *truth, "--size", size, "--validate", **options)
 
     def runs(self, *arguments, **options):
         result = self.compare(*arguments, "--json", "runs.json", **options)
@@ -80,6 +82,35 @@ class Compare(CliTest):
         arguments = ("shape:sphere", "--techniques", "reference", "--views", "1", "--environment", "sky")
         run, = self.runs(*arguments, "--truth", "path", "--truth-samples", "16")["runs"]
         self.assertGreater(run["flip_mean"], 0.005)
+
+    def test_the_default_truth_has_all_light(self):
+        """Techniques that draw what is reflected inside are nearer to it than those that do not."""
+        result = self.run_cli("compare", "shape:sphere", "--techniques", "reference,balanced", "--views", "1", "--size", "32x32",
+                              "--environment", "sky", "--json", "runs.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        content = json.loads(self.read("runs.json"))
+        straight, whole = content["runs"]
+        self.assertEqual(content["truth"], "path")
+        self.assertEqual(content["truth_samples"], straight["truth_samples"])
+        self.assertLess(whole["flip_mean"], straight["flip_mean"])
+        difference = straight["flip_mean"] - whole["flip_mean"]
+        # Twice the samples until the noise is a third of the difference; or a warning.
+        self.assertIn(straight["truth_samples"], (64, 128, 256))
+        self.assertGreater(straight["truth_noise"], 0)
+        self.assertEqual(straight["truth_noise"] > difference / 3, "noise" in result.stderr)
+        self.assertEqual(any("noise" in warning for warning in content["warnings"]), "noise" in result.stderr)
+
+    def test_noise_of_the_truth(self):
+        """It falls with the square root of the samples, and is told where differences are smaller."""
+        def noise(samples):
+            arguments = ("shape:knot", "--techniques", "one-interface,wyman-2005", "--views", "1", "--environment", "sky")
+            content = self.runs(*arguments, "--truth", "path", "--truth-samples", str(samples), size="64x64")
+            self.assertEqual((content["truth_samples"], content["runs"][0]["truth_samples"]), (samples, samples))
+            return content["runs"][0]["truth_noise"], " ".join(content["warnings"])
+        few, many = noise(4), noise(64)
+        self.assertGreater(few[0] / many[0], 2)
+        self.assertLess(few[0] / many[0], 8)
+        self.assertIn("1 of 1 views", few[1])
 
     def test_report(self):
         result = self.compare("shape:sphere", "--views", "1", "--html", "report")

@@ -142,7 +142,7 @@ class Experiment(CliTest):
                             "--json", "--report")
         self.write("triangle.obj", TETRAHEDRON)
         compared = self.run_cli("compare", "triangle.obj", "--size", "16x16", "--views", "1", "--techniques",
-                                "one-interface", "--html", "report")
+                                "one-interface", "--truth", "reference", "--html", "report")
         self.assertEqual(compared.returncode, 0, compared.stderr)
         before = self.files()
         self.assert_refused(self.experiment("wang-search-step", "--report", "report"), "another report")

@@ -1,6 +1,6 @@
 #include "scene/shapes/shape_arguments.h"
 
-#include <pellucid/error.h>
+#include <pellucid/names.h>
 
 #include "core/fail.h"
 
@@ -11,10 +11,12 @@
 
 namespace pellucid {
 
-std::string in_quotes(std::string_view text) {
+std::string shortened(std::string_view text) {
     constexpr std::size_t kLongest = 60;
-    return fmt::format("'{}{}'", one_line(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
+    return fmt::format("{}{}", one_line(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
 }
+
+std::string in_quotes(std::string_view text) { return fmt::format("'{}'", shortened(text)); }
 
 ShapeArguments::ShapeArguments(const ShapeInfo& info, std::string_view text, std::string_view kind)
     : info_(info), kind_(kind) {
@@ -57,12 +59,12 @@ void ShapeArguments::fail(const std::string& message) const {
 }
 
 std::size_t ShapeArguments::index(std::string_view parameter) const {
-    std::string known;
+    std::vector<std::string_view> known;
     for (std::size_t i = 0; i < info_.parameters.size(); ++i) {
         if (info_.parameters[i].name == parameter) return i;
-        known += (i ? ", " : "") + std::string(info_.parameters[i].name);
+        known.push_back(info_.parameters[i].name);
     }
-    fail(fmt::format("unknown parameter {}; known are {}", in_quotes(parameter), known));
+    fail(unknown_name("parameter", shortened(parameter), known).what());
 }
 
 }  // namespace pellucid

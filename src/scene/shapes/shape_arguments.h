@@ -29,7 +29,9 @@ private:
     std::vector<double> values_;
 };
 
-/// `text` in quotes, shortened and without control characters, so that an error stays one line.
+/// `text` shortened and without control characters, so that an error stays one line.
+std::string shortened(std::string_view text);
+/// The same in quotes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace pellucid

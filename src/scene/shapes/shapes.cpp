@@ -1,6 +1,7 @@
 #include "scene/shapes.h"
 
 #include <pellucid/error.h>
+#include <pellucid/names.h>
 
 #include "scene/shapes/shape_arguments.h"
 #include "scene/shapes/shape_builders.h"
@@ -99,7 +100,7 @@ const std::vector<ShapeInfo>& shape_infos() {
 
 Mesh load_shape(const std::string& spec) {
     const std::string name = spec.substr(0, spec.find(','));
-    std::string known;
+    std::vector<std::string_view> known;
     for (const Shape& shape : shapes()) {
         if (shape.info.name == name) {
             const std::string_view arguments = std::string_view(spec).substr(name.size());
@@ -107,9 +108,9 @@ Mesh load_shape(const std::string& spec) {
             mesh.name = name;
             return mesh;
         }
-        known += (known.empty() ? "" : ", ") + std::string(shape.info.name);
+        known.push_back(shape.info.name);
     }
-    throw Error("unknown shape " + in_quotes(name) + "; known are " + known);
+    throw unknown_name("shape", shortened(name), known);
 }
 
 }  // namespace pellucid

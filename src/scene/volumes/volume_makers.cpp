@@ -1,6 +1,7 @@
 #include "scene/volumes/volume_building.h"
 
 #include <pellucid/error.h>
+#include <pellucid/names.h>
 
 namespace pellucid {
 namespace {
@@ -82,7 +83,7 @@ const std::vector<ShapeInfo>& volume_infos() {
 
 Volume make_volume(const std::string& spec) {
     const std::string name = spec.substr(0, spec.find(','));
-    std::string known;
+    std::vector<std::string_view> known;
     for (const Maker& maker : makers()) {
         if (maker.info.name == name) {
             Volume volume =
@@ -91,9 +92,9 @@ Volume make_volume(const std::string& spec) {
             check_volume(volume);
             return volume;
         }
-        known += (known.empty() ? "" : ", ") + std::string(maker.info.name);
+        known.push_back(maker.info.name);
     }
-    throw Error("unknown volume " + in_quotes(name) + "; known are " + known);
+    throw unknown_name("volume", shortened(name), known);
 }
 
 }  // namespace pellucid

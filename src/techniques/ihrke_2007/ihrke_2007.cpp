@@ -16,33 +16,37 @@
 namespace pellucid {
 namespace {
 
+constexpr NamedValue kIntegrators[] = {{0, "euler", "of first order"},
+                                       {1, "runge-kutta", "of fourth order"},
+                                       {2, "leapfrog", "of second order"},
+                                       {3, "nystrom", "of fourth order"}};
+constexpr NamedValue kInterpolations[] = {{0, "linear", "of index and gradient each, as in the paper"},
+                                          {1, "cubic", "with the gradient of the index itself"}};
+constexpr NamedValue kInterfaces[] = {
+    {0, "smooth", "the voxels alone bend light, as in the paper"},
+    {1, "sharp", "the index holds up to the mesh and light crosses that by Snell's law"}};
+constexpr NamedValue kVoxelize[] = {
+    {-1, "automatic", "a volume where the scene has none"}, {0, "off", "they stay surfaces"}, {1, "on", "a volume"}};
+constexpr NamedValue kKeptLight[] = {{0, "brightest", "the brightest and its way, as in the paper"},
+                                     {1, "sum", "all of it and its mean way"}};
+
 constexpr std::array kOwnParameters = {
-    ParameterInfo{"integrator", "", 3, 0, 3, true,
-                  "0 Euler, 1 Runge-Kutta of fourth order, 2 leapfrog of second, 3 Nystrom of fourth"},
+    ParameterInfo{"integrator", "", 3, 0, 3, true, "of the ray equation", kIntegrators},
     ParameterInfo{"step", "voxels", 0.5, 0.01, 8, false, "length of a step along view rays"},
-    ParameterInfo{
-        "interpolation", "", 1, 0, 1, true,
-        "of the index along view rays: 0 linear, of index and gradient each, as in the paper; 1 cubic, with the "
-        "gradient of the index itself"},
+    ParameterInfo{"interpolation", "", 1, 0, 1, true, "of the index along view rays", kInterpolations},
     ParameterInfo{"max-steps", "", 8192, 1, 60000, true, "steps of a view ray from one box or surface to the next"},
-    ParameterInfo{
-        "proxy", "", 1, 0, 1, true,
-        "1: view rays enter a volume that stands for a mesh at the mesh; 0: the voxels alone say where it is"},
-    ParameterInfo{
-        "interfaces", "", 0, 0, 1, true,
-        "of volumes that stand for meshes: 0 smooth, the voxels alone bend light, as in the paper; 1 sharp, the "
-        "index holds up to the mesh and light crosses that by Snell's law"},
-    ParameterInfo{"voxelize", "", -1, -1, 1, true,
-                  "1: solids of glass become a volume; 0: they stay surfaces; -1: a volume where the scene has none"},
+    ParameterInfo{"proxy", "", 1, 0, 1, true,
+                  "view rays enter a volume that stands for a mesh at the mesh; off: the voxels alone say where it is",
+                  kOffOn},
+    ParameterInfo{"interfaces", "", 0, 0, 1, true, "of volumes that stand for meshes", kInterfaces},
+    ParameterInfo{"voxelize", "", -1, -1, 1, true, "what solids of glass become", kVoxelize},
     ParameterInfo{"voxels", "", 128, 8, 2048, true, "along the longest side of the volume that glass becomes"},
     ParameterInfo{"smoothing", "voxels", 0.75, 0, 16, false,
                   "standard deviation of the Gaussian that smooths the index of that volume"},
-    ParameterInfo{
-        "kept-light", "", 1, 0, 1, true,
-        "what voxels keep of light: 0 the brightest and its way, as in the paper; 1 all of it and its mean way"},
-    ParameterInfo{
-        "folds", "", 1, 0, 1, true,
-        "1: light goes on past a focus; 0: a piece of a wavefront that has turned over ends, as in the paper"},
+    ParameterInfo{"kept-light", "", 1, 0, 1, true, "what voxels keep of light", kKeptLight},
+    ParameterInfo{"folds", "", 1, 0, 1, true,
+                  "light goes on past a focus; off: a piece of a wavefront that has turned over ends, as in the paper",
+                  kOffOn},
     ParameterInfo{"light-step", "voxels", 0.5, 0.01, 8, false, "optical length of a step of light"},
     ParameterInfo{"reflected-light", "", 0, 0, 7, true,
                   "reflections of light in surfaces of volumes, one after another, that are followed"},

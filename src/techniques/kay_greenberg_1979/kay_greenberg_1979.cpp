@@ -8,18 +8,23 @@
 namespace pellucid {
 namespace {
 
+constexpr NamedValue kModes[] = {{0, "linear", ""}, {1, "non-linear", ""}, {2, "refraction", ""}};
+
 constexpr std::array kParameters = {
-    ParameterInfo{"mode", "", 2, 0, 2, true, "0 linear, 1 non-linear, 2 refraction"},
+    ParameterInfo{"mode", "", 2, 0, 2, true, "how transparency is found", kModes},
     ParameterInfo{"layers", "", 8, 1, 64, true, "surfaces laid over the background"},
-    ParameterInfo{"power", "", 2, 0.01, 100, false, "p of mode 1; high for thin glass"},
-    ParameterInfo{"min-transparency", "", 0, 0, 1, false, "of a surface seen edge-on, mode 1"},
+    ParameterInfo{"power", "", 2, 0.01, 100, false, "p of mode non-linear; high for thin glass"},
+    ParameterInfo{"min-transparency", "", 0, 0, 1, false, "of a surface seen edge-on, mode non-linear"},
     ParameterInfo{"max-transparency", "", 0.9, 0, 1, false,
-                  "of a surface seen from the front, mode 1; anywhere, mode 0"},
-    ParameterInfo{"slab-thickness", "glass radii", 0.1, 0, 100, false,
-                  "h of mode 2: of every surface along its normal; in half diagonals of the box around all glass"},
-    ParameterInfo{"transmission", "", 0.6, 1e-6, 1, false, "T of mode 2: share left after one glass radius inside"},
+                  "of a surface seen from the front, mode non-linear; anywhere, mode linear"},
+    ParameterInfo{
+        "slab-thickness", "glass radii", 0.1, 0, 100, false,
+        "h of mode refraction: of every surface along its normal; in half diagonals of the box around all glass"},
+    ParameterInfo{"transmission", "", 0.6, 1e-6, 1, false,
+                  "T of mode refraction: share left after one glass radius inside"},
     ParameterInfo{"own-slabs", "", 0, 0, 1, true,
-                  "mode 2: 1 takes h and T from each surface's material, glTF's thicknessFactor and attenuation"},
+                  "mode refraction: h and T come from each surface's material, glTF's thicknessFactor and attenuation",
+                  kOffOn},
     ParameterInfo{"highlight-roughness", "", 0.2, 0.01, 1, false,
                   "of highlights of lights, where the surface is smoother"},
 };

@@ -8,11 +8,13 @@
 namespace pellucid {
 namespace {
 
+constexpr NamedValue kInterpolation[] = {{0, "nearest", "of the nearest texel"}, {1, "linear", "between texels"}};
+
 constexpr std::array kParameters = {
-    ParameterInfo{"back-face", "", 1, 0, 1, true, "far side of the glass: 0 the first back face, 1 the farthest"},
+    ParameterInfo{"back-face", "", 1, 0, 1, true, "far side of the glass", kBackFaceNames},
     ParameterInfo{"steps", "", 50, 1, 4096, true, "linear search steps over the part of the ray within the glass"},
     ParameterInfo{"binary-steps", "", 8, 0, 24, true, "binary search steps after a linear one"},
-    ParameterInfo{"interpolate", "", 1, 0, 1, true, "depth and normal: 0 of the nearest texel, 1 between texels"},
+    ParameterInfo{"interpolate", "", 1, 0, 1, true, "depth and normal in the map", kInterpolation},
 };
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {

@@ -7,10 +7,12 @@
 namespace pellucid {
 namespace {
 
+constexpr NamedValue kRebuild[] = {{0, "kept", "and refitted where vertices have moved"},
+                                   {1, "refitted", "in every frame, to measure that"},
+                                   {2, "built", "in every frame, to measure that"}};
+
 constexpr auto kParameters =
-    path_parameters_and({"rebuild", "", 0, 0, 2, true,
-                         "hierarchy: 0 kept, and refitted where vertices have moved; to measure "
-                         "that, 1 refitted and 2 built in every frame"});
+    path_parameters_and({"rebuild", "", 0, 0, 2, true, "what becomes of the hierarchy", kRebuild});
 
 /// Vertices that have moved once are likely to move again.
 StructureUse structure_use(std::uint32_t rebuild, bool moved) {

@@ -10,14 +10,9 @@
 namespace pellucid {
 namespace {
 
-constexpr ParameterInfo kRebuild{
-    "rebuild",
-    "",
-    0,
-    0,
-    1,
-    true,
-    "hierarchy: 0 kept, and refitted where vertices have moved; 1 refitted in every frame, to measure that"};
+constexpr NamedValue kRebuildNames[] = {{0, "kept", "and refitted where vertices have moved"},
+                                        {1, "refitted", "in every frame, to measure that"}};
+constexpr ParameterInfo kRebuild{"rebuild", "", 0, 0, 1, true, "what becomes of the hierarchy", kRebuildNames};
 
 /// Those of paths, but for how many surfaces a dispatch takes them to: that is one, as the host searches in between.
 constexpr auto kParameters = [] {

@@ -110,7 +110,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
 
 constexpr auto kParameters = path_parameters_and(
     {"finish", "", 1, 0, 1, true,
-     "1: paths that the view's map loses, as beyond the edge of the view, are finished by maps of the meshes"});
+     "paths that the view's map loses, as beyond the edge of the view, are finished by maps of the meshes", kOffOn});
 
 }  // namespace
 

@@ -11,21 +11,29 @@ namespace pellucid {
 
 extern const Technique kVisibilityLayers;
 
+inline constexpr NamedValue kAutomaticBelow[] = {{-1, "automatic", ""}};
+inline constexpr NamedValue kAutomaticZero[] = {{0, "automatic", ""}};
+
 /// Technique::parameters of techniques that call follow_paths().
 inline constexpr std::array kPathParameters = {
     ParameterInfo{"events", "", 16, 1, 4095, true, "refractions and reflections followed along a path"},
-    ParameterInfo{"branches", "", -1, -1, 255, true,
-                  "reflected ways followed per pixel and sample; -1: none in a picture of one sample, 16 otherwise"},
+    ParameterInfo{
+        "branches", "", -1, -1, 255, true,
+        "reflected ways followed per pixel and sample; automatic: none in a picture of one sample, 16 otherwise",
+        kAutomaticBelow},
     ParameterInfo{"threshold", "", 0.01, 0, 1, false, "share of the light that a reflected way carries at least"},
     ParameterInfo{"one-branch", "", 0, 0, 1, true,
-                  "1: each sample takes one way at random, refracted or reflected, and through rough glass one facet"},
+                  "each sample takes one way at random, refracted or reflected, and through rough glass one facet",
+                  kOffOn},
     ParameterInfo{"surfaces-per-pass", "", 0, 0, 64, true,
-                  "surfaces that a path meets in one dispatch, a matter of time; 0: chosen for the device"},
+                  "surfaces that a path meets in one dispatch, a matter of time; automatic: chosen for the device",
+                  kAutomaticZero},
     ParameterInfo{"photons", "", -1, -1, 4194304, true,
                   "photons of every light, of emissive surfaces and of the environment in every frame: light that "
                   "glass or polished metal sends onto opaque "
-                  "surfaces; -1: 16384 with "
-                  "--light full, none otherwise"},
+                  "surfaces; automatic: 16384 with "
+                  "--light full, none otherwise",
+                  kAutomaticBelow},
     ParameterInfo{"layers", "", 1, 1, 64, true,
                   "surfaces along a view ray that the AOV `layers` counts at most; paths look at all that there are"},
 };

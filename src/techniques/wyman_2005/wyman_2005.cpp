@@ -11,12 +11,13 @@ namespace {
 
 using wyman_2005::Distances;
 
+constexpr NamedValue kDistances[] = {{0, "blended", "between the view ray's and the normal's"},
+                                     {1, "sampled", "from a table of samples"},
+                                     {2, "view-ray", "the view ray's alone"}};
+
 constexpr std::array kParameters = {
-    ParameterInfo{"back-face", "", 0, 0, 1, true, "far side of the glass: 0 the first back face, 1 the farthest"},
-    ParameterInfo{
-        "distances", "", 0, 0, 2, true,
-        "way through the glass: 0 between the view ray's and the normal's, 1 from a table of samples, 2 the view "
-        "ray's alone"},
+    ParameterInfo{"back-face", "", 0, 0, 1, true, "far side of the glass", kBackFaceNames},
+    ParameterInfo{"distances", "", 0, 0, 2, true, "length of the way through the glass", kDistances},
     ParameterInfo{"table", "", 64, 4, 64, true,
                   "points and directions along a side of the table; it has their 4th power"},
     ParameterInfo{"nearby-steps", "", 64, 1, 4096, true, "linear steps in search of opaque objects behind the glass"},

@@ -1,0 +1,113 @@
+// The module of image files: see image_module.h.
+#include "core/image_module.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+namespace pellucid {
+namespace {
+
+constexpr std::int64_t kMaxPixels = std::int64_t(1) << 28;
+
+std::string cause_or(const std::string& message, const char* otherwise) {
+    return message.empty() ? otherwise : message;
+}
+
+OIIO::ImageSpec keep_alpha_as_stored() {
+    OIIO::ImageSpec config;
+    // PNG colours are not multiplied by alpha; by default OpenImageIO multiplies them in.
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    return config;
+}
+
+std::string read_pixels(OIIO::ImageInput& input, Image& image) {
+    const OIIO::ImageSpec& spec = input.spec();
+    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1 || spec.deep)
+        return "is not a flat two-dimensional image";
+    if (std::int64_t(spec.width) * spec.height > kMaxPixels)
+        return fmt::format("image of {} x {} pixels is larger than 2^28 pixels", spec.width, spec.height);
+    image = Image(spec.width, spec.height, spec.nchannels);
+    if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()))
+        return "damaged image: " + cause_or(input.geterror(), "pixels cannot be read");
+    return {};
+}
+
+/// File extension that goes with the first bytes of an image; empty if unknown. Names inside glTF
+/// files are often missing or wrong, and the image library chooses its reader by them.
+std::string_view extension_of_content(const void* bytes, std::size_t size) {
+    const std::string_view head(static_cast<const char*>(bytes), std::min<std::size_t>(size, 16));
+    if (head.starts_with("\x89PNG")) return ".png";
+    if (head.starts_with("\xff\xd8\xff")) return ".jpg";
+    if (head.starts_with("\x76\x2f\x31\x01")) return ".exr";
+    if (head.starts_with("#?")) return ".hdr";
+    if (head.starts_with("GIF8")) return ".gif";
+    if (head.starts_with("BM")) return ".bmp";
+    if (head.starts_with("RIFF")) return ".webp";
+    if (head.starts_with("DDS ")) return ".dds";
+    if (head.size() >= 12 && head.substr(4, 7) == "ftypavi") return ".avif";
+    return {};
+}
+
+std::vector<std::uint8_t> display_bytes(const Image& image) {
+    std::vector<std::uint8_t> bytes(image.pixels.size());
+    std::transform(image.pixels.begin(), image.pixels.end(), bytes.begin(), [](float value) {
+        // Written so that NaN becomes 0.
+        const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+        return static_cast<std::uint8_t>(clamped * 255.0f + 0.5f);
+    });
+    return bytes;
+}
+
+std::string read(const std::string& file, Image& image) {
+    const OIIO::ImageSpec config = keep_alpha_as_stored();
+    const auto input = OIIO::ImageInput::open(file, &config);
+    if (!input) return "is no readable image: " + cause_or(OIIO::geterror(), "unknown format");
+    return read_pixels(*input, image);
+}
+
+std::string decode(const void* bytes, std::size_t size, Image& image) {
+    const std::string_view extension = extension_of_content(bytes, size);
+    if (extension.empty()) return "is no image of a known format";
+    OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);
+    OIIO::ImageSpec config = keep_alpha_as_stored();
+    // With a configuration, open() ignores a reader that is passed as its own argument.
+    void* proxy = &memory;
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    const auto input = OIIO::ImageInput::open("image" + std::string(extension), &config);
+    if (!input) return "is no readable image: " + cause_or(OIIO::geterror(), "unknown format");
+    return read_pixels(*input, image);
+}
+
+std::string write(const std::string& file, bool png, const Image& image,
+                  const std::vector<std::string>& channel_names) {
+    OIIO::ImageSpec spec(image.width, image.height, image.channels,
+                         png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
+    spec.channelnames = channel_names;
+    if (png) {
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+    } else {
+        spec.attribute("compression", "zip");
+        spec.attribute("DateTime", "1970:01:01 00:00:00");  // else the time of writing: no two runs would give one file
+    }
+    const std::vector<std::uint8_t> bytes = png ? display_bytes(image) : std::vector<std::uint8_t>();
+    const void* pixels = png ? static_cast<const void*>(bytes.data()) : image.pixels.data();
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file);
+    if (!output) return "cannot write: " + cause_or(OIIO::geterror(), "no writer");
+    if (!output->open(file, spec) || !output->write_image(spec.format, pixels) || !output->close())
+        return fmt::format("cannot write {} x {} pixels: {}", image.width, image.height,
+                           cause_or(output->geterror(), "unknown cause"));
+    return {};
+}
+
+}  // namespace
+}  // namespace pellucid
+
+extern "C" [[gnu::visibility("default")]] const pellucid::ImageModule pellucid_image_module{
+    &pellucid::read, &pellucid::decode, &pellucid::write};
