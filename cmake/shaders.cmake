@@ -1,5 +1,5 @@
-# Compiles GLSL to SPIR-V and declares it: `#include "ROOM/shaders.h"` has a ShaderCode pellucid::shaders::STEM_EXT
-# for each shader of a room. Names are kept in the SPIR-V: bindings are checked against them (gpu/program.h).
+# Compiles GLSL to SPIR-V and declares it: `#include "MODULE/shaders.h"` has a ShaderCode pellucid::shaders::STEM_EXT
+# for each shader of a module. Names are kept in the SPIR-V: bindings are checked against them (gpu/program.h).
 #
 # Every shader depends on every shared file. glslc could list the true dependencies, but does not
 # escape spaces in them, and a shader compiles in a fraction of a second.
@@ -7,7 +7,7 @@ file(GLOB_RECURSE pellucid_shader_includes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DI
 list(APPEND pellucid_shader_includes ${PROJECT_SOURCE_DIR}/src/gpu/structs.h)
 
 function(pellucid_embed_shaders target)
-    string(REGEX REPLACE "^pellucid_" "" room ${target})
+    string(REGEX REPLACE "^pellucid_" "" module ${target})
     set(folder ${PROJECT_BINARY_DIR}/shaders)
     set(declared "")
     set(defined "")
@@ -15,7 +15,7 @@ function(pellucid_embed_shaders target)
     foreach(shader ${ARGN})
         get_filename_component(name ${shader} NAME)
         set(source ${CMAKE_CURRENT_SOURCE_DIR}/${shader})
-        set(output ${folder}/${room}/${name}.inc)
+        set(output ${folder}/${module}/${name}.inc)
         add_custom_command(
             OUTPUT ${output}
             COMMAND Vulkan::glslc --target-env=vulkan1.3 -Werror -I ${PROJECT_SOURCE_DIR}/src
@@ -26,13 +26,13 @@ function(pellucid_embed_shaders target)
         list(APPEND outputs ${output})
         string(MAKE_C_IDENTIFIER ${name} variable)
         string(APPEND declared "extern const ShaderCode ${variable};\n")
-        string(APPEND defined "constexpr std::uint32_t ${variable}_words[] = {\n#include \"${room}/${name}.inc\"\n};\n"
+        string(APPEND defined "constexpr std::uint32_t ${variable}_words[] = {\n#include \"${module}/${name}.inc\"\n};\n"
                "constinit const ShaderCode ${variable}{\"${name}\", ${variable}_words};\n")
     endforeach()
     set(begin "#include \"gpu/program.h\"\n\nnamespace pellucid::shaders {\n")
-    file(CONFIGURE OUTPUT ${folder}/${room}/shaders.h CONTENT "#pragma once\n${begin}${declared}}\n" @ONLY)
-    file(CONFIGURE OUTPUT ${folder}/${room}/shaders.cpp CONTENT
-         "#include \"${room}/shaders.h\"\n${begin}${defined}}\n" @ONLY)
-    target_sources(${target} PRIVATE ${folder}/${room}/shaders.cpp ${outputs})
+    file(CONFIGURE OUTPUT ${folder}/${module}/shaders.h CONTENT "#pragma once\n${begin}${declared}}\n" @ONLY)
+    file(CONFIGURE OUTPUT ${folder}/${module}/shaders.cpp CONTENT
+         "#include \"${module}/shaders.h\"\n${begin}${defined}}\n" @ONLY)
+    target_sources(${target} PRIVATE ${folder}/${module}/shaders.cpp ${outputs})
     target_include_directories(${target} PUBLIC ${folder})
 endfunction()

@@ -12,7 +12,7 @@
 namespace pellucid::cli {
 
 /// Samples of a truth with all light where none are given, and the most that differences between techniques ask for.
-inline constexpr std::uint32_t kTruthSamples = 64, kMostTruthSamples = 256;
+inline constexpr std::uint32_t kTruthSamples = 16, kMostTruthSamples = 64;
 
 /// The image that others are judged by.
 struct ImageTruth {

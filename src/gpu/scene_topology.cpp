@@ -14,7 +14,7 @@
 namespace pellucid {
 namespace {
 
-/// Twin of ObjectBox in follow_paths.comp.
+/// Twin of ObjectBox in follow_paths.glsl.
 struct ObjectBox {
     glm::vec3 low;
     float radius;  ///< from the middle of the box to the farthest vertex

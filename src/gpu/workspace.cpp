@@ -25,43 +25,29 @@ const Program& Workspace::graphics(const Program::Graphics& state) {
 }
 
 const GpuImage& Workspace::image(std::string_view name, vk::Format format, vk::Extent2D extent, std::uint32_t layers) {
-    auto found = images_.find(name);
-    if (found != images_.end()) {
-        const GpuImage& image = found->second.resource;
-        if (image.format() == format && image.extent() == extent && image.layers() == layers) {
-            found->second.used = true;
-            return image;
-        }
-        images_.erase(found);  // freed first, so that a resize does not need both
-    }
     using Usage = vk::ImageUsageFlagBits;
-    const vk::ImageUsageFlags usage =
-        format == vk::Format::eD32Sfloat
-            ? vk::ImageUsageFlags(Usage::eDepthStencilAttachment)
-            : Usage::eStorage | Usage::eSampled | Usage::eColorAttachment | Usage::eTransferSrc | Usage::eTransferDst;
-    return images_
-        .emplace(std::string(name),
-                 Entry<GpuImage>{GpuImage(device_, std::string(name), format, extent, layers, usage)})
-        .first->second.resource;
+    const auto fits = [&](const GpuImage& image) {
+        return image.format() == format && image.extent() == extent && image.layers() == layers;
+    };
+    return kept(images_, name, fits, [&] {
+        const vk::ImageUsageFlags usage = format == vk::Format::eD32Sfloat
+                                              ? vk::ImageUsageFlags(Usage::eDepthStencilAttachment)
+                                              : Usage::eStorage | Usage::eSampled | Usage::eColorAttachment |
+                                                    Usage::eTransferSrc | Usage::eTransferDst;
+        return GpuImage(device_, std::string(name), format, extent, layers, usage);
+    });
 }
 
 const Buffer& Workspace::buffer(std::string_view name, vk::DeviceSize size, bool host_visible, vk::Format texels) {
-    auto found = buffers_.find(name);
-    if (found != buffers_.end()) {
-        const Buffer& buffer = found->second.resource;
-        if (buffer.size() == size && (buffer.mapped() != nullptr) == host_visible && buffer.texels() == texels) {
-            found->second.used = true;
-            return buffer;
-        }
-        buffers_.erase(found);
-    }
     using Usage = vk::BufferUsageFlagBits;
-    return buffers_
-        .emplace(std::string(name), Entry<Buffer>{Buffer(device_, std::string(name), size,
-                                                         Usage::eStorageBuffer | Usage::eIndirectBuffer |
-                                                             Usage::eTransferSrc | Usage::eTransferDst,
-                                                         host_visible, texels)})
-        .first->second.resource;
+    const auto fits = [&](const Buffer& buffer) {
+        return buffer.size() == size && (buffer.mapped() != nullptr) == host_visible && buffer.texels() == texels;
+    };
+    return kept(buffers_, name, fits, [&] {
+        const vk::BufferUsageFlags usage =
+            Usage::eStorageBuffer | Usage::eIndirectBuffer | Usage::eTransferSrc | Usage::eTransferDst;
+        return Buffer(device_, std::string(name), size, usage, host_visible, texels);
+    });
 }
 
 SceneHierarchy& Workspace::hierarchy(const GpuScene& scene, StructureUse use) {
@@ -72,9 +58,9 @@ SceneHierarchy& Workspace::hierarchy(const GpuScene& scene, StructureUse use) {
 }
 
 void Workspace::trim() {
-    const auto drop_unused = [](auto& entries) {
-        std::erase_if(entries, [](const auto& entry) { return !entry.second.used; });
-        for (auto& entry : entries) entry.second.used = false;
+    const auto drop_unused = [this](auto& entries) {
+        std::erase_if(entries, [this](const auto& entry) { return entry.second.unused > kept_frames_; });
+        for (auto& entry : entries) ++entry.second.unused;
     };
     drop_unused(images_);
     drop_unused(buffers_);

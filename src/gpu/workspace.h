@@ -15,7 +15,7 @@
 namespace pellucid {
 
 /// Programs, and the images, buffers and hierarchy that live for a frame, by name. What a frame asks for
-/// is kept for the next one if name and shape agree; what a frame did not ask for is freed by trim().
+/// is kept for the next one if name and shape agree; trim() frees what no frame has asked for lately.
 class Workspace {
 public:
     explicit Workspace(const Device& device) : device_(device) {}
@@ -36,20 +36,39 @@ public:
     /// There is one at a time: of the scene and the use asked for last.
     SceneHierarchy& hierarchy(const GpuScene& scene, StructureUse use);
 
-    /// Frees what has not been asked for since the last call. No frame may be in flight.
+    /// Call once per frame: frees images and buffers that no frame has asked for since the call before the last, or for as
+    /// many calls more as keep() says.
     void trim();
+    /// At 0, the default, a resize frees the old image before it allocates the new one. With more, frames that alternate
+    /// between sizes allocate nothing, for the memory of all their sizes.
+    void keep(std::uint32_t frames) { kept_frames_ = frames; }
 
 private:
     template <class Resource>
     struct Entry {
         Resource resource;
-        bool used = true;
+        std::uint32_t unused = 0;  ///< calls of trim() since it was asked for
     };
+    template <class Resource>
+    using Entries = std::multimap<std::string, Entry<Resource>, std::less<>>;
     struct HierarchyEntry {
         HierarchyEntry(const Device& device, const GpuScene& scene, StructureUse use) : resource(device, scene, use) {}
         SceneHierarchy resource;
         bool used = true;
     };
+
+    /// The resource of this name that `fits`, or what `make` returns.
+    template <class Resource, class Fits, class Make>
+    const Resource& kept(Entries<Resource>& entries, std::string_view name, const Fits& fits, const Make& make) {
+        const auto [begin, end] = entries.equal_range(name);
+        for (auto found = begin; found != end; ++found) {
+            if (!fits(found->second.resource)) continue;
+            found->second.unused = 0;
+            return found->second.resource;
+        }
+        if (kept_frames_ == 0) entries.erase(begin, end);  // freed first: both may not fit
+        return entries.emplace(std::string(name), Entry<Resource>{make()})->second.resource;
+    }
 
     /// The program of key_.
     template <class Make>
@@ -61,8 +80,9 @@ private:
     const Device& device_;
     std::map<std::string, Program, std::less<>> programs_;
     std::string key_;  ///< of a program: all that it depends on
-    std::map<std::string, Entry<GpuImage>, std::less<>> images_;
-    std::map<std::string, Entry<Buffer>, std::less<>> buffers_;
+    std::uint32_t kept_frames_ = 0;
+    Entries<GpuImage> images_;
+    Entries<Buffer> buffers_;
     std::optional<HierarchyEntry> hierarchy_;
 };
 

@@ -17,6 +17,8 @@ namespace pellucid::vulkan {
 namespace {
 
 constexpr std::uint32_t kMostInFlight = 8;
+/// Frames for which images of another size are kept: callers that change their resolution often come back to it.
+constexpr std::uint32_t kKeptFrames = 64;
 
 /// Thrown in what the host traces for a frame that nobody wants any more.
 struct TracingStopped {};
@@ -354,6 +356,7 @@ Frames::Frames(Renderer& renderer, std::uint32_t in_flight) {
     if (renderer.impl_->has_frames) throw Error("the renderer has frames already (vulkan::Frames)");
     impl_ = std::make_unique<Impl>(renderer, in_flight);
     renderer.impl_->has_frames = true;
+    renderer.impl_->workspace.keep(kKeptFrames);
     renderer.impl_->before_change = [impl = impl_.get()] { impl->stop_tracing(); };
 }
 
@@ -365,6 +368,7 @@ Frames::~Frames() {
         --impl_->of.unread_frames;
     }
     impl_->of.has_frames = false;
+    impl_->of.workspace.keep(0);
     impl_->of.before_change = nullptr;
 }
 

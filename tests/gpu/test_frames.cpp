@@ -487,6 +487,24 @@ TEST_F(FramesTest, SteadyFramesMakeNothing) {
     }
 }
 
+TEST_F(FramesTest, SizesThatAlternateMakeNothing) {
+    renderer().set_scene(table_scene());
+    const Screen shown = screen(vk::Format::eR8G8B8A8Unorm);
+    const Bounds bounds = scene_bounds(table_scene());
+    for (const char* technique : {"visibility-layers", "fast", "balanced"}) {
+        SCOPED_TRACE(technique);
+        Frames frames(renderer());
+        const auto draw = [&](int frame) {
+            renderer().set_camera(orbit_camera(bounds, 0.1f * float(frame), 15.0f, 4.0f, 0.6f));
+            return submit(frames, settings_of(technique, frame / 2 % 2 == 0 ? 64 : 48), shown);
+        };
+        for (int i = 0; i < 12; ++i) draw(i);
+        const vulkan::Made before = frames.made();
+        for (int i = 12; i < 32; ++i) EXPECT_TRUE(draw(i).overflows.empty());
+        EXPECT_EQ(frames.made().allocations, before.allocations);
+    }
+}
+
 TEST_F(FramesTest, WhatIsSetIsSeenByTheNextFrame) {
     Scene scene = table_scene();
     renderer().set_scene(scene);

@@ -1,0 +1,31 @@
+# A module is one folder under src/ and one static library that links only the modules it names.
+#   pellucid_module(NAME HEADERS a.h ... SOURCES a.cpp ... USES other modules ... LIBRARIES packages ...)
+# HEADERS are those of include/pellucid that belong to it; tools/check_modules.py checks who includes them.
+add_library(pellucid_options INTERFACE)
+target_include_directories(pellucid_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
+target_link_libraries(pellucid_options INTERFACE glm::glm)
+target_compile_options(pellucid_options INTERFACE
+    -Wall -Wextra -Wshadow -Wnon-virtual-dtor $<$<BOOL:${PELLUCID_WERROR}>:-Werror>)
+
+function(pellucid_module name)
+    cmake_parse_arguments(MODULE "" "PCH_OF" "HEADERS;SOURCES;USES;LIBRARIES;PCH;SHADERS" ${ARGN})
+    set(target pellucid_${name})
+    list(TRANSFORM MODULE_USES PREPEND pellucid_)
+    if(NOT MODULE_SOURCES)  # headers only
+        add_library(${target} INTERFACE)
+        target_include_directories(${target} INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
+        target_link_libraries(${target} INTERFACE pellucid_options ${MODULE_USES} ${MODULE_LIBRARIES})
+        return()
+    endif()
+    add_library(${target} OBJECT ${MODULE_SOURCES})
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>)
+    target_link_libraries(${target} PUBLIC pellucid_options ${MODULE_USES} ${MODULE_LIBRARIES})
+    if(MODULE_PCH_OF)
+        target_precompile_headers(${target} REUSE_FROM pellucid_${MODULE_PCH_OF})
+    elseif(MODULE_PCH)
+        target_precompile_headers(${target} PRIVATE ${MODULE_PCH})
+    endif()
+    if(MODULE_SHADERS)
+        pellucid_embed_shaders(${target} ${MODULE_SHADERS})
+    endif()
+endfunction()
