@@ -92,10 +92,11 @@ TEST_P(StillLight, FacetsShowCaustics) {
     expect_that_of_path("caustic", 16, 64, 0.05, {{"photons", 65536.0}});
 }
 
-// Reflections that carry less than `threshold` branch off at random: none is left out.
+// Reflections that carry less than `threshold` branch off at random: none is left out. The tolerance is five times
+// the noise of 64 samples. Without these branches half of the light is missing.
 TEST_P(StillLight, WeakReflectionsAreThere) {
     set(scene_of(ball()), half_bright());
-    expect_that_of_path("emitted", 64, 256, 0.02, {{"threshold", 0.5}});
+    expect_that_of_path("emitted", 64, 1024, 0.05, {{"threshold", 0.5}});
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, StillLight, ::testing::Values("ray-tracing-cpu"), technique_test_name);

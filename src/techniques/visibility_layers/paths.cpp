@@ -148,7 +148,7 @@ private:
                 {"kPhotonsOfEnvironment", frame_.light.photons_of_environment},
                 {"kEnvironmentRays", frame_.environment_shares != nullptr && task_.full_light},
                 {"kGathers", task_.gathers},
-                {"kConverges", frame_.bounces_before_cache > 0 && !task_.gathers},
+                {"kConverges", frame_.light.bounces > 0 && frame_.bounces_before_cache > 0 && !task_.gathers},
                 {"kCachedFrom", frame_.irradiance != nullptr ? frame_.bounces_before_cache : kNeverCached}};
     }
     const Program& program(ShaderCode shader) { return frame_.workspace.compute(shader, constants()); }

@@ -25,7 +25,7 @@ layout(constant_id = 43) const bool kPhotonsOfEnvironment = false;  // and the e
 layout(constant_id = 29) const bool kLightsSurfaces = false;  // paths look from opaque surfaces to lights, and to each other
 layout(constant_id = 31) const bool kFullLight = false;       // what facets of opaque surfaces reflect is followed, too
 layout(constant_id = 44) const bool kGathers = false;  // paths sample the irradiance of the first diffuse surface they meet
-layout(constant_id = 48) const bool kConverges = false;  // the still has samples enough for noise instead of errors
+layout(constant_id = 48) const bool kConverges = false;  // a still of full light has samples enough for noise instead of errors
 layout(constant_id = 11) const bool kVolumes = false;     // there are volumes between surfaces, in which paths bend
 
 // Whether each sample meets one facet of rough glass. Otherwise a lobe stands for all.
