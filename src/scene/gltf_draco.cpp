@@ -126,7 +126,7 @@ private:
         std::vector<std::byte> bytes(decoded.count * sizeof(std::uint32_t));
         std::byte* at = bytes.data();
         for (std::uint32_t f = 0; f < mesh.num_faces(); ++f) {
-            for (const draco::PointIndex point : mesh.face(draco::FaceIndex(f))) {
+            for (const auto& point : mesh.face(draco::FaceIndex(f))) {
                 const std::uint32_t index = point.value();
                 std::memcpy(at, &index, sizeof index);
                 at += sizeof index;

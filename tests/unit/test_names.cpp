@@ -49,9 +49,10 @@ TEST(Names, ValuesOfParametersAgree) {
                 EXPECT_EQ(found->second, named.value) << technique->name << " " << parameter.name;
             }
             // A whole number of few values is a choice.
-            if (parameter.whole && parameter.maximum - parameter.minimum <= 3.0)
+            if (parameter.whole && parameter.maximum - parameter.minimum <= 3.0) {
                 EXPECT_EQ(double(own.size()), parameter.maximum - parameter.minimum + 1.0)
                     << technique->name << " " << parameter.name;
+            }
         }
     }
     EXPECT_FALSE(values.empty());
