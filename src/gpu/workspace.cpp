@@ -57,14 +57,25 @@ SceneHierarchy& Workspace::hierarchy(const GpuScene& scene, StructureUse use) {
     return hierarchy_->resource;
 }
 
-void Workspace::trim() {
-    const auto drop_unused = [this](auto& entries) {
-        std::erase_if(entries, [this](const auto& entry) { return entry.second.unused > kept_frames_; });
-        for (auto& entry : entries) ++entry.second.unused;
+void Workspace::drop_older_than(std::uint32_t unused) {
+    const auto drop = [unused](auto& entries) {
+        std::erase_if(entries, [unused](const auto& entry) { return entry.second.unused > unused; });
     };
-    drop_unused(images_);
-    drop_unused(buffers_);
+    drop(images_);
+    drop(buffers_);
+}
+
+void Workspace::trim() {
+    drop_older_than(kept_frames_);
+    for (auto& entry : images_) ++entry.second.unused;
+    for (auto& entry : buffers_) ++entry.second.unused;
     if (hierarchy_ && !std::exchange(hierarchy_->used, false)) hierarchy_.reset();
+}
+
+void Workspace::clear() {
+    images_.clear();
+    buffers_.clear();
+    hierarchy_.reset();
 }
 
 }  // namespace pellucid

@@ -4,8 +4,10 @@
 #include "gpu/program.h"
 #include "gpu/scene_hierarchy.h"
 
+#include <algorithm>
 #include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
@@ -40,8 +42,11 @@ public:
     /// many calls more as keep() says.
     void trim();
     /// At 0, the default, a resize frees the old image before it allocates the new one. With more, frames that alternate
-    /// between sizes allocate nothing, for the memory of all their sizes.
+    /// between up to kMostSizes sizes allocate nothing, for the memory of all of them.
     void keep(std::uint32_t frames) { kept_frames_ = frames; }
+    static constexpr std::size_t kMostSizes = 4;  ///< of one name
+    /// Frees all images, buffers and the hierarchy.
+    void clear();
 
 private:
     template <class Resource>
@@ -66,9 +71,26 @@ private:
             found->second.unused = 0;
             return found->second.resource;
         }
-        if (kept_frames_ == 0) entries.erase(begin, end);  // freed first: both may not fit
-        return entries.emplace(std::string(name), Entry<Resource>{make()})->second.resource;
+        const auto add = [&]() -> const Resource& {
+            return entries.emplace(std::string(name), Entry<Resource>{make()})->second.resource;
+        };
+        if (kept_frames_ == 0) {
+            entries.erase(begin, end);  // freed first: both may not fit
+            return add();
+        }
+        if (std::size_t(std::distance(begin, end)) >= kMostSizes) {
+            const auto oldest = std::max_element(
+                begin, end, [](const auto& a, const auto& b) { return a.second.unused < b.second.unused; });
+            if (oldest->second.unused > 0) entries.erase(oldest);
+        }
+        try {
+            return add();
+        } catch (const TooLarge&) {
+            drop_older_than(0);
+            return add();
+        }
     }
+    void drop_older_than(std::uint32_t unused);
 
     /// The program of key_.
     template <class Make>

@@ -183,7 +183,6 @@ const GpuImage& Frames::Impl::draw_sample(Slot& slot, bool recorded) {
     slot.warnings = prepared->warnings;
     Frame& frame = slot.frame.emplace(of.lit_frame(recorder, settings));
     frame.recorded = recorded;
-    of.workspace.trim();
     std::optional<std::uint32_t> sample;
     if (settings.samples > 1) {
         sample = drawn;
@@ -269,6 +268,7 @@ void Frames::Impl::draw(Slot& slot, const RenderSettings& wanted, const Target& 
         seen = of.changes;
     }
     if (slot.draws) {
+        of.workspace.trim();
         import(slot, background);
         shown = &draw_sample(slot, recorded);
         of.background_radiance = of.background_depth = nullptr;

@@ -214,7 +214,7 @@ void Renderer::Impl::require_no_frames() const {
 void Renderer::Impl::forget_frame() {
     recorder.restart();  // what was recorded may name resources that are gone
     layer_source = LayerSource();
-    for (int i = 0; i < 2; ++i) workspace.trim();  // the first marks everything as unused
+    workspace.clear();
 }
 
 Renderer::Renderer(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options, options)) { begin(); }

@@ -5,7 +5,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <vector>
@@ -41,6 +43,22 @@ TEST_F(RecorderTest, MismatchesNameShaderAndPass) {
         },
         ThrowsMessage<std::logic_error>(HasSubstr("push constants")));
     recorder().restart();
+}
+
+TEST_F(RecorderTest, WorkspacesKeepFewSizes) {
+    workspace().keep(64);
+    std::vector<std::weak_ptr<const void>> made;
+    for (std::uint32_t side = 1; side <= 40; ++side) {
+        workspace().trim();
+        made.push_back(workspace().image("i", vk::Format::eR32Uint, {side, side}).held());
+        const auto kept = std::ranges::count_if(made, [](const auto& image) { return !image.expired(); });
+        EXPECT_LE(std::size_t(kept), Workspace::kMostSizes);
+    }
+    workspace().image("i", vk::Format::eR32Uint, {37, 37});
+    EXPECT_FALSE(made[36].expired());
+    workspace().clear();
+    EXPECT_TRUE(std::ranges::all_of(made, [](const auto& image) { return image.expired(); }));
+    workspace().keep(0);
 }
 
 TEST_F(RecorderTest, OrdersDependentCommands) {
