@@ -3,6 +3,7 @@
 
 // What extensions of glTF add to opaque surfaces (pellucid::Finish), as src/reference/finished_bsdf.h has it.
 // Needs: finishes (FinishRecord[]), gpu/coat.glsl, gpu/tangents.glsl.
+#include "gpu/largest.glsl"
 #include "gpu/sheen.glsl"
 #include "gpu/thin_film.glsl"
 
@@ -22,12 +23,10 @@ struct Layers {
 
 const Layers kNoLayers = Layers(0.0, 0.0, vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, 0.0, vec3(1.0, 0.0, 0.0));
 
-// Share of light that a clear coat reflects.
+// Share of light that a clear coat reflects; 0 where there is none.
 float coat_share(Layers layers, vec3 to_viewer) {
     return layers.coat * mix(kCoatAtNormal, 1.0, schlick_weight(clamp(dot(layers.coat_normal, to_viewer), 0.0, 1.0)));
 }
-
-float largest_of(vec3 v) { return max(v.r, max(v.g, v.b)); }
 
 // Light reflected by facets, BRDF times cosine over Fresnel reflectance, for directions on the normal's side. GGX with
 // Smith's shadowing, heights correlated; widths along x and y of `frame_`, whose z is the normal.

@@ -7,17 +7,15 @@ vec4 texel_at(uint texture_index, TexturedPoint point) {
     return sample_texture(texture_index, point.texcoords.xy, point.texcoords.zw);
 }
 
-// The finish, but for the coat's normal, which stays `smooth_` (unit, on the viewer's side) without a texture; `normal`:
-// tilted by the material's texture. `side`: -1 where the viewer sees the back.
-Layers layers_of(FinishRecord finish, TexturedPoint point, ObjectRecord object, vec3 smooth_, vec3 normal, float side, vec3 to_viewer) {
+// The coat and the fibres. `outward`: unit, interpolated. `side`: -1 where the viewer sees the back.
+Layers layers_of(FinishRecord finish, TexturedPoint point, ObjectRecord object, vec3 outward, float side, vec3 to_viewer) {
     Layers layers = kNoLayers;
     layers.coat = finish.clearcoat;
     if (layers.coat > 0.0) {
         layers.coat *= texel_at(finish.clearcoat_texture, point).r;
         layers.coat_roughness = finish.clearcoat_roughness * texel_at(finish.clearcoat_roughness_texture, point).g;
-        vec3 outward = side * smooth_;
-        vec3 tilted = tilted_normal(point, object, outward, finish.clearcoat_normal_texture, finish.clearcoat_normal_scale);
-        layers.coat_normal = tilted != outward ? mirroring_above(side * tilted, point, to_viewer) : smooth_;
+        layers.coat_normal = seen_normal(point, object, outward, side, finish.clearcoat_normal_texture,
+                                         finish.clearcoat_normal_scale, to_viewer);
     }
     if (finish.sheen.rgb != vec3(0.0)) {
         layers.sheen = finish.sheen.rgb * texel_at(finish.sheen_color_texture, point).rgb;
@@ -56,12 +54,12 @@ void apply_boundary(FinishRecord finish, TexturedPoint point, float ior, float m
     float grazing = ior > 1.0 ? specular : 0.0;
     surface.at_normal = mix(dielectric, base, metallic);
     surface.at_grazing = mix(vec3(grazing), vec3(greaterThan(base, vec3(0.0))), metallic);
-    surface.boundary = vec2(largest_of(dielectric), grazing);
+    surface.boundary = vec2(largest(dielectric), grazing);
     if (finish.iridescence == 0.0) return;
     float share = finish.iridescence * texel_at(finish.iridescence_texture, point).r;
     float thickness = mix(finish.film_thinnest_nm, finish.film_thickest_nm, texel_at(finish.film_thickness_texture, point).g);
     vec3 film = film_reflectance(cos_viewer, finish.film_ior, thickness, surface.at_normal);
-    float over_diffuse = largest_of(film_reflectance(cos_viewer, finish.film_ior, thickness, vec3(surface.boundary.x)));
+    float over_diffuse = largest(film_reflectance(cos_viewer, finish.film_ior, thickness, vec3(surface.boundary.x)));
     surface.at_normal = mix(surface.at_normal, film, share);
     surface.at_grazing = mix(surface.at_grazing, film, share);
     surface.boundary = mix(surface.boundary, vec2(over_diffuse), share);
@@ -86,13 +84,11 @@ OpaqueSurface opaque_surface(MaterialRecord material, vec3 base, TexturedPoint p
     surface.layers = kNoLayers;
     if (!kFinishes) return surface;
     if (frame.occlusion != 0u) surface.occlusion = mix(1.0, texel_at(material.occlusion_texture, point).r, material.occlusion_strength);
-    vec3 smooth_ = normal;
     float side = dot(normal, outward) < 0.0 ? -1.0 : 1.0;
-    vec3 tilted = tilted_normal(point, object, outward, material.normal_texture, material.normal_scale);
-    if (tilted != outward) normal = mirroring_above(side * tilted, point, to_viewer);
+    normal = seen_normal(point, object, outward, side, material.normal_texture, material.normal_scale, to_viewer);
     if (material.finish == PELLUCID_NO_FINISH) return surface;
     FinishRecord finish = finishes[material.finish];
-    surface.layers = layers_of(finish, point, object, smooth_, normal, side, to_viewer);
+    surface.layers = layers_of(finish, point, object, outward, side, to_viewer);
     vec3 along;
     surface.layers.stretch = stretch_of(finish, point, object, normal, side, surface.roughness * surface.roughness, along);
     surface.layers.along = along;

@@ -48,13 +48,30 @@ vec4 facet_reflection(float cos_theta, float roughness) {
 
 bool has_sheen(OpaqueSurface surface) { return kFinishes && surface.layers.sheen != vec3(0.0); }
 
+// Perceptual roughness of the base's lobe. Facets of two widths count as those of the width between.
+float round_roughness(OpaqueSurface surface) {
+    if (!kFinishes || surface.layers.stretch == 0.0) return surface.roughness;
+    return pow(max(surface.roughness * surface.roughness, kLeastStretched) * surface.layers.stretch, 0.25);
+}
+
+// The surface without lobes around mirror directions: the base and the clear coat count as perfect mirrors, which
+// opaque_reflection() leaves out.
+OpaqueSurface without_base_lobe(OpaqueSurface surface) {
+    surface.roughness = surface.layers.stretch = 0.0;
+    return surface;
+}
+OpaqueSurface without_lobes(OpaqueSurface surface) {
+    surface.layers.coat_roughness = 0.0;
+    return without_base_lobe(surface);
+}
+
 // What layers leave of light on its way from the base to the viewer.
 float under_layers(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
-    float left = 1.0;
-    if (kFinishes && surface.layers.coat > 0.0) left -= coat_share(surface.layers, to_viewer);
+    if (!kFinishes) return 1.0;
+    float left = 1.0 - coat_share(surface.layers, to_viewer);
     if (has_sheen(surface)) {
         float albedo = facet_reflection(dot(normal, to_viewer), surface.layers.sheen_roughness).a;
-        left *= 1.0 - largest_of(surface.layers.sheen) * min(albedo, 1.0);
+        left *= 1.0 - largest(surface.layers.sheen) * min(albedo, 1.0);
     }
     return left;
 }
@@ -105,9 +122,7 @@ vec3 opaque_facet_radiance(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
     if (surface.at_grazing == vec3(0.0)) return vec3(0.0);
     float cos_theta = clamp(dot(normal, to_viewer), 1e-4, 1.0);
     bool stretched = kFinishes && surface.layers.stretch > 0.0;
-    // Facets of two widths reflect about as much as those of the width between.
-    float alpha = surface.roughness * surface.roughness;
-    vec3 facets = facet_reflection(cos_theta, stretched ? pow(max(alpha, kLeastStretched) * surface.layers.stretch, 0.25) : surface.roughness).rgb;
+    vec3 facets = facet_reflection(cos_theta, round_roughness(surface)).rgb;
     vec3 light = stretched ? fan_radiance(surface, normal, to_viewer, cos_theta, facets.z)
                            : lobe_radiance(normal, to_viewer, cos_theta, surface.roughness, facets.z);
     vec3 reflected = (surface.at_normal * facets.x + surface.at_grazing * facets.y) * light;
@@ -127,8 +142,7 @@ vec3 coat_radiance(OpaqueSurface surface, vec3 to_viewer) {
 vec3 sheen_radiance(OpaqueSurface surface, vec3 normal, vec3 to_viewer) {
     Layers layers = surface.layers;
     float albedo = min(facet_reflection(dot(normal, to_viewer), layers.sheen_roughness).a, 1.0);
-    float under_coat = layers.coat > 0.0 ? 1.0 - coat_share(layers, to_viewer) : 1.0;
-    return surface.occlusion * under_coat * diffuse_radiance(layers.sheen * albedo, normal);
+    return surface.occlusion * (1.0 - coat_share(layers, to_viewer)) * diffuse_radiance(layers.sheen * albedo, normal);
 }
 
 const float kSmoothAlpha = 1e-4;  // below, facets count as a perfect mirror
@@ -153,9 +167,7 @@ vec3 opaque_radiance(OpaqueSurface surface, vec3 normal, vec3 to_viewer, uint sc
 vec3 layer_reflection(OpaqueSurface surface, vec3 normal, vec3 to_viewer, vec3 to_light) {
     Layers layers = surface.layers;
     vec3 reflected = vec3(0.0), m = normalize(to_viewer + to_light);
-    float under_coat = 1.0;
     if (layers.coat > 0.0) {
-        under_coat = 1.0 - coat_share(layers, to_viewer);
         float alpha = layers.coat_roughness * layers.coat_roughness;
         float fresnel = mix(kCoatAtNormal, 1.0, schlick_weight(min(dot(to_viewer, m), 1.0)));
         if (alpha >= kSmoothAlpha && dot(layers.coat_normal, to_light) > 0.0)
@@ -165,7 +177,7 @@ vec3 layer_reflection(OpaqueSurface surface, vec3 normal, vec3 to_viewer, vec3 t
     if (has_sheen(surface)) {
         float cos_viewer = dot(normal, to_viewer), cos_light = dot(normal, to_light);
         float most = max(facet_reflection(cos_viewer, layers.sheen_roughness).a, 1.0);
-        reflected += layers.sheen * (under_coat * cos_light / most *
+        reflected += layers.sheen * ((1.0 - coat_share(layers, to_viewer)) * cos_light / most *
                      sheen_reflection(cos_viewer, cos_light, dot(normal, m), layers.sheen_roughness));
     }
     return reflected;

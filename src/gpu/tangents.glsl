@@ -75,4 +75,10 @@ vec3 mirroring_above(vec3 normal, TexturedPoint point, vec3 to_viewer) {
     return normalize(to_viewer + normalize(mirrored + (kLeastCosine - height) * flat_));
 }
 
+// Unit, on the viewer's side: `outward` (unit, interpolated) with a texture over it. `side`: -1 where the viewer sees the back.
+vec3 seen_normal(TexturedPoint point, ObjectRecord object, vec3 outward, float side, uint texture_index, float scale, vec3 to_viewer) {
+    vec3 tilted = tilted_normal(point, object, outward, texture_index, scale);
+    return tilted != outward ? mirroring_above(side * tilted, point, to_viewer) : side * outward;
+}
+
 #endif

@@ -5,7 +5,9 @@
 const float kMirrorRoughness = 0.3;  // metals below this roughness reflect photons
 
 bool reflects_photons(MaterialRecord material) {
-    return material.metallic > 0.0 && material.roughness < kMirrorRoughness &&
+    // reflect_photon() knows plain metal.
+    bool plain = material.finish == PELLUCID_NO_FINISH && material.normal_texture == PELLUCID_NO_TEXTURE;
+    return plain && material.metallic > 0.0 && material.roughness < kMirrorRoughness &&
            material.metallic_roughness_texture == PELLUCID_NO_TEXTURE && (material.flags & PELLUCID_MATERIAL_UNLIT) == 0u;
 }
 

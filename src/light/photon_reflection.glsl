@@ -27,7 +27,7 @@ vec3 photon_reflection(Photon photon, PhotonReceiver receiver) {
     if (!receiver.reflects) return vec3(1.0);
     vec3 to_light = -unpack_unit_vector(photon.way);
     OpaqueSurface surface = receiver.surface;
-    if (kFullLight && (photon.way & kDiffusePhoton) != 0u) surface.roughness = 0.0;
+    if (kFullLight && (photon.way & kDiffusePhoton) != 0u) surface = without_lobes(surface);
     float cosine = max(dot(unpack_unit_vector(photon.normal), to_light), 1e-3);
     return min(opaque_reflection(surface, receiver.normal, receiver.to_viewer, to_light) / cosine, vec3(kMostReflected));
 }

@@ -150,6 +150,8 @@ std::optional<BsdfSample> FinishedBsdf::sample(const glm::dvec3& wo, Random& ran
             return mirror(point_.coat_normal, glm::dvec3(coat_reflectance(coat_cosine(wo)) / share.coat));
         const glm::dvec3 o = wo * coat_frame_;
         sample.wi = coat_frame_ * mirrored(o, coat_facets_.sample_visible(o, random.next2()));
+        // evaluate() has no coat there.
+        if (glm::dot(sample.wi, point_.coat_normal) <= 0.0) return std::nullopt;
     } else if (choice < share.coat + share.facets) {
         if (smooth_)
             return mirror({0.0, 0.0, 1.0}, reflectance(wo.z) * (below_coat(wo) * below_fibres(wo) / share.facets));

@@ -10,10 +10,11 @@
 namespace pellucid {
 namespace {
 
-/// Twin of mirrors() in end_photons.comp.
+/// Twin of reflects_photons() in photon_mirrors.glsl.
 bool mirrors(const Material& material) {
     return !material.transmissive() && !material.unlit && material.metallic > 0.0f && material.roughness < 0.3f &&
-           material.metallic_roughness_texture.image < 0;
+           material.metallic_roughness_texture.image < 0 && material.normal_texture.image < 0 &&
+           material.finish.plain();
 }
 
 bool bends_light(const Material& material) { return material.refractive() || mirrors(material); }

@@ -49,7 +49,8 @@ double albedo(const FinishedPoint& point, double cos_o) {
 FinishedPoint white(double roughness = 0.5) { return {.base = glm::dvec3(1.0), .roughness = roughness}; }
 
 TEST(Finishes, SamplesAndDensitiesAgree) {
-    FinishedPoint coated = white(), cloth = white(), brushed = white(0.3), film = white(), tilted = white();
+    FinishedPoint coated = white(), cloth = white(), brushed = white(0.3), film = white(), tilted = white(),
+                  rough_coat = white();
     coated.coat = 1.0;
     coated.coat_roughness = 0.4;
     cloth.sheen = glm::dvec3(0.8);
@@ -61,8 +62,11 @@ TEST(Finishes, SamplesAndDensitiesAgree) {
     tilted.coat = 1.0;
     tilted.coat_roughness = 0.5;
     tilted.coat_normal = glm::normalize(glm::dvec3(0.2, 0.1, 1.0));
+    rough_coat.base = glm::dvec3(0.0);
+    rough_coat.coat = rough_coat.coat_roughness = 1.0;
+    rough_coat.coat_normal = glm::normalize(glm::dvec3(0.6, 0.0, 1.0));
     int number = 0;
-    for (const FinishedPoint& point : {coated, cloth, brushed, film, tilted}) {
+    for (const FinishedPoint& point : {coated, cloth, brushed, film, tilted, rough_coat}) {
         for (const double cos_o : {0.3, 0.9})
             EXPECT_NEAR(sampled_albedo(point, cos_o), albedo(point, cos_o), 0.015)
                 << "surface " << number << ", cosine " << cos_o;

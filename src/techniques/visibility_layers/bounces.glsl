@@ -41,9 +41,7 @@ Bounce outer_bounce(OpaquePoint point, vec3 to_viewer, vec2 u, inout float choic
     OpaqueSurface surface = point.surface;
     if (!kFinishes) return facet_bounce(point.normal, surface.roughness, surface.at_normal, surface.at_grazing, to_viewer, u);
     Layers layers = surface.layers;
-    float roughness = layers.stretch > 0.0 ? pow(max(surface.roughness * surface.roughness, kLeastStretched) * layers.stretch, 0.25)
-                                           : surface.roughness;
-    Bounce base = facet_bounce(point.normal, roughness, surface.at_normal, surface.at_grazing, to_viewer, u);
+    Bounce base = facet_bounce(point.normal, round_roughness(surface), surface.at_normal, surface.at_grazing, to_viewer, u);
     base.weight *= under_layers(surface, point.normal, to_viewer);
     if (layers.coat == 0.0) return base;
     Bounce coat = facet_bounce(layers.coat_normal, layers.coat_roughness, vec3(layers.coat * kCoatAtNormal), vec3(layers.coat), to_viewer, u);

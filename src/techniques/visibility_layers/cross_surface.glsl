@@ -33,18 +33,21 @@ struct Surface {
 
 vec3 map_vector(utextureBuffer vectors, int number) { return uintBitsToFloat(texelFetch(vectors, number)).xyz; }
 
+// Texture coordinates, both sets.
+vec4 texcoords_at(Surface surface) {
+    vec4 texcoords = vec4(0.0);
+    for (uint k = 0u; k < 3u; ++k) texcoords += surface.weights[k] * vertex_texcoords(indices[surface.corner + k]);
+    return texcoords;
+}
+
 // The normal with the material's texture, bent as little as the ray needs to be mirrored above the triangle.
 vec3 textured_normal(Surface surface, ObjectRecord object, vec3 edge_b, vec3 edge_c, vec3 direction) {
     MaterialRecord material = materials[surface.material];
     if (material.normal_texture == PELLUCID_NO_TEXTURE) return surface.normal;
     uvec3 v = uvec3(indices[surface.corner], indices[surface.corner + 1u], indices[surface.corner + 2u]);
-    vec4 texcoords = vec4(0.0);
-    for (int k = 0; k < 3; ++k) texcoords += surface.weights[k] * vertex_texcoords(v[k]);
-    TexturedPoint point = TexturedPoint(v, surface.weights, edge_b, edge_c, texcoords);
-    vec3 tilted = tilted_normal(point, object, surface.normal, material.normal_texture, material.normal_scale);
-    if (tilted == surface.normal) return tilted;
+    TexturedPoint point = TexturedPoint(v, surface.weights, edge_b, edge_c, texcoords_at(surface));
     float side = dot(surface.geometric, direction) < 0.0 ? 1.0 : -1.0;
-    return side * mirroring_above(side * tilted, point, -direction);
+    return side * seen_normal(point, object, surface.normal, side, material.normal_texture, material.normal_scale, -direction);
 }
 
 Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
@@ -76,13 +79,6 @@ Surface surface_at(uint triangle, uint object, vec3 origin, vec3 direction) {
                               o.first_corner + 3u * (triangle - o.first_triangle), weights, curvature);
     if (kTexturedGlass) surface.normal = textured_normal(surface, o, edge_b, edge_c, direction);
     return surface;
-}
-
-// Texture coordinates, both sets.
-vec4 texcoords_at(Surface surface) {
-    vec4 texcoords = vec4(0.0);
-    for (uint k = 0u; k < 3u; ++k) texcoords += surface.weights[k] * vertex_texcoords(indices[surface.corner + k]);
-    return texcoords;
 }
 
 // What the surface leaves of light that passes it: base colour times transmission. w: its alpha, where that is coverage,

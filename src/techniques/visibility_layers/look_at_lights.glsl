@@ -25,7 +25,7 @@ vec3 unshadowed_light(uint number, ivec2 texel, PathState state, OpaquePoint poi
     if (light.irradiance == vec3(0.0)) return vec3(0.0);
     OpaqueSurface surface = point.surface;
     // Photons bring what metal throws on the surface from which the path has come: here it counts as a perfect mirror.
-    if (kPhotons && mirrors_photons(state, point) && (number < direct_lights || kPhotonsOfEmitters)) surface.roughness = 0.0;
+    if (kPhotons && mirrors_photons(state, point) && (number < direct_lights || kPhotonsOfEmitters)) surface = without_lobes(surface);
     return state.path.transmittance * light.irradiance *
            opaque_reflection(surface, point.normal, -state.path.direction, light.to_light);
 }
@@ -49,10 +49,7 @@ SkyLook look_to_sky(ivec2 texel, PathState state, OpaquePoint point, uint number
 // the environment chooses. Elsewhere one look-up stands for the lobe.
 const float kWideAlpha = 0.25;
 
-bool looks_by_facets(OpaquePoint point) {
-    float alpha = point.surface.roughness * point.surface.roughness;
-    return kConverges && kEnvironmentRays && alpha >= kWideAlpha;
-}
+bool looks_by_facets(float roughness) { return kConverges && kEnvironmentRays && roughness * roughness >= kWideAlpha; }
 
 // `weight`: what the ray brings if nothing hides the environment there.
 void push_sky_ray(PathState state, SkyLook look, OpaquePoint point, vec3 weight) {
@@ -68,10 +65,16 @@ const float kStrongFacets = 0.1;  // Reflectance head-on from which facets need 
 void look_at_environment(ivec2 texel, PathState state, OpaquePoint point, float open) {
     vec3 to_viewer = -state.path.direction, diffuse = state.path.transmittance * diffuse_albedo(point, to_viewer);
     OpaqueSurface surface = point.surface;
-    bool facets = looks_by_facets(point);
-    add_light(texel, state.mark, (open - 1.0) * diffuse * detailed_diffuse_radiance(point.normal));
-    if (facets) add_light(texel, state.mark, -state.path.transmittance * opaque_facet_radiance(surface, point.normal, to_viewer));
-    else surface.roughness = 0.0;
+    bool facets = looks_by_facets(round_roughness(surface));
+    vec3 by_rays = vec3(0.0);  // counted as if nothing hid the environment, and brought by the rays below
+    if (facets) by_rays += opaque_facet_radiance(surface, point.normal, to_viewer);
+    else surface = without_base_lobe(surface);
+    if (kFinishes && kConverges) {
+        if (has_sheen(surface)) by_rays += sheen_radiance(surface, point.normal, to_viewer);
+        if (surface.layers.coat > 0.0 && looks_by_facets(surface.layers.coat_roughness)) by_rays += coat_radiance(surface, to_viewer);
+        else surface.layers.coat_roughness = 0.0;
+    }
+    add_light(texel, state.mark, (open - 1.0) * diffuse * detailed_diffuse_radiance(point.normal) - state.path.transmittance * by_rays);
     bool noisy = (open > kHardlyOpen && open < kHardlyHidden) || (facets && largest(surface.at_normal) > kStrongFacets);
     uint rays = noisy ? kMostSkyRays : 1u;
     for (uint k = 0u; k < rays; ++k) {

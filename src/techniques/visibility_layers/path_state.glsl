@@ -3,6 +3,7 @@
 
 // Paths between two passes: one per pixel is on its way, those that have branched off it wait; in world space.
 // Needs: techniques/refraction.glsl.
+#include "gpu/largest.glsl"
 
 layout(std430, set = 0, binding = 10) buffer PathPlaces { vec4 path_places[]; };    // w: bits of the triangle there
 layout(std430, set = 0, binding = 11) buffer PathWays { vec4 path_ways[]; };        // direction; length inside, m
@@ -64,8 +65,6 @@ const uint kFromDiffuse = 65536u;  // reflected diffusely; since then by nothing
 const uint kScatteredShift = 17u, kScatteredMask = 3u << kScatteredShift;  // times that it was scattered: none, one, more
 const uint kBent = 1u << 19u;   // mirrored or refracted since
 const uint kBounceShift = 11u, kBounceMask = 7u << kBounceShift;  // diffuse reflections so far
-
-float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
 
 bool has_mark(PathState state, uint bits) { return (state.mark & bits) != 0u; }
 
