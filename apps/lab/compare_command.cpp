@@ -223,6 +223,18 @@ std::set<std::string> all_warnings(const Comparison& comparison) {
     return warnings;
 }
 
+/// Samples of the truth, or the fewest where the differences between techniques choose them.
+std::uint32_t truth_samples(const CompareArguments& arguments) {
+    const bool all_light = find_technique(arguments.truth).all_light;
+    return all_light ? arguments.truth_samples.value_or(kTruthSamples) : arguments.samples;
+}
+
+std::string describe_truth(const CompareArguments& arguments, std::uint32_t most) {
+    const std::uint32_t least = truth_samples(arguments);
+    return fmt::format("{}, samples per pixel: {}{}", arguments.truth, least,
+                       most > least ? fmt::format(" to {}", most) : "");
+}
+
 void compare_scene(Comparison& comparison, const std::string& name) {
     Scene scene;
     const auto load = [&] { scene = load_given_scene(name, comparison.arguments.how, comparison.arguments.console); };
@@ -251,6 +263,7 @@ void compare_scene(Comparison& comparison, const std::string& name) {
     }
     comparison.json["warnings"] = all_warnings(comparison);
     if (comparison.noise.samples > 0) comparison.json["truth_samples"] = comparison.noise.samples;
+    comparison.json["image_truth"] = describe_truth(comparison.arguments, comparison.noise.samples);
     save(comparison);  // after every scene, so that a bad one later loses nothing
 }
 
@@ -282,18 +295,6 @@ RenderSettings settings_of(const CompareArguments& arguments) {
     // Exact paths are shaded in the light of the environment.
     if (!find_technique(arguments.truth).all_light) settings.light.transport = LightTransport::kEnvironment;
     return settings;
-}
-
-/// Samples of the truth, or the fewest where the differences between techniques choose them.
-std::uint32_t truth_samples(const CompareArguments& arguments) {
-    const bool all_light = find_technique(arguments.truth).all_light;
-    return all_light ? arguments.truth_samples.value_or(kTruthSamples) : arguments.samples;
-}
-
-std::string describe_truth(const CompareArguments& arguments, std::uint32_t most) {
-    const std::uint32_t least = truth_samples(arguments);
-    return fmt::format("{}, samples per pixel: {}{}", arguments.truth, least,
-                       most > least ? fmt::format(" to {}", most) : "");
 }
 
 /// Says before any work what could not be drawn.

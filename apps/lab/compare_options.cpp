@@ -1,7 +1,10 @@
 #include "lab/compare_options.h"
 
+#include "lab/image_truth.h"
 #include "options/help.h"
 #include "options/named_technique.h"
+
+#include <fmt/format.h>
 
 namespace pellucid::cli {
 
@@ -32,7 +35,10 @@ void add_compare_options(CLI::App& command, CompareArguments& a) {
         ->capture_default_str()
         ->type_name("NAME");
     add_number(command, "--truth-samples", a.truth_samples,
-               "Paths per pixel of --truth path; default: 64 to 256, as the differences between techniques need");
+               fmt::format("Paths per pixel of --truth path; default: {} to {}, as the differences between "
+                           "techniques need",
+                           kTruthSamples, kMostTruthSamples))
+        ->type_name("N");
     add_display_options(command, a.tonemap, a.exposure_ev);
     add_environment_options(command, a.environment);
     add_light_options(command, a.light);

@@ -91,7 +91,9 @@ class Compare(CliTest):
         content = json.loads(self.read("runs.json"))
         straight, whole = content["runs"]
         self.assertEqual(content["truth"], "path")
-        self.assertEqual(content["truth_samples"], straight["truth_samples"])
+        samples = content["truth_samples"]
+        self.assertEqual(samples, straight["truth_samples"])
+        self.assertEqual(content["image_truth"], f"path, samples per pixel: 16{f' to {samples}' if samples > 16 else ''}")
         self.assertLess(whole["flip_mean"], straight["flip_mean"])
         difference = straight["flip_mean"] - whole["flip_mean"]
         # Twice the samples until the noise is a third of the difference; or a warning.
