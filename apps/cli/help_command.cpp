@@ -17,40 +17,30 @@
 namespace pellucid::cli {
 namespace {
 
-constexpr std::size_t kColumns = 100;
-constexpr std::size_t kRowIndent = 26;  ///< of the second column of a topic's rows
+constexpr std::size_t kNames = 16;  ///< columns
 
 struct HelpArguments {
     std::string topic;
     bool json = false;
 };
 
-std::vector<CLI::App*> commands_of(CLI::App& app) {
-    return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
+/// Rows have been wrapped before.
 void print_wrapped(const std::string& text) {
     std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) {
-        const bool is_row = line.starts_with("  ") && line.size() > kRowIndent && line[kRowIndent - 1] == ' ';
-        if (is_row)
-            fmt::print("{}{}\n", line.substr(0, kRowIndent),
-                       wrapped(line.substr(kRowIndent), kColumns - kRowIndent, kRowIndent));
-        else
-            fmt::print("{}\n", line.size() <= kColumns ? line : wrapped(line, kColumns, 0));
-    }
+    for (std::string line; std::getline(stream, line);)
+        fmt::print("{}\n", line.size() <= kHelpColumns ? line : wrapped(line, kHelpColumns, 0));
 }
 
-void print_topics(CLI::App& app) {
+void print_topics(const CLI::App& app) {
     fmt::print("pellucid help COMMAND or pellucid help TOPIC\n\nCommands:\n");
     for (const CLI::App* command : commands_of(app))
-        fmt::print("  {:<14}{}\n", command->get_name(), command->get_description());
+        fmt::print("{}", help_row(command->get_name(), command->get_description(), kNames));
     fmt::print("\nTopics:\n");
-    for (const Topic& topic : topics()) fmt::print("  {:<14}{}\n", topic.name, topic.summary);
+    for (const Topic& topic : topics()) fmt::print("{}", help_row(topic.name, topic.summary, kNames));
 }
 
 /// All that --help and this command can print.
-void print_json(CLI::App& app) {
+void print_json(const CLI::App& app) {
     nlohmann::ordered_json json{{"version", version()}, {"program", describe_options(app)}};
     for (const CLI::App* command : commands_of(app)) json["commands"].push_back(describe_options(*command));
     for (const Topic& topic : topics())
@@ -58,7 +48,7 @@ void print_json(CLI::App& app) {
     fmt::print("{}\n", json.dump(2));
 }
 
-void print_help(CLI::App& app, const HelpArguments& arguments) {
+void print_help(const CLI::App& app, const HelpArguments& arguments) {
     if (arguments.json) return print_json(app);
     if (arguments.topic.empty()) return print_topics(app);
     std::vector<std::string> names;

@@ -29,7 +29,7 @@ int complain(const std::string& message, int exit_code) {
 /// The parser would only say that a command is missing.
 void check_command(const CLI::App& app, const std::string& command) {
     std::vector<std::string> names;
-    for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* subcommand : pellucid::cli::commands_of(app)) {
         if (subcommand->get_name() == command) return;
         names.push_back(subcommand->get_name());
     }

@@ -17,23 +17,28 @@
 namespace pellucid::cli {
 namespace {
 
-constexpr std::size_t kColumns = 100, kNames = 26;
+constexpr std::size_t kNames = 26;  ///< columns
 
 struct TechniquesArguments {
     std::string name;
     bool json = false;
 };
 
-std::string row(std::string_view name, std::string_view text) {
-    const std::string body = wrapped(text, kColumns - kNames, kNames);
-    return name.size() + 3 > kNames ? fmt::format("  {}\n{:{}}{}\n", name, "", kNames, body)
-                                    : fmt::format("  {:<{}}{}\n", name, kNames - 2, body);
+std::string row(std::string_view name, std::string_view text) { return help_row(name, text, kNames); }
+
+/// ", section 3" of "3", ", sections 2 and 4" of "2 and 4", ", chapter 3" of "chapter 3".
+std::string place_in(std::string_view section) {
+    constexpr std::string_view kDigits = "0123456789.";
+    if (section.empty()) return {};
+    if (kDigits.find(section.front()) == std::string_view::npos) return fmt::format(", {}", section);
+    const bool one = section.find_first_not_of(kDigits) == std::string_view::npos;
+    return fmt::format(", section{} {}", one ? "" : "s", section);
 }
 
 std::string citation(const Source& source) {
     if (source.authors.empty()) return {};
-    return fmt::format("{}: {}. {}, {}{}{}", source.authors, source.title, source.venue, source.year,
-                       source.section.empty() ? "" : ", section ", source.section);
+    return fmt::format("{}: {}. {}, {}{}", source.authors, source.title, source.venue, source.year,
+                       place_in(source.section));
 }
 
 /// What sets a technique apart, in words, by TechniqueInfo's flags.
@@ -81,9 +86,9 @@ void print_list() {
 }
 
 void print_technique(const TechniqueInfo& info) {
-    fmt::print("{}: {}\n", info.name, wrapped(info.summary, kColumns - info.name.size() - 2, 4));
+    fmt::print("{}: {}\n", info.name, wrapped(info.summary, kHelpColumns - info.name.size() - 2, 4));
     if (const std::string source = citation(info.source); !source.empty())
-        fmt::print("Source: {}\n", wrapped(source, kColumns - 8, 4));
+        fmt::print("Source: {}\n", wrapped(source, kHelpColumns - 8, 4));
     fmt::print("\nDraws:\n");
     for (const std::string_view trait : traits(info)) fmt::print("  {}\n", trait);
     fmt::print("\nParameters:{}\n", info.parameters.empty() ? " none" : "");
@@ -129,11 +134,14 @@ nlohmann::ordered_json as_json(const TechniqueInfo& info) {
 }
 
 void print_json(const std::string& name) {
-    nlohmann::ordered_json json{{"version", version()}, {"techniques", nlohmann::ordered_json::array()}};
+    nlohmann::ordered_json json{{"version", version()},
+                                {"techniques", nlohmann::ordered_json::array()},
+                                {"presets", nlohmann::ordered_json::array()}};
     for (const TechniqueInfo* info : techniques())
         if (name.empty() || info->name == name) json["techniques"].push_back(as_json(*info));
     for (const PresetInfo& preset : presets())
-        json["presets"].push_back({{"name", preset.name}, {"summary", preset.summary}});
+        if (name.empty() || preset.name == name)
+            json["presets"].push_back({{"name", preset.name}, {"summary", preset.summary}});
     fmt::print("{}\n", json.dump(2));
 }
 
@@ -143,7 +151,7 @@ void show(const TechniquesArguments& arguments) {
     if (arguments.name.empty()) return print_list();
     for (const PresetInfo& preset : presets())
         if (preset.name == arguments.name)
-            return fmt::print("{}: a preset: {}\n", preset.name, wrapped(preset.summary, kColumns - 20, 4));
+            return fmt::print("{}: a preset: {}\n", preset.name, wrapped(preset.summary, kHelpColumns - 20, 4));
     print_technique(find_technique(arguments.name));
 }
 

@@ -2,6 +2,7 @@
 
 #include "lab/bench_suites.h"
 #include "lab/experiments.h"
+#include "options/help.h"
 #include "options/translucency_options.h"
 
 #include <pellucid/pellucid.h>
@@ -15,8 +16,7 @@
 namespace pellucid::cli {
 namespace {
 
-/// "  NAME  TEXT\n", the names in one column.
-std::string row(std::string_view name, std::string_view text) { return fmt::format("  {:<24}{}\n", name, text); }
+std::string row(std::string_view name, std::string_view text) { return help_row(name, text, 26); }
 
 std::string scenes() {
     return "A scene is a .gltf, .glb, .obj, .ply, .stl, .off, .3ds or .vdb file, shape:NAME[,PARAMETER=VALUE...] "

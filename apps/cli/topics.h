@@ -10,7 +10,7 @@ namespace pellucid::cli {
 struct Topic {
     std::string_view name;
     std::string_view summary;  ///< a few words
-    std::string (*text)();     ///< paragraphs and lists; long lines are wrapped where they are printed
+    std::string (*text)();     ///< paragraphs and lists; long lines of paragraphs are wrapped where they are printed
 };
 
 std::span<const Topic> topics();

@@ -12,7 +12,7 @@
 namespace pellucid::cli {
 namespace {
 
-constexpr std::size_t kColumns = 100, kNames = 32;
+constexpr std::size_t kNames = 32;  ///< columns
 
 /// "FILE", without what checks add behind a colon.
 std::string type_of(const CLI::Option& option) {
@@ -43,13 +43,7 @@ std::string text_of(const CLI::Option& option) {
     return option.get_description() + (value.empty() ? "" : fmt::format(" (default {})", value));
 }
 
-std::string row(const std::string& name, const std::string& text) {
-    const std::string head = fmt::format("  {:<{}}", name, kNames - 2);
-    const std::string body = wrapped(text, kColumns - kNames, kNames);
-    return head.size() > kNames || head.back() != ' '
-               ? fmt::format("  {}\n{}{}\n", name, std::string(kNames, ' '), body)
-               : head + body + "\n";
-}
+std::string row(std::string_view name, std::string_view text) { return help_row(name, text, kNames); }
 
 std::string command_name(const CLI::App& app) {
     return app.get_parent() ? command_name(*app.get_parent()) + " " + app.get_name() : app.get_name();
@@ -67,7 +61,7 @@ std::string usage(const CLI::App& app) {
         else
             optional = true;
     }
-    if (!app.get_subcommands([](const CLI::App*) { return true; }).empty()) line += " COMMAND ...";
+    if (!commands_of(app).empty()) line += " COMMAND ...";
     return line + (optional ? " [OPTIONS]" : "");
 }
 
@@ -120,6 +114,16 @@ std::string wrapped(std::string_view text, std::size_t columns, std::size_t inde
     return lines;
 }
 
+std::string help_row(std::string_view name, std::string_view text, std::size_t names) {
+    const std::string body = wrapped(text, kHelpColumns - names, names);
+    return name.size() + 3 > names ? fmt::format("  {}\n{:{}}{}\n", name, "", names, body)
+                                   : fmt::format("  {:<{}}{}\n", name, names - 2, body);
+}
+
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
 void use_short_help(CLI::App& app) {
     app.formatter_fn([](const CLI::App* of, const std::string&, CLI::AppFormatMode) { return make_help(*of); });
 }
@@ -129,8 +133,8 @@ void set_examples(CLI::App& command, const std::vector<std::string_view>& exampl
 }
 
 std::string make_help(const CLI::App& app) {
-    std::string help = fmt::format("Usage: {}\n{}\n", usage(app), wrapped(app.get_description(), kColumns, 0));
-    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    std::string help = fmt::format("Usage: {}\n{}\n", usage(app), wrapped(app.get_description(), kHelpColumns, 0));
+    const std::vector<const CLI::App*> commands = commands_of(app);
     if (!commands.empty()) help += "\nCommands (each has --help):\n";
     for (const CLI::App* command : commands) help += row(command->get_name(), command->get_description());
     std::string positionals;

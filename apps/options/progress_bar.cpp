@@ -54,11 +54,6 @@ void ProgressBar::show(double share) {
     share_ = share;
 }
 
-void ProgressBar::set_label(std::string label) {
-    const std::lock_guard lock(mutex_);
-    label_ = std::move(label);
-}
-
 void ProgressBar::clear() {
     {
         const std::lock_guard lock(mutex_);

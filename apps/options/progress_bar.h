@@ -28,7 +28,6 @@ public:
     /// For the functions that report progress; the bar must outlive it.
     Progress progress();
     void show(double share);
-    void set_label(std::string label);
     /// Ends the step, and leaves the line as if nothing had been there.
     void clear();
 

@@ -114,10 +114,19 @@ class Techniques(CliTest):
                     self.assertRegex(text, rf"--{parameter['name']} .*?default {re.escape(default)}\)")
                     for name in names.values():
                         self.assertRegex(text, rf" = {name}\b")
-        only, = self.described("wang-2014")["techniques"]
-        self.assertEqual((only["name"], only["source"]["year"]), ("wang-2014", 2014))
+        only = self.described("wang-2014")
+        self.assertEqual([(each["name"], each["source"]["year"]) for each in only["techniques"]], [("wang-2014", 2014)])
+        self.assertEqual(only["presets"], [])
+        only = self.described("fast")
+        self.assertEqual((only["techniques"], [each["name"] for each in only["presets"]]), ([], ["fast"]))
         self.assertIn("a preset", self.run_cli("techniques", "fast").stdout)
         self.assert_refused(self.run_cli("techniques", "wang-2015"), "did you mean wang-2014?")
+
+    def test_place_in_a_source(self):
+        text = " ".join(self.run_cli("techniques").stdout.split())
+        for place in ("1979, sections 2 and 4", "2005, section 3", "2007, sections 3, 4.1, 5.3", "2014, chapter 3"):
+            self.assertIn(f", {place} ", text)
+        self.assertNotRegex(text, r"sections? [^\d]")
 
     def test_choices_take_names(self):
         pictures, values = {}, {}
