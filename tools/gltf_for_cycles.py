@@ -4,7 +4,6 @@ import base64
 import json
 import math
 import struct
-from pathlib import Path
 from urllib.parse import unquote
 
 FORMATS = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
