@@ -3,10 +3,14 @@
 #include <pellucid/image.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace pellucid {
+
+/// Pixels of the largest image that is read, or made of others.
+inline constexpr std::int64_t kMaxPixels = std::int64_t(1) << 28;
 
 /// Image files, read and written by OpenImageIO in a shared library of its own. Some 240 libraries stand behind
 /// OpenImageIO, which take 0.15 s to load, so the module is loaded with the first image.

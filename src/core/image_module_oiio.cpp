@@ -13,8 +13,6 @@
 namespace pellucid {
 namespace {
 
-constexpr std::int64_t kMaxPixels = std::int64_t(1) << 28;
-
 std::string cause_or(const std::string& message, const char* otherwise) {
     return message.empty() ? otherwise : message;
 }

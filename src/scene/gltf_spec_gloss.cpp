@@ -3,12 +3,14 @@
 // diffuse colour, where dielectrics reflect 0.04.
 #include "scene/gltf_spec_gloss.h"
 
+#include "core/image_module.h"
 #include "scene/gltf_properties.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace pellucid {
 namespace {
@@ -113,6 +115,13 @@ bool SpecularGlossiness::read(const tinygltf::Material& from, const std::string&
         warnings_.add(
             fmt::format("{}: specular-glossiness texture lies elsewhere than the diffuse one, its mean is used", user));
     }
+    if (!images.mean && !fit_together(images, user)) {
+        images.mean = true;
+        warnings_.add(fmt::format(
+            "{}: diffuse and specular-glossiness texture together make more than 2^28 pixels, the mean of the second "
+            "is used",
+            user));
+    }
     Texture both = images.diffuse >= 0 ? diffuse_texture : gloss_texture;
     const auto [base_color, metallic_roughness] = converted(images, factors, user);
     material.base_color = glm::vec4(1.0f, 1.0f, 1.0f, factors.diffuse.a);
@@ -122,6 +131,13 @@ bool SpecularGlossiness::read(const tinygltf::Material& from, const std::string&
     both.image = metallic_roughness;
     material.metallic_roughness_texture = both;
     return true;
+}
+
+bool SpecularGlossiness::fit_together(const Images& images, const std::string& user) {
+    if (images.diffuse < 0 || images.specular_glossiness < 0) return true;
+    const Image& a = *textures_.images().decoded(images.diffuse, user);
+    const Image& b = *textures_.images().decoded(images.specular_glossiness, user);
+    return std::int64_t(std::max(a.width, b.width)) * std::max(a.height, b.height) <= kMaxPixels;
 }
 
 std::pair<int, int> SpecularGlossiness::converted(const Images& images, const Factors& factors,

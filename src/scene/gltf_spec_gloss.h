@@ -34,6 +34,8 @@ private:
         int diffuse = -1, specular_glossiness = -1;  ///< of the file
         bool mean = false;                           ///< of the second only its mean is used
     };
+    /// Whether the pixels of both, of the larger width and height, are no more than kMaxPixels.
+    bool fit_together(const Images& images, const std::string& user);
     std::pair<int, int> converted(const Images& images, const Factors& factors, const std::string& user);
 
     const GltfFile& gltf_;

@@ -187,6 +187,23 @@ TEST(SpecularGlossiness, TexturesAreConvertedTexelByTexel) {
     EXPECT_EQ(warnings_with(load_scene(b.gltf(folder)), "its mean is used"), 1u);
 }
 
+TEST(SpecularGlossiness, TexturesThatWouldMakeAGiantAreNotCombined) {
+    const TemporaryFolder folder;
+    json material;
+    material["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {{"diffuseTexture", {{"index", 0}}},
+                                                                     {"specularGlossinessTexture", {{"index", 1}}}};
+    GltfBuilder b = with_material(material);
+    write_image(folder / "wide.png", Image(65535, 1, 3));
+    write_image(folder / "high.png", Image(1, 65535, 3));
+    b.root["images"] = {{{"uri", "wide.png"}}, {{"uri", "high.png"}}};
+    b.root["textures"] = {{{"source", 0}}, {{"source", 1}}};
+    const Scene scene = load_scene(b.gltf(folder));
+    EXPECT_EQ(warnings_with(scene, "make more than 2^28 pixels, the mean of the second is used"), 1u);
+    ASSERT_EQ(scene.images.size(), 2u);
+    EXPECT_EQ(scene.images[0].width, 65535);
+    EXPECT_EQ(scene.images[0].height, 1);
+}
+
 // --- files ----------------------------------------------------------------------------------------------
 
 TEST(GltfFiles, ChunksThatAreNotFilledUp) {

@@ -181,6 +181,27 @@ TEST_F(ObjMaterials, Textures) {
         1u);
 }
 
+TEST_F(ObjMaterials, WideCutOuts) {
+    Image color(50000, 1, 3), cover(50000, 1, 1);
+    color.at(49999, 0)[1] = cover.at(49999, 0)[0] = 1.0f;
+    write_image(folder_ / "color.png", color);
+    write_image(folder_ / "cover.png", cover);
+    const Scene wide = load("map_Kd color.png\nmap_d cover.png");
+    ASSERT_EQ(wide.images.size(), 1u);
+    for (const int x : {0, 44000, 49998, 49999}) {
+        const float expected = x == 49999 ? 1.0f : 0.0f;
+        EXPECT_EQ(wide.images[0].at(x, 0)[1], expected) << x;
+        EXPECT_EQ(wide.images[0].at(x, 0)[3], expected) << x;
+    }
+    // Together they would have 4 G pixels.
+    write_image(folder_ / "wide.png", Image(65535, 1, 1));
+    write_image(folder_ / "high.png", Image(1, 65535, 1));
+    const Scene apart = load("map_Kd wide.png\nmap_d high.png");
+    ASSERT_EQ(apart.images.size(), 1u);
+    EXPECT_EQ(apart.images[0].height, 1);
+    EXPECT_EQ(warnings_with(apart, "make more than 2^28"), 1u);
+}
+
 TEST_F(ObjMaterials, LibrariesAndNames) {
     const std::string glass = "Ni 1.2\nillum 4\n";
     folder_.file("my materials.mtl", "newmtl deep blue\n" + glass);

@@ -1,6 +1,8 @@
 #include "scene/mesh_files/mtl_materials.h"
 
-#include <pellucid/error.h>
+#include "core/fail.h"
+#include "core/image_module.h"
+
 #include <pellucid/image.h>
 
 #include <fmt/format.h>
@@ -8,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <exception>
 
 namespace pellucid {
 namespace {
@@ -34,7 +38,13 @@ public:
         const std::string name = fmt::format("{} with alpha of {}", color.file.string(), cover.file.string());
         const int index = index_of(name, [&] {
             const Image alpha = read_image(cover.file);
-            return with_alpha(color.file.empty() ? Image() : read_image(color.file), alpha);
+            const Image colors = color.file.empty() ? Image() : read_image(color.file);
+            const int width = std::max(colors.width, alpha.width), height = std::max(colors.height, alpha.height);
+            if (std::int64_t(width) * height > kMaxPixels)
+                fail(cover.file,
+                     fmt::format("its {} x {} pixels and the {} x {} of {} make more than 2^28", alpha.width,
+                                 alpha.height, colors.width, colors.height, color.file.string()));
+            return with_alpha(colors, alpha);
         });
         return index < 0 ? read(color) : placed(color.file.empty() ? cover : color, index);
     }
@@ -52,7 +62,7 @@ private:
         if (known != scene_.image_names.end()) return int(known - scene_.image_names.begin());
         try {
             scene_.images.push_back(make());
-        } catch (const Error& error) {
+        } catch (const std::exception& error) {
             warnings_.add(fmt::format("material {}: texture left out: {}", user_, error.what()));
             return -1;
         }
@@ -65,7 +75,8 @@ private:
         for (int y = 0; y < result.height; ++y) {
             for (int x = 0; x < result.width; ++x) {
                 const auto texel = [&](const Image& image) {
-                    return image.at(x * image.width / result.width, y * image.height / result.height);
+                    return image.at(int(std::int64_t(x) * image.width / result.width),
+                                    int(std::int64_t(y) * image.height / result.height));
                 };
                 float* const out = result.at(x, y);
                 for (int k = 0; k < 3; ++k)
