@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 
 namespace pellucid {
@@ -97,14 +96,6 @@ std::optional<glm::mat3> rec709_from_exr(const std::filesystem::path& file, std:
     // Primaries in one line, or none: no colours could be told by them.
     if (!(sum < 100.0)) fail(file, "the chromaticities in its header are no colours; remove them or save it anew");
     return glm::mat3(result);
-}
-
-std::vector<std::byte> first_bytes(const std::filesystem::path& file) {
-    std::vector<std::byte> bytes(std::size_t(1) << 16);
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
-    bytes.resize(std::size_t(stream.gcount()));
-    return bytes;
 }
 
 void convert_colors(Image& image, const glm::mat3& rec709_from_rgb) {

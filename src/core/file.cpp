@@ -62,6 +62,14 @@ std::vector<std::byte> read_file(const std::filesystem::path& file) {
     return bytes;
 }
 
+std::vector<std::byte> first_bytes(const std::filesystem::path& file, std::size_t count) {
+    std::vector<std::byte> bytes(count);
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
+    bytes.resize(std::size_t(stream.gcount()));
+    return bytes;
+}
+
 // Reports exact causes, where libraries that write would only report "could not open".
 void check_writable(const std::filesystem::path& file) {
     if (!file.has_filename()) fail(file, "names no file");

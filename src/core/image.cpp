@@ -33,7 +33,7 @@ Image read_image(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) fail(file, "no such file");
     if (!std::filesystem::is_regular_file(file, error)) fail(file, "is not a regular file");
-    const std::optional<glm::mat3> rec709_from_stored = rec709_from_exr(file, first_bytes(file));
+    const std::optional<glm::mat3> rec709_from_stored = rec709_from_exr(file, first_bytes(file, kExrHead));
     Image image;
     check(file, image_module().read(file.string(), image));
     if (rec709_from_stored) convert_colors(image, *rec709_from_stored);

@@ -2,6 +2,7 @@
 #include "scene/gltf_draco.h"
 
 #include "core/fail.h"
+#include "scene/gltf_properties.h"
 
 #include <pellucid/error.h>
 
@@ -82,14 +83,14 @@ public:
     void decode(tinygltf::Primitive& primitive, const tinygltf::Value& extension, const std::string& user) {
         if (!extension.Has("bufferView") || !extension.Has("attributes") || !extension.Get("attributes").IsObject())
             throw Error("the extension names no buffer view or no attributes");
-        const int view = extension.Get("bufferView").GetNumberAsInt();
+        const int view = gltf_integer(extension.Get("bufferView"));
         const std::unique_ptr<draco::Mesh> mesh = decode_mesh(gltf_.view(view, user));
         std::map<std::string, int> attributes = primitive.attributes;
         const tinygltf::Value& ids = extension.Get("attributes");
         for (const std::string& name : ids.Keys()) {
             const tinygltf::Value& id = ids.Get(name);
             const draco::PointAttribute* const attribute =
-                id.IsNumber() ? mesh->GetAttributeByUniqueId(std::uint32_t(id.GetNumberAsInt())) : nullptr;
+                id.IsNumber() ? mesh->GetAttributeByUniqueId(std::uint32_t(gltf_integer(id))) : nullptr;
             if (!attribute) throw Error(fmt::format("there is no attribute {} in it", name));
             const auto given = primitive.attributes.find(name);
             if (given == primitive.attributes.end()) continue;

@@ -15,7 +15,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 
 namespace pellucid {
@@ -137,10 +136,8 @@ void read_images(GltfFile& gltf, const json& root) {
 
 bool GltfImage::is_ktx2() const {
     constexpr std::string_view kMagic = "\xabKTX 20\xbb";
-    if (file.empty()) return text_of(view.empty() ? std::span<const std::byte>(bytes) : view).starts_with(kMagic);
-    std::string head(kMagic.size(), ' ');
-    std::ifstream(file, std::ios::binary).read(head.data(), std::streamsize(head.size()));
-    return head == kMagic;
+    if (!file.empty()) return text_of(first_bytes(file, kMagic.size())) == kMagic;
+    return text_of(view.empty() ? std::span<const std::byte>(bytes) : view).starts_with(kMagic);
 }
 
 std::span<const std::byte> GltfFile::view(int buffer_view, const std::string& user) const {

@@ -4,8 +4,10 @@
 #include "core/fail.h"
 #include "core/math.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_properties.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +19,32 @@ constexpr const char* kName = "EXT_mesh_gpu_instancing";
 
 int accessor_of(const tinygltf::Value& attributes, const char* name) {
     if (!attributes.Has(name) || !attributes.Get(name).IsNumber()) return -1;
-    return attributes.Get(name).GetNumberAsInt();
+    return gltf_integer(attributes.Get(name));
+}
+
+/// An accessor without data has zeros, which cost nothing in the file but memory here.
+void check_count(const GltfFile& gltf, int accessor, const std::string& user, std::size_t most) {
+    if (accessor < 0 || std::size_t(accessor) >= gltf.model.accessors.size()) return;  // reported when it is read
+    const tinygltf::Accessor& values = gltf.model.accessors[std::size_t(accessor)];
+    if (values.count > most)
+        fail(gltf.path, fmt::format("{}: its {} instances make more than {} in the scene; join them to one mesh", user,
+                                    values.count, kMostInstances));
+    if (values.bufferView < 0 && !values.sparse.isSparse)
+        fail(gltf.path, fmt::format("{}: accessor {} of its instances has no data", user, accessor));
+}
+
+void warn_of_custom(const tinygltf::Value& attributes, const std::string& user, Warnings& warnings) {
+    std::vector<std::string> names = attributes.Keys();
+    std::erase_if(
+        names, [](const std::string& name) { return name == "TRANSLATION" || name == "ROTATION" || name == "SCALE"; });
+    if (!names.empty())
+        warnings.add(fmt::format("{}: attributes of its instances left out: {}", user, fmt::join(names, ", ")));
 }
 
 }  // namespace
 
 std::optional<std::vector<glm::dmat4>> gltf_instances(const GltfFile& gltf, int node, const std::string& user,
-                                                      Warnings& warnings) {
+                                                      std::size_t most, Warnings& warnings) {
     const tinygltf::Node& from = gltf.model.nodes[std::size_t(node)];
     const auto extension = from.extensions.find(kName);
     if (extension == from.extensions.end() || !extension->second.IsObject() || !extension->second.Has("attributes") ||
@@ -36,6 +57,8 @@ std::optional<std::vector<glm::dmat4>> gltf_instances(const GltfFile& gltf, int 
     const tinygltf::Value& attributes = extension->second.Get("attributes");
     const int translation = accessor_of(attributes, "TRANSLATION"), rotation = accessor_of(attributes, "ROTATION"),
               scale = accessor_of(attributes, "SCALE");
+    for (const int accessor : {translation, rotation, scale}) check_count(gltf, accessor, user, most);
+    warn_of_custom(attributes, user, warnings);
     std::vector<float> translations, rotations, scales;
     if (translation >= 0) translations = read_fractions(gltf, translation, 3, user + " instances TRANSLATION");
     if (rotation >= 0) rotations = read_fractions(gltf, rotation, 4, user + " instances ROTATION");

@@ -2,10 +2,18 @@
 
 #include "scene/tinygltf.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 namespace pellucid {
+
+/// A number as the nearest int. tinygltf's GetNumberAsInt() is undefined for numbers beyond the range of int.
+inline int gltf_integer(const tinygltf::Value& number) {
+    using Limits = std::numeric_limits<int>;
+    return static_cast<int>(std::clamp(number.GetNumberAsDouble(), double(Limits::min()), double(Limits::max())));
+}
 
 /// An extension's JSON object with defaults for what it lacks.
 class GltfProperties {
@@ -34,7 +42,7 @@ public:
         if (!value || !value->IsObject()) return info;
         const auto integer = [&](const char* name, int otherwise) {
             if (!value->Has(name) || !value->Get(name).IsNumber()) return otherwise;
-            return value->Get(name).GetNumberAsInt();
+            return gltf_integer(value->Get(name));
         };
         info.index = integer("index", -1);
         info.texCoord = integer("texCoord", 0);

@@ -94,7 +94,9 @@ std::filesystem::path gltf_uri_file(const std::filesystem::path& path, const std
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     for (const std::string& name : {percent_decoded(uri), uri, slashes}) {
         std::error_code error;
-        if (std::filesystem::exists(folder / name, error)) return folder / name;
+        if (!std::filesystem::exists(folder / name, error)) continue;
+        check_readable(folder / name);
+        return folder / name;
     }
     fail(folder / percent_decoded(uri), "no such file");
 }

@@ -10,7 +10,8 @@ namespace pellucid {
 /// "%20" and the like as the characters that they stand for.
 std::string percent_decoded(const std::string& uri);
 
-/// The file beside the glTF file at `path` that a URI names. Throws Error if it is not there.
+/// The file beside the glTF file at `path` that a URI names. Throws Error if it is not there, or is
+/// no regular file.
 std::filesystem::path gltf_uri_file(const std::filesystem::path& path, const std::string& uri);
 
 /// Content of a data URI, or of a file beside the glTF file at `path`. Throws Error.

@@ -18,9 +18,10 @@
 namespace pellucid {
 namespace {
 
-/// The object's mesh, transformed into the frame of `target`.
+/// The object's mesh, transformed into the frame of `target`. Its tangents are left out; add_tangents() makes them anew.
 Mesh in_frame(const Scene& scene, const Object& object, const Object& target) {
     Mesh mesh = scene.meshes[std::size_t(object.mesh)];
+    mesh.tangents.clear();
     const glm::dmat4 to_target =
         glm::inverse(glm::dmat4(target.world_from_object)) * glm::dmat4(object.world_from_object);
     const glm::dmat3 normals = glm::inverseTranspose(glm::dmat3(to_target));

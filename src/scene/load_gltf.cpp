@@ -152,8 +152,10 @@ private:
         const int mesh = gltf_.model.nodes[std::size_t(node)].mesh;
         if (std::size_t(mesh) >= gltf_.model.meshes.size())
             fail(gltf_.path, fmt::format("{}: there is no mesh {}", name, mesh));
-        const std::optional<std::vector<glm::dmat4>> instances = gltf_instances(gltf_, node, name, warnings_);
+        const std::optional<std::vector<glm::dmat4>> instances =
+            gltf_instances(gltf_, node, name, instances_left_, warnings_);
         if (!instances) return add_parts(meshes, node, name, pose, std::nullopt);
+        instances_left_ -= instances->size();
         for (const glm::dmat4& node_from_mesh : *instances) add_parts(meshes, node, name, pose, node_from_mesh);
     }
 
@@ -280,6 +282,7 @@ private:
     Rig rig_;
     std::vector<int> volume_nodes_;  ///< one per volume object
     int bodies_ = 0;                 ///< given out to objects so far
+    std::size_t instances_left_ = kMostInstances;
 };
 
 }  // namespace

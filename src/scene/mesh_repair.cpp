@@ -177,10 +177,14 @@ SignedVolume signed_volume(std::span<const glm::vec3> positions, std::span<const
     return {volume, glm::length(area) * 0.5 * glm::length(high - low) / 3.0};
 }
 
+void turn_normal(Mesh& mesh, std::size_t vertex) {
+    mesh.normals[vertex] = -mesh.normals[vertex];
+    if (!mesh.tangents.empty()) mesh.tangents[vertex].w = -mesh.tangents[vertex].w;
+}
+
 void turn_inside_out(Mesh& mesh) {
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
-    for (glm::vec3& n : mesh.normals) n = -n;
-    for (glm::vec4& t : mesh.tangents) t.w = -t.w;
+    for (std::size_t v = 0; v < mesh.normals.size(); ++v) turn_normal(mesh, v);
 }
 
 bool normals_oppose_winding(const Mesh& mesh) {
@@ -209,8 +213,7 @@ MeshRepair repair_mesh(Mesh& mesh, const MeshOrigin& origin, Warnings& warnings)
         if (const std::size_t bad = make_normals_valid(mesh))
             warnings.add(fmt::format("{}: {} normals were zero or not finite, made anew", mesh.name, bad));
         if (origin.refractive && normals_oppose_winding(mesh)) {
-            for (glm::vec3& n : mesh.normals) n = -n;
-            for (glm::vec4& t : mesh.tangents) t.w = -t.w;
+            for (std::size_t v = 0; v < mesh.normals.size(); ++v) turn_normal(mesh, v);
             repair.normals_turned = !repair.normals_turned;
             warnings.add(fmt::format("{}: normals pointed inwards, turned", mesh.name));
         }

@@ -51,6 +51,9 @@ struct SignedVolume {
 SignedVolume signed_volume(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles);
 inline SignedVolume signed_volume(const Mesh& mesh) { return signed_volume(mesh.positions, mesh.triangles); }
 
+/// Reverses a vertex normal. The handedness of its tangent follows, if there is one: the bitangent stays.
+void turn_normal(Mesh& mesh, std::size_t vertex);
+
 /// Exchanges inside and outside: reverses winding and normals, if any.
 void turn_inside_out(Mesh& mesh);
 

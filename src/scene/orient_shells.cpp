@@ -125,7 +125,7 @@ void turn(Mesh& mesh, const std::vector<const Shell*>& turned) {
         if (turns[t] != 0) std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
     }
     for (std::size_t v = 0; v < mesh.normals.size(); ++v)
-        if (in_turned[v] != 0 && elsewhere[v] == 0) mesh.normals[v] = -mesh.normals[v];
+        if (in_turned[v] != 0 && elsewhere[v] == 0) turn_normal(mesh, v);
 }
 
 }  // namespace

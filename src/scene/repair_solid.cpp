@@ -204,7 +204,7 @@ std::size_t turn_inward_normals(Mesh& mesh) {
     std::size_t turned = 0;
     for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
         if (!(glm::dot(outward[v], glm::dvec3(mesh.normals[v])) < 0.0)) continue;
-        mesh.normals[v] = -mesh.normals[v];
+        turn_normal(mesh, v);
         ++turned;
     }
     return turned;
@@ -252,7 +252,8 @@ void take_apart(const Mesh& whole, const std::vector<Mesh*>& parts) {
     for (Mesh* part : parts) {
         const auto count = std::uint32_t(part->positions.size());
         std::copy_n(whole.positions.begin() + first, count, part->positions.begin());
-        if (!whole.normals.empty()) std::copy_n(whole.normals.begin() + first, count, part->normals.begin());
+        for (std::uint32_t v = 0; v < count && !whole.normals.empty(); ++v)
+            if (glm::dot(whole.normals[first + v], part->normals[v]) < 0.0f) turn_normal(*part, v);
         part->triangles.clear();
         first += count;
         ends.push_back(first);
@@ -308,7 +309,7 @@ void repair_solid_in_parts(const std::vector<Mesh*>& parts, const std::string& n
     const SolidRepair repair = repair_solid(whole, false, warnings);
     if (repair.inside_out && whole.normals.empty())  // parts that have normals
         for (Mesh* part : parts)
-            for (glm::vec3& n : part->normals) n = -n;
+            for (std::size_t v = 0; v < part->normals.size(); ++v) turn_normal(*part, v);
     take_apart(whole, parts);
 }
 

@@ -78,6 +78,7 @@ TEST(GltfInstances, StandWhereTheirTransformsSay) {
     const TemporaryFolder folder;
     const Scene scene = load_scene(instances().gltf(folder));
     EXPECT_EQ(broken_promise(scene), "");
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{"thing: attributes of its instances left out: _TINT"});
     EXPECT_EQ(scene.meshes.size(), 1u);
     ASSERT_EQ(scene.objects.size(), 3u);
     const glm::vec3 expected[] = {{6, 100, 0}, {0, 101, 0}, {2, 100, 0}};
@@ -114,6 +115,23 @@ TEST(GltfInstances, OddOnesAreRefusedOrDrawnOnce) {
     EXPECT_EQ(warnings_with(scene, "thing: its instances have no transforms"), 1u);
     attributes = {{"TRANSLATION", 99}};
     EXPECT_NE(load_error(b.gltf(folder)).find("there is no accessor 99"), std::string::npos);
+    attributes = {{"TRANSLATION", 1e300}};
+    EXPECT_NE(load_error(b.gltf(folder)).find("there is no accessor 2147483647"), std::string::npos);
+}
+
+TEST(GltfInstances, AreNotMadeOfNothing) {
+    const TemporaryFolder folder;
+    GltfBuilder b = instances();
+    const int accessor =
+        b.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"].get<int>();
+    json& translation = b.root["accessors"][std::size_t(accessor)];
+    const json given = translation;
+    translation.erase("bufferView");
+    EXPECT_NE(load_error(b.gltf(folder)).find("thing: accessor 1 of its instances has no data"), std::string::npos);
+    translation = given;
+    translation["count"] = (1 << 20) + 1;
+    EXPECT_NE(load_error(b.gltf(folder)).find("thing: its 1048577 instances make more than 1048576 in the scene"),
+              std::string::npos);
 }
 
 // --- KHR_node_visibility, KHR_animation_pointer -------------------------------------------------------

@@ -6,6 +6,7 @@
 #include <pellucid/image.h>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -248,6 +249,17 @@ TEST(GltfFiles, UrisInEveryForm) {
         load_error(folder.file("b.gltf", b.root.dump())).find("buffer 0: https://example.org/a.bin: is on a network"),
         std::string::npos);
     EXPECT_EQ(load_error(folder.file("bom.gltf", "\xef\xbb\xbf" + content_of(file))), "");
+}
+
+TEST(GltfFiles, PipesAreNoImages) {
+    const TemporaryFolder folder;
+    GltfBuilder b = with_material(base_color(0));
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    b.root["images"] = {{{"uri", "pipe"}}};
+    b.root["textures"] = {{{"source", 0}}};
+    const Scene scene = load_scene(b.gltf(folder));
+    EXPECT_EQ(warnings_with(scene, "is not a regular file"), 1u);
+    EXPECT_TRUE(scene.images.empty());
 }
 
 TEST(GltfFiles, WholeNumbersMayHaveAPoint) {

@@ -1,4 +1,5 @@
 #include "core/math.h"
+#include "test_bytes.h"
 #include "test_files.h"
 #include "test_meshes.h"
 
@@ -8,11 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace pellucid {
 namespace {
 
+using test::append;
 using test::broken_promise;
 using test::load_error;
 using test::TemporaryFolder;
@@ -25,14 +26,6 @@ std::string obj_of(const Mesh& mesh) {
     return text;
 }
 
-template <typename T>
-void put(std::string& bytes, T value, bool big_endian = false) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    if (big_endian) std::reverse(raw, raw + sizeof(T));
-    bytes.append(raw, sizeof(T));
-}
-
 std::string ply_of(const Mesh& mesh, const std::string& format) {
     std::string ply = fmt::format(
         "ply\ncomment before the format\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
@@ -43,14 +36,14 @@ std::string ply_of(const Mesh& mesh, const std::string& format) {
         if (format == "ascii")
             ply += fmt::format("{} {} {}\n", p.x, p.y, p.z);
         else
-            for (int k = 0; k < 3; ++k) put(ply, p[k], big);
+            for (int k = 0; k < 3; ++k) append(ply, p[k], big);
     }
     for (const glm::uvec3 t : mesh.triangles) {
         if (format == "ascii") {
             ply += fmt::format("3 {} {} {}\n", t.x, t.y, t.z);
         } else {
-            put(ply, std::uint8_t(3));
-            for (int k = 0; k < 3; ++k) put(ply, std::int32_t(t[k]), big);
+            append(ply, std::uint8_t(3));
+            for (int k = 0; k < 3; ++k) append(ply, std::int32_t(t[k]), big);
         }
     }
     return ply;
@@ -58,14 +51,14 @@ std::string ply_of(const Mesh& mesh, const std::string& format) {
 
 std::string stl_of(const Mesh& mesh, bool binary) {
     std::string stl = binary ? std::string(80, ' ') : "solid cube\n";
-    if (binary) put(stl, std::uint32_t(mesh.triangles.size()));
+    if (binary) append(stl, std::uint32_t(mesh.triangles.size()));
     for (const glm::uvec3 t : mesh.triangles) {
         const glm::vec3 n = test::face_normal(mesh, t);
         if (binary) {
-            for (int k = 0; k < 3; ++k) put(stl, n[k]);
+            for (int k = 0; k < 3; ++k) append(stl, n[k]);
             for (int c = 0; c < 3; ++c)
-                for (int k = 0; k < 3; ++k) put(stl, mesh.positions[t[c]][k]);
-            put(stl, std::uint16_t(0));
+                for (int k = 0; k < 3; ++k) append(stl, mesh.positions[t[c]][k]);
+            append(stl, std::uint16_t(0));
         } else {
             stl += fmt::format("facet normal {} {} {}\nouter loop\n", n.x, n.y, n.z);
             for (int c = 0; c < 3; ++c) {
@@ -256,6 +249,47 @@ TEST(LoadMeshFile, RealMeshesHaveTheirCounts) {
         EXPECT_EQ(warnings_with(scene, known.warning), *known.warning ? 1u : 0u);
         EXPECT_EQ(scene.warnings.empty(), *known.warning == '\0') << scene.warnings[0];
     }
+}
+
+/// A chunk of a 3DS file.
+std::string chunk(std::uint16_t id, const std::string& content) {
+    std::string bytes;
+    append(bytes, id);
+    append(bytes, std::uint32_t(content.size() + 6));
+    return bytes + content;
+}
+
+/// A 3DS file of the mesh, whose triangles take turns with these materials.
+std::string three_ds_of(const Mesh& mesh, const std::vector<std::string>& materials) {
+    const auto count = [](std::size_t number) {
+        std::string bytes;
+        append(bytes, std::uint16_t(number));
+        return bytes;
+    };
+    std::string library, vertices = count(mesh.positions.size()), faces = count(mesh.triangles.size());
+    for (const glm::vec3 p : mesh.positions)
+        for (int k = 0; k < 3; ++k) append(vertices, p[k]);
+    for (const glm::uvec3 t : mesh.triangles) faces += count(t.x) + count(t.y) + count(t.z) + count(0);
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+        const std::string name = materials[m] + '\0';
+        library += chunk(0xafff, chunk(0xa000, name));
+        std::string group;
+        for (std::size_t t = m; t < mesh.triangles.size(); t += materials.size()) group += count(t);
+        faces += chunk(0x4130, name + count(group.size() / 2) + group);
+    }
+    const std::string object = chunk(0x4100, chunk(0x4110, vertices) + chunk(0x4120, faces));
+    return chunk(0x4d4d, chunk(0x3d3d, library + chunk(0x4000, std::string("cube") + '\0' + object)));
+}
+
+TEST(LoadMeshFile, MaterialsOf3dsGiveAWarning) {
+    const TemporaryFolder folder;
+    const Scene one = load_scene(folder.file("one.3ds", three_ds_of(test::cube(), {"a"})));
+    EXPECT_EQ(broken_promise(one), "");
+    EXPECT_EQ(one.triangle_count(), 12u);
+    EXPECT_TRUE(one.warnings.empty()) << one.warnings[0];
+    const Scene two = load_scene(folder.file("two.3ds", three_ds_of(test::cube(), {"a", "b"})));
+    EXPECT_EQ(two.triangle_count(), 12u);
+    EXPECT_EQ(warnings_with(two, "two.3ds: its 2 materials are not used: the whole file is glass"), 1u);
 }
 
 TEST(LoadMeshFile, Glmark2Models) {

@@ -1,6 +1,7 @@
 // Valid mesh files as programs write them: each gives the same cube, without a word. And what is refused, with reasons.
 #include "scene/mesh_files/triangulate_polygon.h"
 #include "scene/mesh_repair.h"
+#include "test_bytes.h"
 #include "test_files.h"
 
 #include <gtest/gtest.h>
@@ -8,12 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <functional>
 
 namespace pellucid {
 namespace {
 
+using test::append;
 using test::broken_promise;
 using test::load_error;
 using test::TemporaryFolder;
@@ -31,14 +32,6 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += by.size())
         text.replace(at, what.size(), by);
     return text;
-}
-
-template <class T>
-void append(std::string& bytes, T value, bool big_endian = false) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    if (big_endian) std::reverse(raw, raw + sizeof(T));
-    bytes.append(raw, sizeof(T));
 }
 
 std::string utf16(const std::string& text, bool big_endian, bool mark) {
@@ -358,6 +351,8 @@ TEST(MeshFormats, StlAsProgramsWriteIt) {
     expect_cube(folder, "zeros.stl", binary_stl(std::string(80, '\0')));
     for (const std::uint32_t count : {0u, 0xffffffffu})
         expect_cube(folder, "uncounted.stl", binary_stl("a", count), "all 12 that it has are read");
+    expect_cube(folder, "more.stl", binary_stl("a") + std::string(100, '\0'),
+                "announces 12 triangles; the 2 that follow them are left out");
 }
 
 TEST(MeshFormats, StlIsRefusedWithAPlace) {

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace pellucid::test {
@@ -151,6 +152,48 @@ TEST(RepairSolid, TrianglesFollowTheirNeighbours) {
     EXPECT_EQ(mesh.normals, normals);
 }
 
+/// Gives every vertex a tangent.
+Mesh with_tangents(Mesh mesh) {
+    for (const glm::vec3 n : mesh.normals) mesh.tangents.emplace_back(n.y, n.z, n.x, 1.0f);
+    return mesh;
+}
+
+/// A mesh that is wound inside out where `triangles` says so, or everywhere, with its normals.
+Mesh turned(Mesh mesh, std::size_t first, std::size_t end) {
+    for (std::size_t t = first; t < end; ++t) {
+        std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
+        for (int k = 0; k < 3; ++k) turn_normal(mesh, mesh.triangles[t][k]);
+    }
+    return mesh;
+}
+
+TEST(RepairSolid, TangentsFollowNormals) {
+    const Mesh right = with_tangents(with_flat_normals(cube()));
+    const Mesh pair = with_tangents(with_flat_normals(joined(cube(), cube(1.0f, {3, 0, 0}))));
+    for (const auto& [good, first, end] :
+         {std::tuple(right, 0, 12), std::tuple(pair, 12, 24), std::tuple(right, 2, 3)}) {
+        Mesh mesh = turned(good, std::size_t(first), std::size_t(end));
+        EXPECT_NE(mesh.tangents, good.tangents);
+        EXPECT_EQ(repaired(mesh).size(), 1u);
+        EXPECT_EQ(mesh.normals, good.normals);
+        EXPECT_EQ(mesh.tangents, good.tangents) << first;
+    }
+    // The same in parts, of which one may lack normals.
+    for (const bool normals : {true, false}) {
+        Mesh lid = turned(right, 0, 12), rest = lid;
+        lid.triangles.resize(2);
+        rest.triangles.erase(rest.triangles.begin(), rest.triangles.begin() + 2);
+        if (!normals) lid.normals.clear(), lid.tangents.clear();
+        Warnings warnings;
+        repair_solid_in_parts({&lid, &rest}, "cube", warnings);
+        EXPECT_EQ(rest.normals, right.normals);
+        EXPECT_EQ(rest.tangents, right.tangents);
+        if (normals) {
+            EXPECT_EQ(lid.tangents, right.tangents);
+        }
+    }
+}
+
 TEST(RepairSolid, ShellsThatStickOutAreNoCavities) {
     // Every middle of a side of the inward cube lies in the ball, its corners do not.
     Mesh ball = load_scene("shape:sphere").meshes.front();
@@ -226,6 +269,7 @@ TEST(JoinOpenObjects, FacesOfOneCubeBecomeABody) {
     add(scene, rest, glass(), glm::translate(glm::mat4(1.0f), glm::vec3(2, 0, 0)));
     for (glm::vec3& p : lid.positions) p += glm::vec3(2, 0, 0);  // the same place, in another frame
     add(scene, lid, glass());
+    for (Mesh& mesh : scene.meshes) mesh.tangents.assign(mesh.positions.size(), glm::vec4(1.0f));
     Scene moving = scene, apart = scene;
     Warnings warnings;
     warnings.add("rest: 4 boundary edges, 0 non-manifold edges: not a closed solid, refraction there is approximate");
@@ -234,6 +278,8 @@ TEST(JoinOpenObjects, FacesOfOneCubeBecomeABody) {
               std::vector<std::string>{"rest and lid: open surfaces that close each other, joined to one solid"});
     EXPECT_EQ(find_bodies(scene).all.size(), 1u);
     EXPECT_TRUE(find_bodies(scene).all[0].surface->shells.all_closed());
+    for (const Object& object : scene.objects)
+        EXPECT_TRUE(scene.meshes[std::size_t(object.mesh)].tangents.empty()) << "those were of another frame";
 
     Warnings none;
     join_open_objects(moving, {1, 0}, none);

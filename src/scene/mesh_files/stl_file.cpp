@@ -104,6 +104,9 @@ PolygonFile read_binary(const std::filesystem::path& file, std::string_view byte
         fail(file, fmt::format("STL: announces {} triangles, has {} in its {} bytes (truncated?)", announced, held,
                                bytes.size()));
     if (count == 0) fail(file, "STL: no facets");
+    if (count < held)
+        warnings.add(fmt::format("{}: announces {} triangles; the {} that follow them are left out",
+                                 file.filename().string(), announced, held - count));
     if (count > kNoIndex / 3) fail(file, "STL: more than 2^32 corners");
     PolygonFile content;
     content.single_precision = true;

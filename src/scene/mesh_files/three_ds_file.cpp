@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -85,7 +86,7 @@ void append_part(const std::filesystem::path& file, const aiMesh& part, const gl
 
 }  // namespace
 
-PolygonFile read_3ds(const std::filesystem::path& file, const std::vector<std::byte>& bytes, Warnings&) {
+PolygonFile read_3ds(const std::filesystem::path& file, const std::vector<std::byte>& bytes, Warnings& warnings) {
     check_first_chunk(file, bytes);
     Assimp::Importer importer;
     importer.SetIOHandler(new NoFiles);  // the importer owns it
@@ -103,6 +104,11 @@ PolygonFile read_3ds(const std::filesystem::path& file, const std::vector<std::b
             append_part(file, *scene->mMeshes[node->mMeshes[i]], world, content);
         for (unsigned i = node->mNumChildren; i-- > 0;) open.emplace_back(node->mChildren[i], world);
     }
+    std::set<unsigned> materials;
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) materials.insert(scene->mMeshes[i]->mMaterialIndex);
+    if (materials.size() > 1)
+        warnings.add(fmt::format("{}: its {} materials are not used: the whole file is glass", file.filename().string(),
+                                 materials.size()));
     return content;
 }
 
