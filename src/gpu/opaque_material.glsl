@@ -24,7 +24,7 @@ Layers layers_of(FinishRecord finish, TexturedPoint point, ObjectRecord object, 
     return layers;
 }
 
-// Width of facets along `along`, from the width across; 0: the lobe is round.
+// Width of facets along `along`, from the width across; 0: the lobe is round, as where texture coordinates say no direction.
 float stretch_of(FinishRecord finish, TexturedPoint point, ObjectRecord object, vec3 normal, float side, float alpha, out vec3 along) {
     along = vec3(0.0);
     float strength = finish.anisotropy;
@@ -42,8 +42,8 @@ float stretch_of(FinishRecord finish, TexturedPoint point, ObjectRecord object, 
     vec2 turn = vec2(finish.anisotropy_cosine, finish.anisotropy_sine);
     direction = vec2(turn.x * direction.x - turn.y * direction.y, turn.y * direction.x + turn.x * direction.y);
     mat3 frame_ = texture_frame(point, object, side * normal, second_set, known);
-    along = known ? frame_ * vec3(direction, 0.0) : tangent_frame(normal)[0];
-    return strength > 0.0 ? max(mix(alpha, 1.0, strength * strength), kLeastStretched) : 0.0;
+    along = frame_ * vec3(direction, 0.0);
+    return known && strength > 0.0 ? max(mix(alpha, 1.0, strength * strength), kLeastStretched) : 0.0;
 }
 
 // Reflectance of the boundary as extensions change it. A film's is taken at the viewer's angle to the normal.

@@ -233,7 +233,10 @@ FinishedBsdf PathWalk::finished_bsdf(const Vertex& vertex, const glm::dvec3& bas
         const glm::dvec3 along =
             frame ? to_local * (*frame * glm::dvec3(texels.anisotropy_direction, 0.0)) : glm::dvec3(0.0);
         const double length = glm::length(glm::dvec2(along));
-        if (length > 0.0) point.along = glm::dvec2(along) / length;
+        if (length > 0.0)
+            point.along = glm::dvec2(along) / length;
+        else
+            point.anisotropy = 0.0;  // nothing says the direction
     }
     return FinishedBsdf(point);
 }

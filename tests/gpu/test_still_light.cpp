@@ -6,6 +6,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <fmt/format.h>
+
 #include <string>
 
 namespace pellucid::test {
@@ -77,6 +79,27 @@ TEST_P(StillLight, WideFacetsReflectTheEnvironmentAsThePathTracerHasIt) {
         SCOPED_TRACE(metallic);
         set(scene_of(square(), facets(metallic > 0.0f ? 0.7f : 1.0f, metallic)), half_bright());
         expect_that_of_path("direct", 64, 512, 0.02);
+    }
+}
+
+// Layers over a black base: coats with narrow and wide lobes, cloth, brushed metal. What rays bring of the environment is not
+// counted a second time. The tolerance is that of one look-up for a narrow lobe (tests/gpu/test_finishes.cpp).
+TEST_P(StillLight, LayersReflectTheEnvironmentOnce) {
+    Material narrow = facets(1.0f, 0.0f), wide = narrow, cloth = narrow, brushed = facets(0.3f, 1.0f);
+    narrow.finish.clearcoat = wide.finish.clearcoat = 1.0f;
+    narrow.finish.clearcoat_roughness = 0.1f;
+    wide.finish.clearcoat_roughness = 0.8f;
+    cloth.finish.sheen_color = glm::vec3(0.9f);
+    cloth.finish.sheen_roughness = 0.6f;
+    brushed.finish.anisotropy = 0.9f;
+    Mesh mesh = square();
+    for (const glm::vec3 p : mesh.positions) mesh.texcoords[0].emplace_back(p.y, -p.x);  // brushed along y
+    for (const Material& material : {narrow, wide, cloth, brushed}) {
+        SCOPED_TRACE(fmt::format("coat {} of roughness {}, sheen {}, anisotropy {}", material.finish.clearcoat,
+                                 material.finish.clearcoat_roughness, material.finish.sheen_color.r,
+                                 material.finish.anisotropy));
+        set(scene_of(mesh, material), half_bright());
+        expect_that_of_path("direct", 40, 128, 0.13);
     }
 }
 
