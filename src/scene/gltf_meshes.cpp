@@ -333,6 +333,7 @@ void GltfMeshes::warn_about_leftovers() {
     if (points_or_lines_ > 0)
         warnings_.add(fmt::format("{}: {} primitive{} of points or lines left out", file, points_or_lines_,
                                   points_or_lines_ == 1 ? "" : "s"));
+    solid_glass_.warn();
 }
 
 }  // namespace pellucid

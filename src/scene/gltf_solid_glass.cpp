@@ -4,11 +4,14 @@
 #include "scene/shells.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 namespace pellucid {
 namespace {
+
+constexpr std::size_t kMostNames = 4;  // in a warning
 
 bool closed(const std::vector<SolidGlass::Part>& parts) {
     std::vector<glm::vec3> positions;
@@ -40,11 +43,7 @@ void SolidGlass::apply(const std::vector<Part>& primitives) {
 void SolidGlass::apply_closed(const Part& part) {
     const Material& thin = scene_.materials[std::size_t(*part.material)];
     if (!make_) {
-        if (hinted_.insert(*part.material).second)
-            warnings_.add(
-                fmt::format("material {}: without a volume it is drawn as thin sheets that do not bend light; "
-                            "{} is closed, --solid makes it solid glass",
-                            thin.name, part.mesh->name));
+        thin_.insert(*part.material);
         return;
     }
     const auto known = twin_.find(*part.material);
@@ -61,6 +60,22 @@ void SolidGlass::apply_closed(const Part& part) {
     scene_.materials.push_back(std::move(solid));
     twin_[*part.material] = twin;
     *part.material = twin;
+}
+
+void SolidGlass::warn() {
+    if (thin_.empty()) return;
+    std::vector<std::string> names;
+    for (const int material : thin_) names.push_back(scene_.materials[std::size_t(material)].name);
+    std::string more;
+    if (names.size() > kMostNames) {
+        more = fmt::format(" and {} more", names.size() - kMostNames);
+        names.resize(kMostNames);
+    }
+    const bool one = names.size() == 1;
+    warnings_.add(
+        fmt::format("material{} {}{}: without a volume {} drawn as thin sheets that do not bend light; the "
+                    "meshes are closed, --solid makes them solid glass",
+                    one ? "" : "s", fmt::join(names, ", "), more, one ? "it is" : "they are"));
 }
 
 }  // namespace pellucid

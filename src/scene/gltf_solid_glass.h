@@ -14,7 +14,7 @@ namespace pellucid {
 /// mean solid glass by them.
 class SolidGlass {
 public:
-    /// `make`: LoadOptions::solid; else a warning says that there is this option.
+    /// `make`: LoadOptions::solid.
     SolidGlass(bool make, Scene& scene, Warnings& warnings) : make_(make), scene_(scene), warnings_(warnings) {}
 
     struct Part {
@@ -23,6 +23,8 @@ public:
     };
     /// For the primitives of one mesh, which may be closed together only.
     void apply(const std::vector<Part>& primitives);
+    /// Says once for all materials that there is the option, where it is not chosen.
+    void warn();
 
 private:
     void apply_closed(const Part& part);
@@ -31,7 +33,7 @@ private:
     Scene& scene_;
     Warnings& warnings_;
     std::map<int, int> twin_;  ///< of solid glass, by material
-    std::set<int> hinted_;
+    std::set<int> thin_;       ///< materials of closed meshes that stay thin
 };
 
 }  // namespace pellucid

@@ -4,6 +4,7 @@
 #include "scene/gltf_spec_gloss.h"
 
 #include "core/image_module.h"
+#include "core/srgb.h"
 #include "scene/gltf_properties.h"
 
 #include <fmt/format.h>
@@ -40,9 +41,6 @@ MetalRough convert(const glm::vec3& diffuse, const glm::vec3& specular) {
     const float share = metallic * metallic;
     return {glm::clamp(from_diffuse * (1.0f - share) + from_specular * share, 0.0f, 1.0f), metallic};
 }
-
-float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
-float srgb_from_linear(float v) { return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f; }
 
 glm::vec4 texel(const Image& image, int x, int y) {
     const float* const t = image.at(std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1));

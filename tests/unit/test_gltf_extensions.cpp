@@ -199,6 +199,23 @@ TEST(SolidGlass, ClosedMeshesWithoutAVolumeGiveAHint) {
     for (const Object& object : scene.objects) EXPECT_FALSE(scene.materials[std::size_t(object.material)].refractive());
 }
 
+TEST(SolidGlass, OneHintNamesAFewOfManyMaterials) {
+    const TemporaryFolder folder;
+    GltfBuilder b = cube_without_volume();
+    for (int i = 1; i < 6; ++i) {
+        b.root["materials"].push_back(b.root["materials"][0]);
+        b.root["materials"][std::size_t(i)]["name"] = "pane " + std::to_string(i);
+        json mesh = b.root["meshes"][0];
+        mesh["primitives"][0]["material"] = i;
+        b.root["meshes"].push_back(mesh);
+        b.root["nodes"][0]["children"].push_back(b.root["nodes"].size());
+        b.root["nodes"].push_back({{"mesh", b.root["meshes"].size() - 1}});
+    }
+    const Scene scene = load_scene(b.gltf(folder));
+    EXPECT_EQ(warnings_with(scene, "--solid"), 1u);
+    EXPECT_EQ(warnings_with(scene, "materials window, pane 1, pane 2, pane 3 and 2 more: without a volume"), 1u);
+}
+
 TEST(SolidGlass, TheOptionMakesClosedMeshesSolidAndOpenOnesStayThin) {
     const TemporaryFolder folder;
     LoadOptions solid;

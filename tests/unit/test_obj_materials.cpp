@@ -285,6 +285,16 @@ TEST_F(ObjMaterials, ColoursOfVertices) {
     EXPECT_EQ(scene.meshes[0].colors[1], glm::vec4(1.0f));
 }
 
+TEST_F(ObjMaterials, ColoursOfVerticesAreBytesInTheWholeFile) {
+    folder_.file("a.mtl", "newmtl a\nKd 1 1 1\n");
+    const std::string text = "mtllib a.mtl\nusemtl a\nv 0 0 0 1 0 1\nv 1 0 0 255 128 0\nv 0 1 0\nf 1 2 3\n";
+    const Scene scene = load_scene(folder_.file("a.obj", text));
+    ASSERT_EQ(scene.meshes.at(0).colors.size(), 3u);
+    EXPECT_NEAR(scene.meshes[0].colors[0].r, 1.0f / 255.0f / 12.92f, 1e-6f);
+    EXPECT_NEAR(scene.meshes[0].colors[1].g, 0.2158605f, 1e-5f);
+    EXPECT_EQ(scene.meshes[0].colors[2], glm::vec4(1.0f));
+}
+
 TEST_F(ObjMaterials, ReportedScene) {
     const std::filesystem::path file = test::data_folder() / "reports/21-scene.obj";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "PELLUCID_TEST_DATA names no folder with reports/21-scene.obj";

@@ -1,5 +1,6 @@
 // Wavefront OBJ ("Object Files (.obj)", Advanced Visualizer Manual, appendix B1).
 #include "core/fail.h"
+#include "core/srgb.h"
 #include "scene/mesh_files/read_mesh_files.h"
 #include "scene/mesh_files/text_file.h"
 
@@ -14,10 +15,7 @@
 namespace pellucid {
 namespace {
 
-float linear_from_srgb(double value) {
-    const double x = value >= 0.0 ? std::min(value, 1.0) : 0.0;
-    return float(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
-}
+constexpr float kEncoded = 2.0f;  // alpha of a colour that is not decoded yet
 
 /// Elements of one kind that faces refer to, and the greatest number by which they did.
 struct References {
@@ -38,6 +36,7 @@ public:
             line_ = lines.number();
             read_line(line);
         }
+        decode_colors();
         check_references();
         warn();
         return std::move(content_);
@@ -97,10 +96,19 @@ private:
         const bool colored = count == 6 || count == 7;
         if (!colored && content_.colors.empty()) return;
         content_.colors.resize(content_.positions.size() - 1, glm::vec4(1.0f));
-        glm::vec4 color(1.0f);
-        const double full = *std::max_element(v.begin() + 3, v.begin() + 6) > 1.0 ? 255.0 : 1.0;  // some write bytes
-        for (int k = 0; colored && k < 3; ++k) color[k] = linear_from_srgb(v[std::size_t(3 + k)] / full);
-        content_.colors.push_back(color);
+        content_.colors.push_back(colored ? glm::vec4(v[3], v[4], v[5], kEncoded) : glm::vec4(1.0f));
+    }
+
+    /// Some programs write bytes, which one number above 1 shows.
+    void decode_colors() {
+        const bool bytes = std::any_of(content_.colors.begin(), content_.colors.end(), [](const glm::vec4& c) {
+            return std::max({c.r, c.g, c.b}) > 1.0f;
+        });
+        for (glm::vec4& color : content_.colors) {
+            if (color.a != kEncoded) continue;
+            for (int k = 0; k < 3; ++k) color[k] = linear_from_srgb(bytes ? color[k] / 255.0f : color[k]);
+            color.a = 1.0f;
+        }
     }
 
     void read_normal(Words& words) {

@@ -44,10 +44,9 @@ public:
         Triangles triangles;
         std::size_t at = 0, without_ear = 0;
         while (left_.size() > 3) {
-            // A polygon that crosses itself may have no ear left, and takes long to show it: its corners are then taken as
-            // they come.
-            const bool forced = without_ear > left_.size() || tests_ > kMostTests;
-            if (forced || is_ear(at)) {
+            // A polygon that crosses itself may have no ear left, and takes long to show it: what is left is then a fan.
+            if (without_ear > left_.size() || tests_ > kMostTests) break;
+            if (is_ear(at)) {
                 triangles.push_back(triangle(at));
                 left_.erase(left_.begin() + std::ptrdiff_t(at % left_.size()));
                 without_ear = 0;
@@ -59,7 +58,8 @@ public:
             }
             at %= left_.size();
         }
-        triangles.push_back(triangle(1));
+        for (std::size_t i = 1; i + 1 < left_.size(); ++i)
+            triangles.push_back({names_[left_[0]], names_[left_[i]], names_[left_[i + 1]]});
         return triangles;
     }
 
