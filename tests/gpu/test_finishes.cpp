@@ -52,6 +52,13 @@ protected:
         const glm::vec3 off = glm::abs(drawn - truth) / truth;
         return std::max({off.r, off.g, off.b});
     }
+    /// The same of two pictures, pixel by pixel.
+    static float change(const Image& from, const Image& to) {
+        Image apart = from;
+        for (std::size_t i = 0; i < apart.pixels.size(); ++i) apart.pixels[i] = std::abs(to.pixels[i] - from.pixels[i]);
+        const glm::vec3 off = mean_of(apart) / mean_of(from);
+        return std::max({off.r, off.g, off.b});
+    }
     LightTransport transport_ = LightTransport::kAutomatic;
 };
 
@@ -68,7 +75,8 @@ Environment sky() {
     return environment;
 }
 
-// Their layers differ from a plain surface's by more than the tolerance, as `least` says.
+// One filtered look-up stands for each lobe, and one angle for a film's facets: what that costs here is measured. A surface
+// without its layers would be further off, as `least` says.
 TEST_F(Finishes, LookAsThePathTracerHasThem) {
     struct Case {
         const char* name;
@@ -89,16 +97,15 @@ TEST_F(Finishes, LookAsThePathTracerHasThem) {
                                         {"sheen", sheen, 0.0f, 0.08f, 0.2f},
                                         {"specular", specular, 0.0f, 0.04f, 0.08f},
                                         {"film", film, 1.0f, 0.08f, 0.2f},
-                                        {"brushed", brushed, 1.0f, 0.13f, 0.0f}}};
+                                        {"brushed", brushed, 1.0f, 0.13f, 0.15f}}};
     for (const Case& each : cases) {
         Material material = dark_plastic();
         material.metallic = each.metallic;
         set(material, sky());
-        const glm::vec3 plain = mean_of(draw("wyman-2005", 4));
+        const Image plain = draw("wyman-2005", 4);
         material.finish = each.finish;
         set(material, sky());
-        const glm::vec3 finished = mean_of(draw("wyman-2005", 4)), change = glm::abs(finished - plain) / plain;
-        EXPECT_GE(std::max({change.r, change.g, change.b}), each.least) << each.name;
+        EXPECT_GE(change(plain, draw("wyman-2005", 4)), each.least) << each.name;
         EXPECT_LT(difference(), each.tolerance) << each.name;
     }
 }
@@ -113,7 +120,7 @@ TEST_F(Finishes, AFlatNormalTextureChangesNothing) {
     EXPECT_EQ(draw("wyman-2005", 1).pixels, before.pixels);
 }
 
-// Seen directly, and by paths through glass; tangents are the triangles' own, then those of the mesh.
+// By a technique that draws opaque triangles, and by one that follows paths. The tolerance is that of a filtered look-up.
 TEST_F(Finishes, NormalTexturesTiltAsInThePathTracer) {
     Material material = dark_plastic();
     material.metallic = 1.0f;
@@ -154,7 +161,7 @@ TEST_F(Finishes, CoverageIsTheMeanOverSamples) {
     EXPECT_NEAR(mean_of(draw("path", 64)).g, 0.75f * 0.75f, 0.02f);
 }
 
-// Behind a pane, and in the light of a lamp with shadows.
+// The ball lets half of the sun through, twice. 64 samples of its coverage leave 2% noise.
 TEST_F(Finishes, CoverageHoldsForShadowsToo) {
     Scene scene = load_scene("shape:sphere");
     Material cover = dark_plastic();
