@@ -5,6 +5,9 @@
 
 #include <pellucid/pellucid.h>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 namespace pellucid::viewer {
@@ -36,6 +39,12 @@ void add_options(CLI::App& app, Options& o) {
     cli::add_scene_options(app, o.how);
     cli::add_device_options(app, o.device);
     cli::add_parameter_options(app, o.parameters);
+    const auto print_json = [&app] {
+        fmt::print("{}\n", cli::describe_options(app).dump(2));
+        throw CLI::Success();
+    };
+    app.add_flag_callback("--help-json", print_json, "Print the table that man pages and completion are made of")
+        ->group("");
     cli::set_examples(app, {"pellucid-view model.glb --environment studio.hdr",
                             "pellucid-view shape:goblet --screenshot goblet.png --samples 64"});
 }

@@ -1,0 +1,35 @@
+# Debian packages, one for each component: `cpack` in the build folder. dpkg-shlibdeps finds what they depend on.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME pellucid)
+set(CPACK_PACKAGE_VENDOR "The Pellucid authors")
+set(CPACK_PACKAGE_CONTACT "The Pellucid authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGE_FILE_NAME pellucid-${PROJECT_VERSION})
+set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
+
+set(same_version "(= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME pellucid)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS libvulkan1)  # loaded when the program runs
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd")
+set(CPACK_DEBIAN_RUNTIME_DESCRIPTION
+    "Library and command line that render transparent objects by Vulkan, with and without a GPU.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpellucid-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "pellucid ${same_version}, libglm-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
+    "Headers for programs that find Pellucid by CMake or pkg-config.")
+if(TARGET pellucid_viewer)
+    list(APPEND CPACK_COMPONENTS_ALL viewer)
+    set(CPACK_DEBIAN_VIEWER_PACKAGE_NAME pellucid-view)
+    set(CPACK_DEBIAN_VIEWER_PACKAGE_DEPENDS "pellucid ${same_version}")
+    set(CPACK_DEBIAN_VIEWER_DESCRIPTION
+        "Viewer that shows scenes of transparent objects in a window.")
+endif()
+include(CPack)
