@@ -10,7 +10,7 @@ one include folder.
 
 Its HEADERS lie in ROOT/include/pellucid, where every header belongs to one module. They include public headers only, by the
 same rule. pellucid.h includes all of them, belongs to no module, and no module includes it.
-ROOT/apps and ROOT/examples include no file of a module but public headers.
+ROOT/apps, ROOT/examples and ROOT/python include no file of a module but public headers.
 
 Prints one line for each offence and exits 1, or one line that all is well and exits 0.
 """
@@ -22,7 +22,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"]', re.MULTILIN
 CODE = (".h", ".hpp", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".geom")
 ALL_HEADERS = "pellucid.h"
 VULKAN_HEADER = "vulkan.h"  # the one with types of Vulkan, which programs that lend no device need not have
-PROGRAMS = ("apps", "examples")
+PROGRAMS = ("apps", "examples", "python")
 
 
 def read(path):

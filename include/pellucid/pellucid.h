@@ -14,6 +14,7 @@
 #include <pellucid/layer_builder.h>
 #include <pellucid/light_options.h>
 #include <pellucid/measure.h>
+#include <pellucid/mesh.h>
 #include <pellucid/names.h>
 #include <pellucid/photon_flux.h>
 #include <pellucid/progress.h>

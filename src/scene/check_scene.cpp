@@ -4,6 +4,7 @@
 #include "scene/material_textures.h"
 
 #include <pellucid/error.h>
+#include <pellucid/mesh.h>
 
 #include <fmt/format.h>
 
@@ -37,23 +38,6 @@ bool all_finite(const std::vector<Vector>& values) {
 bool holds_its_pixels(const Image& image) {
     return image.width > 0 && image.height > 0 && image.channels > 0 && image.channels <= 4 &&
            image.pixels.size() == std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
-}
-
-void check_mesh(const Mesh& mesh, const std::string& what) {
-    const std::size_t count = mesh.positions.size();
-    require(all_finite(mesh.positions), what, "a position is not finite");
-    require(mesh.normals.size() == count && all_finite(mesh.normals), what, "needs one finite normal per position");
-    for (const auto& set : mesh.texcoords) {
-        require(set.empty() || (set.size() == count && all_finite(set)), what,
-                "texture coordinates must be none, or one per position and finite");
-    }
-    require(mesh.colors.empty() || (mesh.colors.size() == count && all_finite(mesh.colors)), what,
-            "colours must be none, or one per position and finite");
-    require(mesh.tangents.empty() || (mesh.tangents.size() == count && all_finite(mesh.tangents)), what,
-            "tangents must be none, or one per position and finite");
-    for (const glm::uvec3& t : mesh.triangles) {
-        require(t.x < count && t.y < count && t.z < count, what, "a triangle refers to a vertex that is not there");
-    }
 }
 
 bool unit_range(float value) { return value >= 0.0f && value <= 1.0f; }
@@ -108,6 +92,23 @@ void check_light(const Light& light, const std::string& what) {
 }
 
 }  // namespace
+
+void check_mesh(const Mesh& mesh, const std::string& what) {
+    const std::size_t count = mesh.positions.size();
+    require(all_finite(mesh.positions), what, "a position is not finite");
+    require(mesh.normals.size() == count && all_finite(mesh.normals), what, "needs one finite normal per position");
+    for (const auto& set : mesh.texcoords) {
+        require(set.empty() || (set.size() == count && all_finite(set)), what,
+                "texture coordinates must be none, or one per position and finite");
+    }
+    require(mesh.colors.empty() || (mesh.colors.size() == count && all_finite(mesh.colors)), what,
+            "colours must be none, or one per position and finite");
+    require(mesh.tangents.empty() || (mesh.tangents.size() == count && all_finite(mesh.tangents)), what,
+            "tangents must be none, or one per position and finite");
+    for (const glm::uvec3& t : mesh.triangles) {
+        require(t.x < count && t.y < count && t.z < count, what, "a triangle refers to a vertex that is not there");
+    }
+}
 
 bool is_similarity(const glm::mat4& transform) {
     if (!finite(transform)) return false;
