@@ -77,7 +77,7 @@ void bind_cameras(py::module_& module) {
     py::class_<Bounds> bounds(module, "Bounds", "Sphere around objects, and their box about the same centre.");
     bounds.def_property_readonly(
         "center", [](const Bounds& b) { return from_vector(b.center); }, "world, m");
-    bounds.def_readonly("radius", &Bounds::radius, "m");
+    bounds.def_readonly("radius", &Bounds::radius, "radius of the sphere, m");
     bounds.def_property_readonly(
         "half_size", [](const Bounds& b) { return from_vector(b.half_size); }, "half the sides of the box, m");
 

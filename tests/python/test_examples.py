@@ -1,0 +1,33 @@
+"""The examples of examples/python, as a user runs them."""
+import subprocess
+import sys
+
+import pellucid
+import python_test
+from python_test import ROOT, PythonTest
+
+
+class ExampleTest(PythonTest):
+    def run_example(self, name, *arguments):
+        result = subprocess.run([sys.executable, ROOT / "examples" / "python" / name, *arguments], cwd=self.folder,
+                                capture_output=True, text=True, timeout=250)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+
+class Examples(ExampleTest):
+    def test_turntable(self):
+        self.assertEqual(self.run_example("turntable.py", "shape:torus", "--frames", "3", "--size", "48x32"),
+                         "3 frames in turntable\n")
+        images = [pellucid.read_image(self.folder / "turntable" / f"{i:03}.png") for i in range(3)]
+        self.assertEqual(images[0].shape, (32, 48, 3))
+        self.assertFalse((images[0] == images[1]).all())
+
+    def test_error_map(self):
+        said = self.run_example("error_map.py", "shape:sphere", "--size", "48", "--out", "map.png")
+        self.assertRegex(said, r"\Awang-2014: \d+\.\d+% of \d+ pixels within 1 degree\n\Z")
+        self.assertGreater(pellucid.read_image(self.folder / "map.png").std(), 0.05)
+
+
+if __name__ == "__main__":
+    python_test.main()
