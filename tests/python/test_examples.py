@@ -1,10 +1,13 @@
 """The examples of examples/python, as a user runs them."""
+import re
 import subprocess
 import sys
 
 import pellucid
 import python_test
 from python_test import ROOT, PythonTest
+
+PAGES = [ROOT / "docs" / "python.md"]
 
 
 class ExampleTest(PythonTest):
@@ -13,6 +16,20 @@ class ExampleTest(PythonTest):
                                 capture_output=True, text=True, timeout=250)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result.stdout
+
+
+class Pages(PythonTest):
+    """Each block of Python in the pages runs as it is written."""
+
+    def test_blocks_of_python(self):
+        for page in PAGES:
+            blocks = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+            self.assertTrue(blocks, page.name)
+            for number, block in enumerate(blocks):
+                with self.subTest(page=page.name, block=number):
+                    result = subprocess.run([sys.executable, "-c", block], cwd=self.folder, capture_output=True,
+                                            text=True, timeout=250)
+                    self.assertEqual(result.returncode, 0, result.stderr)
 
 
 class Examples(ExampleTest):
