@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
     pellucid::cli::add_bench_command(app);
     pellucid::cli::add_experiment_command(app);
     pellucid::cli::add_difference_command(app);
+    pellucid::cli::add_dataset_command(app);
     pellucid::cli::add_thickness_command(app);
     pellucid::cli::add_volume_command(app);
     pellucid::cli::add_info_command(app);

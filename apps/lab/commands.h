@@ -12,5 +12,6 @@ void add_compare_command(CLI::App& app, const std::string& command_line);
 void add_bench_command(CLI::App& app);
 void add_experiment_command(CLI::App& app);
 void add_difference_command(CLI::App& app);
+void add_dataset_command(CLI::App& app);
 
 }  // namespace pellucid::cli

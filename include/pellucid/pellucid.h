@@ -3,6 +3,7 @@
 // All of Pellucid's public interface.
 #include <pellucid/animation.h>
 #include <pellucid/api.h>
+#include <pellucid/combine.h>
 #include <pellucid/device.h>
 #include <pellucid/display.h>
 #include <pellucid/environment.h>
@@ -16,6 +17,7 @@
 #include <pellucid/measure.h>
 #include <pellucid/mesh.h>
 #include <pellucid/names.h>
+#include <pellucid/path_surfaces.h>
 #include <pellucid/photon_flux.h>
 #include <pellucid/progress.h>
 #include <pellucid/reference.h>

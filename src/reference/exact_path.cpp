@@ -32,6 +32,7 @@ void ExactPath::start(const CameraRay& ray, const MediumStack& inside) {
     open_ior_ = 1.0;
     crossed_volume_ = false;
     result_ = {};
+    met_ = {};
     result_.direction = glm::vec3(ray_.direction);
     result_.position = glm::vec3(ray_.origin - ray.before * ray_.direction);
 }
@@ -43,6 +44,12 @@ bool ExactPath::finish(Status status) {
     result_.length_inside = float(length_inside_);
     if (crossed_volume_) result_.events = std::max<std::uint16_t>(result_.events, 1);
     return false;
+}
+
+SurfacePath ExactPath::surfaces() const {
+    SurfacePath surfaces = met_;
+    surfaces.path = result_;
+    return surfaces;
 }
 
 double ExactPath::ior(const MediumStack& at, const glm::dvec3& position) const {
@@ -69,6 +76,7 @@ bool ExactPath::fly(const CurvedVolumes& volumes) {
     length_ += flight.length;
     length_inside_ += flight.length_inside;
     transmittance_ *= flight.transmittance;
+    met_.attenuation *= glm::vec3(flight.transmittance);
     if (solid == kAir) open_ior_ = flight.ior;
     in_held_volume_ = solid != kAir && flight.ends_inside;
     return flight.stuck ? finish(Status::kStepLimit) : advance(flight.hit);
@@ -79,7 +87,9 @@ void ExactPath::travel(const Hit& hit) {
     length_ += hit.t;
     if (inside_.solid() != kAir && !std::exchange(in_held_volume_, false)) {
         length_inside_ += hit.t;
-        transmittance_ *= beer_lambert(inside_.medium().sigma_a, hit.t);
+        const glm::dvec3 left = beer_lambert(inside_.medium().sigma_a, hit.t);
+        transmittance_ *= left;
+        met_.attenuation *= glm::vec3(left);
     }
     ray_.origin = hit.position;
     ray_.t_max = std::numeric_limits<double>::infinity();  // the camera's planes clip the first segment only
@@ -101,7 +111,11 @@ void ExactPath::bend(const Hit& hit) {
     } else {
         ray_.direction = refracted(ray_.direction, normal, n_i, n_t, in);
         transmittance_ *= 1.0 - in.reflectance;
+        met_.fresnel *= float(1.0 - in.reflectance);
     }
+    met_.last = {
+        .object = std::int32_t(hit.crossing.object), .position = glm::vec3(hit.position), .normal = glm::vec3(outward)};
+    if (result_.events < 2) (result_.events == 0 ? met_.first : met_.second) = met_.last;
     ++result_.events;
     result_.side_conflict = result_.side_conflict || in.conflict;
     result_.position = glm::vec3(hit.position);

@@ -4,7 +4,7 @@
 #include "reference/curved_volumes.h"
 #include "reference/geometry.h"
 
-#include <pellucid/refracted_path.h>
+#include <pellucid/path_surfaces.h>
 
 #include <cstdint>
 #include <vector>
@@ -27,6 +27,8 @@ public:
     /// path.
     bool fly(const CurvedVolumes& volumes);
     const RefractedPath& result() const { return result_; }
+    /// The path with the surfaces that it met.
+    SurfacePath surfaces() const;
 
 private:
     void travel(const Hit& hit);
@@ -49,6 +51,7 @@ private:
     bool in_held_volume_ = false;  ///< the last segment lies in the volume of a solid
     const CurvedVolumes* volumes_ = nullptr;
     RefractedPath result_;
+    SurfacePath met_;  ///< all but the path
 };
 
 }  // namespace pellucid::reference

@@ -30,7 +30,9 @@ public:
 
     glm::uvec2 size() const { return size_; }
 
-    void trace(glm::uvec2 first, const CameraRays& rays, const StartMedia& media, std::vector<RefractedPath>& picture) {
+    /// Calls `store` with the index of each pixel and its path.
+    template <class Store>
+    void trace(glm::uvec2 first, const CameraRays& rays, const StartMedia& media, const Store& store) {
         std::uint32_t running = 0;
         for (std::uint32_t i = 0; i < settings_.packet; ++i) {
             const glm::uvec2 pixel = first + glm::uvec2(i % size_.x, i / size_.x);
@@ -44,7 +46,7 @@ public:
         for (std::uint32_t i = 0; i < settings_.packet; ++i) {
             const glm::uvec2 pixel = first + glm::uvec2(i % size_.x, i / size_.x);
             if (pixel.x >= part_.x || pixel.y >= part_.y) continue;
-            picture[std::size_t(pixel.y) * part_.x + pixel.x] = paths_[i].result();
+            store(std::size_t(pixel.y) * part_.x + pixel.x, paths_[i]);
         }
     }
 
@@ -87,6 +89,27 @@ private:
     std::vector<Hit> hits_;
 };
 
+/// Traces every path and calls store(index of the pixel, path), from several threads.
+template <class Store>
+void trace_each(const Geometry& geometry, const CurvedVolumes& volumes, const Camera& camera,
+                const ExactSettings& settings, std::uint32_t threads, const Progress& progress, const Store& store) {
+    check_camera(camera);
+    const CameraRays rays(camera, settings.width, settings.height);
+    const StartMedia media(geometry, rays, {settings.width, settings.height});
+    const glm::uvec2 size = part_size(settings);
+    std::mutex mutex;
+    std::uint32_t done = 0;
+    for_each_tile(size, threads, [&](glm::uvec2 first, glm::uvec2 end) {
+        Block block(geometry, volumes, settings);
+        for (std::uint32_t y = first.y; y < end.y; y += block.size().y) {
+            for (std::uint32_t x = first.x; x < end.x; x += block.size().x) block.trace({x, y}, rays, media, store);
+        }
+        if (!progress) return;
+        const std::lock_guard lock(mutex);
+        progress(double(++done) / double(tile_count(size)));
+    });
+}
+
 }  // namespace
 
 void check_exact_settings(const ExactSettings& s) {
@@ -112,23 +135,22 @@ void check_exact_settings(const ExactSettings& s) {
 std::vector<RefractedPath> trace_exact(const Geometry& geometry, const CurvedVolumes& volumes, const Camera& camera,
                                        const ExactSettings& settings, std::uint32_t threads, const Progress& progress) {
     check_exact_settings(settings);
-    check_camera(camera);
-    const CameraRays rays(camera, settings.width, settings.height);
-    const StartMedia media(geometry, rays, {settings.width, settings.height});
     const glm::uvec2 size = part_size(settings);
-    std::vector<RefractedPath> picture(std::size_t(size.x) * size.y);
-    std::mutex mutex;
-    std::uint32_t done = 0;
-    for_each_tile(size, threads, [&](glm::uvec2 first, glm::uvec2 end) {
-        Block block(geometry, volumes, settings);
-        for (std::uint32_t y = first.y; y < end.y; y += block.size().y) {
-            for (std::uint32_t x = first.x; x < end.x; x += block.size().x) block.trace({x, y}, rays, media, picture);
-        }
-        if (!progress) return;
-        const std::lock_guard lock(mutex);
-        progress(double(++done) / double(tile_count(size)));
-    });
-    return picture;
+    std::vector<RefractedPath> paths(std::size_t(size.x) * size.y);
+    trace_each(geometry, volumes, camera, settings, threads, progress,
+               [&](std::size_t i, const ExactPath& path) { paths[i] = path.result(); });
+    return paths;
+}
+
+std::vector<SurfacePath> trace_surfaces(const Geometry& geometry, const CurvedVolumes& volumes, const Camera& camera,
+                                        const ExactSettings& settings, std::uint32_t threads,
+                                        const Progress& progress) {
+    check_exact_settings(settings);
+    const glm::uvec2 size = part_size(settings);
+    std::vector<SurfacePath> paths(std::size_t(size.x) * size.y);
+    trace_each(geometry, volumes, camera, settings, threads, progress,
+               [&](std::size_t i, const ExactPath& path) { paths[i] = path.surfaces(); });
+    return paths;
 }
 
 }  // namespace pellucid::reference

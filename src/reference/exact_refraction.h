@@ -3,6 +3,7 @@
 #include "reference/curved_volumes.h"
 #include "reference/geometry.h"
 
+#include <pellucid/path_surfaces.h>
 #include <pellucid/reference.h>
 
 #include <cstdint>
@@ -31,5 +32,9 @@ void check_exact_settings(const ExactSettings& settings);
 /// Throws Error for settings or a camera out of range. `threads` 0: all cores.
 std::vector<RefractedPath> trace_exact(const Geometry& geometry, const CurvedVolumes& volumes, const Camera& camera,
                                        const ExactSettings& settings, std::uint32_t threads, const Progress& progress);
+
+/// Implementation of SurfaceTracer::trace: the same paths, with their surfaces.
+std::vector<SurfacePath> trace_surfaces(const Geometry& geometry, const CurvedVolumes& volumes, const Camera& camera,
+                                        const ExactSettings& settings, std::uint32_t threads, const Progress& progress);
 
 }  // namespace pellucid::reference
