@@ -58,28 +58,35 @@ class Builder:
         return node
 
 
+def factors(b, given):
+    """Metallic value and roughness, whose square Blender takes for the width of facets, as glTF does."""
+    metallic, roughness = given["metallic"], given["roughness"]
+    if given["factors_texture"]:
+        parts = b.node("SeparateRGB", Image=b.image(given["factors_texture"], False).outputs["Color"])
+        metallic = b.math("MULTIPLY", parts.outputs["B"], metallic)
+        roughness = b.math("MULTIPLY", parts.outputs["G"], roughness)
+    return metallic, roughness
+
+
 def thin_glass(b, base, given):
     """Both faces of a pane: 2 R / (1 + R) is reflected, the rest goes straight on."""
     r = b.node("Fresnel", IOR=given["ior"]).outputs[0]
     both = b.math("DIVIDE", b.math("MULTIPLY", r, 2.0), b.math("ADD", r, 1.0))
-    mirror = b.node("BsdfGlossy", Color=(1, 1, 1), Roughness=given["roughness"] ** 2).outputs[0]
+    mirror = b.node("BsdfGlossy", Color=(1, 1, 1), Roughness=factors(b, given)[1]).outputs[0]
     return b.mix(both, b.node("BsdfTransparent", Color=base).outputs[0], mirror)
 
 
 def solid_glass(b, base, given):
     """The base colour counts once on the way through; a boundary's colour counts twice."""
     root = b.node("Gamma", Color=base, Gamma=0.5).outputs[0]
-    glass = b.node("BsdfGlass", Color=root, IOR=given["ior"], Roughness=given["roughness"] ** 2)
-    glass.distribution = "SHARP" if given["roughness"] == 0 else "MULTI_GGX"
+    roughness = factors(b, given)[1]
+    glass = b.node("BsdfGlass", Color=root, IOR=given["ior"], Roughness=roughness)
+    glass.distribution = "SHARP" if roughness == 0 else "GGX"
     return glass.outputs[0]
 
 
 def opaque(b, base, given):
-    metallic, roughness = given["metallic"], given["roughness"]
-    if given["factors_texture"]:
-        parts = b.node("SeparateRGB", Image=b.image(given["factors_texture"], False).outputs["Color"])
-        metallic = b.math("MULTIPLY", parts.outputs["B"], metallic)
-        roughness = b.math("MULTIPLY", parts.outputs["G"], roughness)
+    metallic, roughness = factors(b, given)
     root = (given["ior"] - 1) / (given["ior"] + 1)
     surface = b.node("BsdfPrincipled", Base_Color=base, Metallic=metallic, Roughness=roughness, Specular=root * root / 0.08,
                      Clearcoat=given["coat"], Clearcoat_Roughness=given["coat_roughness"])

@@ -100,7 +100,8 @@ class Examples(CliTest):
             if before in OUTPUTS or os.path.exists(self.path(word)) and not compared:
                 continue
             os.makedirs(os.path.dirname(self.path(word)), exist_ok=True)
-            known = sorted(DATA.glob(f"**/{word}")) if "/" not in word else []
+            model = "/" not in word and not word.endswith((".exr", ".png"))
+            known = sorted(DATA.glob(f"**/{word}")) if model else []
             if word.startswith("scenes/"):
                 self.made_scenes()
             elif known:
