@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "lab/commands.h"
+#include "options/arguments.h"
 #include "options/help.h"
 
 #include <pellucid/error.h>
@@ -19,6 +20,7 @@ constexpr int kDone = 0;
 constexpr int kBug = 1;
 constexpr int kBadInput = 2;
 constexpr int kNoDevice = 3;
+constexpr int kFramesMissing = 4;
 
 int complain(const std::string& message, int exit_code) {
     // fputs does not throw where stderr is closed: the exit code is still to be given.
@@ -49,13 +51,7 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
 /// The command as it can be typed again.
 std::string command_line(int argc, char** argv) {
     std::string line = "pellucid";
-    for (int i = 1; i < argc; ++i) {
-        const std::string argument = argv[i];
-        const bool plain = !argument.empty() && argument.find_first_not_of(
-                                                    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                                    "-_=./:,+@%") == std::string::npos;
-        line += plain ? " " + argument : fmt::format(" '{}'", argument);
-    }
+    for (int i = 1; i < argc; ++i) line += " " + pellucid::cli::shell_quoted(argv[i]);
     return line;
 }
 
@@ -63,7 +59,9 @@ std::string command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "Pellucid renders glass in real time. Exit codes: 0 done, 2 bad input or usage, 3 no suitable device, 1 a bug.",
+        "Pellucid renders glass in real time. Exit codes: 0 done, 2 bad input or usage, 3 no suitable device, 4 frames "
+        "of a sequence are missing, "
+        "1 a bug.",
         "pellucid"};
     app.set_version_flag("--version", std::string(pellucid::version()));
     app.require_subcommand(1);
@@ -71,6 +69,7 @@ int main(int argc, char** argv) {
     pellucid::cli::set_examples(app, {"pellucid render shape:goblet -o goblet.png", "pellucid techniques",
                                       "pellucid help lights    # 'pellucid help' lists the topics"});
     pellucid::cli::add_render_command(app);
+    pellucid::cli::add_sequence_command(app);
     pellucid::cli::add_compare_command(app, command_line(argc, argv));
     pellucid::cli::add_bench_command(app);
     pellucid::cli::add_experiment_command(app);
@@ -94,6 +93,8 @@ int main(int argc, char** argv) {
         return complain(error.what(), kBadInput);
     } catch (const pellucid::DeviceError& error) {
         return complain(error.what(), kNoDevice);
+    } catch (const pellucid::cli::FramesMissing& error) {
+        return complain(error.what(), kFramesMissing);
     } catch (const std::bad_alloc&) {
         return complain("out of memory", kBadInput);
     } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 #include "options/named_technique.h"
 #include "options/options.h"
 #include "options/progress_bar.h"
+#include "render_options.h"
 
 #include <pellucid/file.h>
 #include <pellucid/pellucid.h>
@@ -21,73 +22,8 @@
 namespace pellucid::cli {
 namespace {
 
-/// The command line as given; strings are parsed when the command runs, so that errors are ours.
-struct RenderArguments {
-    std::string scene;
-    std::string output;
-    std::string technique = RenderSettings{}.technique;
-    ParameterArguments parameters;
-    std::string size = "512x512";
-    EnvironmentArguments environment;
-    std::optional<std::string> camera;
-    std::optional<double> fov_deg;
-    std::uint32_t samples = 1;
-    std::uint32_t first_sample = 0;
-    double error = 0.0;
-    std::uint32_t most_samples = RenderSettings().most_samples;
-    std::string tonemap = "neutral";
-    double exposure_ev = 0.0;
-    double unit_luminance_cd_m2 = double(RenderSettings().unit_luminance_cd_m2);
-    std::string view = "radiance";
-    std::string layer_builder = "automatic";
-    std::vector<std::string> aovs;
-    std::optional<std::string> json;
-    LightArguments light;
-    ThicknessArguments thickness;
-    SceneArguments how;
-    DeviceArguments device;
-    Console console;
-};
-
-/// The camera that the arguments ask for; none: the file's first, or one that frames the scene.
-std::optional<Camera> chosen_camera(const RenderArguments& arguments, const RenderSettings& settings,
-                                    const Scene& scene) {
-    const bool of_the_file = arguments.camera ? !arguments.camera->starts_with("orbit:") : !scene.cameras.empty();
-    if (arguments.fov_deg && of_the_file) {
-        throw Error("--fov: a camera of the file has its own field of view; give --camera orbit:AZ,EL,DIST with it");
-    }
-    const float fov = arguments.fov_deg ? glm::radians(float(*arguments.fov_deg)) : Camera{}.vertical_fov;
-    if (arguments.camera) return parse_camera(*arguments.camera, scene, fov);
-    if (!arguments.fov_deg) return std::nullopt;
-    return framing_camera(scene_bounds(scene), settings.width, settings.height, fov);
-}
-
-RenderSettings render_settings(const RenderArguments& arguments) {
-    RenderSettings settings;
-    std::tie(settings.width, settings.height) = parse_size(arguments.size);
-    settings.technique = arguments.technique;
-    settings.parameters = given_parameters(arguments.parameters);
-    settings.layer_builder = parse_layer_builder(arguments.layer_builder);
-    settings.view = parse_view(arguments.view);
-    settings.samples = arguments.samples;
-    settings.first_sample = arguments.first_sample;
-    settings.error = float(arguments.error);
-    settings.most_samples = arguments.most_samples;
-    settings.light = light_options(arguments.light);
-    settings.thickness = thickness_settings(arguments.thickness);
-    settings.photon_flux = arguments.json.has_value();
-    settings.tonemap = parse_tonemap(arguments.tonemap);
-    settings.exposure_ev = float(arguments.exposure_ev);
-    settings.unit_luminance_cd_m2 = float(arguments.unit_luminance_cd_m2);
-    for (const std::string& aov : arguments.aovs) settings.aovs.push_back(parse_aov(aov).first);
-    return settings;
-}
-
 void check_render_outputs(const RenderArguments& arguments) {
-    const std::string extension = lower_extension(arguments.output);
-    if (extension != ".png" && extension != ".exr") {
-        throw Error(fmt::format("--output: '{}': pictures are written as .png or .exr", arguments.output));
-    }
+    check_picture_name(arguments.output);
     std::vector<std::string> outputs{arguments.output};
     for (const std::string& aov : arguments.aovs) outputs.push_back(parse_aov(aov).second);
     if (arguments.json) outputs.push_back(*arguments.json);
@@ -188,32 +124,8 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
     return json;
 }
 
-/// Radiance with what is known about its error: channels R, G, B, their standard errors if the technique estimates them,
-/// and the samples of the pixel.
-void write_estimate(const std::string& file, const RenderResult& result, std::uint32_t samples) {
-    const Image &radiance = result.radiance, &error = result.standard_error, &counts = result.sample_counts;
-    std::vector<std::string> names{"R", "G", "B"};
-    if (!error.pixels.empty()) names.insert(names.end(), {"error.R", "error.G", "error.B"});
-    names.push_back("samples");
-    Image image(radiance.width, radiance.height, int(names.size()));
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            float* to = std::copy_n(radiance.at(x, y), 3, image.at(x, y));
-            if (!error.pixels.empty()) to = std::copy_n(error.at(x, y), 3, to);
-            *to = counts.pixels.empty() ? float(samples) : *counts.at(x, y);
-        }
-    }
-    write_image(file, image, names);
-}
-
 void write_outputs(const RenderArguments& arguments, const RenderResult& result, const nlohmann::ordered_json& json) {
-    if (lower_extension(arguments.output) != ".exr") {
-        write_image(arguments.output, result.display);
-    } else if (result.standard_error.pixels.empty() && result.sample_counts.pixels.empty()) {
-        write_image(arguments.output, result.radiance);
-    } else {
-        write_estimate(arguments.output, result, arguments.samples);
-    }
+    write_picture(arguments.output, result, arguments.samples);
     for (const std::string& aov : arguments.aovs) {
         const auto [name, file] = parse_aov(aov);
         write_image(file, result.aovs.at(name));
@@ -266,42 +178,7 @@ void add_render_command(CLI::App& app) {
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--json", a.json, "Write times per pass, device, counts and warnings")->type_name("FILE");
-    command->option_defaults()->group("Image");
-    command->add_option("--technique", a.technique, "A preset or a technique (help presets, pellucid techniques)")
-        ->capture_default_str()
-        ->type_name("NAME");
-    add_size_option(*command, a.size);
-    add_camera_options(*command, a.camera, a.fov_deg);
-    add_number(*command, "--samples", a.samples, "Jittered frames, averaged in linear light; of path: paths per pixel")
-        ->capture_default_str();
-    add_number(*command, "--first-sample", a.first_sample,
-               "Number of the first of them: other samples have other random numbers");
-    add_number(*command, "--error", a.error, "Sample each pixel until its standard error is X (help images)")
-        ->check(CLI::PositiveNumber)
-        ->type_name("X")
-        ->excludes("--samples");
-    add_number(*command, "--most-samples", a.most_samples, "Of a pixel, with --error")
-        ->capture_default_str()
-        ->needs("--error");
-    add_display_options(*command, a.tonemap, a.exposure_ev);
-    add_number(*command, "--unit-luminance", a.unit_luminance_cd_m2, "Of --tonemap krawczyk: luminance of radiance 1")
-        ->capture_default_str()
-        ->type_name("CD/M2");
-    command->add_option("--view", a.view, "radiance, analysis or wavefront (help images)")
-        ->capture_default_str()
-        ->type_name("NAME");
-    command
-        ->add_option("--layer-builder", a.layer_builder,
-                     "automatic, single-pass, compute, depth-peeling or dual-depth-peeling")
-        ->capture_default_str()
-        ->type_name("NAME");
-    add_environment_options(*command, a.environment);
-    add_light_options(*command, a.light);
-    add_scene_options(*command, a.how);
-    add_thickness_options(*command, a.thickness);
-    add_device_options(*command, a.device);
-    add_console_options(*command, a.console);
-    add_parameter_options(*command, a.parameters);
+    add_image_options(*command, a);
     set_examples(*command, {"pellucid render model.glb -o model.png --environment studio.hdr --samples 16",
                             "pellucid render shape:goblet -o goblet.png --camera orbit:30,20,4 --fov 40",
                             "pellucid render bunny.obj -o amber.png --attenuation-color 0.9,0.5,0.1 "

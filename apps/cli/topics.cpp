@@ -115,6 +115,18 @@ std::string presets_text() {
     return text;
 }
 
+std::string sequences() {
+    return "'pellucid sequence SCENE -o frame-####.png' renders one file per frame. Frame N shows the animation at "
+           "--time + N / --fps seconds. Files that are there stay: the same command goes on where one was ended, and "
+           "several at once share the frames.\n"
+           "--camera-at FRAME=orbit:AZ,EL,DIST[,X,Y,Z] is the camera at a frame, --light-at FRAME=LIGHT a light, as of "
+           "--add-light. Between two keys all numbers change smoothly, and never beyond the keys'; before the first "
+           "and after the last they stay. Orbits keep to the bounds of the scene at rest.\n"
+           "--frames A..B,C,... renders some of the frames. Frames that fail are left out, named at the end, and cause "
+           "exit code 4.\n"
+           "--slurm FILE writes a batch script for sbatch, --gather checks the frames that it made.\n";
+}
+
 std::string images() {
     return "--samples N averages N jittered frames in linear light; of the technique path, N paths per pixel.\n"
            "--error X gives each pixel the samples that its standard error needs to be at most X, as a share of its "
@@ -152,7 +164,7 @@ std::string experiments_text() {
     return text;
 }
 
-constexpr std::array<Topic, 13> kTopics = {{
+constexpr std::array<Topic, 14> kTopics = {{
     {"scenes", "files, normals, overlapping solids, animation", scenes},
     {"shapes", "shape:NAME and its parameters", shapes},
     {"volumes", "volume:NAME, .vdb files and their grids", volumes},
@@ -160,6 +172,7 @@ constexpr std::array<Topic, 13> kTopics = {{
     {"lights", "--add-light, --light, --shadows", lights},
     {"environments", "--environment", environments},
     {"images", "--samples, --error, --tonemap, --view", images},
+    {"sequences", "frames, --camera-at, --light-at, resuming", sequences},
     {"aovs", "--aov", aovs},
     {"statuses", "how the path of a pixel ends", statuses},
     {"presets", "names for a technique", presets_text},

@@ -91,4 +91,14 @@ Camera parse_camera(const std::string& text, const Scene& scene, float vertical_
     throw unknown_name("camera", text, known);
 }
 
+std::string shell_quoted(const std::string& argument) {
+    const bool plain = !argument.empty() && argument.find_first_not_of(
+                                                "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                                "-_=./:,+@%") == std::string::npos;
+    if (plain) return argument;
+    std::string quoted = "'";
+    for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 }  // namespace pellucid::cli

@@ -25,4 +25,7 @@ std::pair<std::string, std::string> parse_aov(const std::string& text);
 /// bounding-sphere radii. The target is the scene's centre, or X, Y, Z in the file's world space.
 Camera parse_camera(const std::string& text, const Scene& scene, float vertical_fov);
 
+/// `argument` as a shell takes it for one word.
+std::string shell_quoted(const std::string& argument);
+
 }  // namespace pellucid::cli
