@@ -16,6 +16,7 @@ void add_render_command(CLI::App& app);
 void add_sequence_command(CLI::App& app);
 void add_thickness_command(CLI::App& app);
 void add_volume_command(CLI::App& app);
+void add_export_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_techniques_command(CLI::App& app);
 /// The last one: it describes those that were added before.

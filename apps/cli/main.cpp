@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
     pellucid::cli::add_dataset_command(app);
     pellucid::cli::add_thickness_command(app);
     pellucid::cli::add_volume_command(app);
+    pellucid::cli::add_export_command(app);
     pellucid::cli::add_info_command(app);
     pellucid::cli::add_techniques_command(app);
     pellucid::cli::add_help_command(app);

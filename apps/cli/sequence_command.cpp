@@ -377,7 +377,7 @@ void add_sequence_command(CLI::App& app) {
     add_image_options(*command, a.image);
     command->get_option("--camera-at")->excludes("--camera");
     set_examples(*command,
-                 {"pellucid sequence shape:gem -o turn-##.png --camera-at 0=orbit:0,15,4 --camera-at 60=orbit:360,15,4",
+                 {"pellucid sequence shape:gem -o ##.png --camera-at 0=orbit:0,15,4 --camera-at 60=orbit:360,15,4",
                   "pellucid sequence character.glb -o jump-####.png --animation jump --frames 0..47",
                   "pellucid sequence character.glb -o jump-####.png --slurm job.sh && sbatch job.sh"});
     command->callback([arguments, command] {

@@ -29,3 +29,4 @@
 #include <pellucid/volume.h>
 #include <pellucid/volume_light.h>
 #include <pellucid/voxelize.h>
+#include <pellucid/write_scene.h>
