@@ -23,7 +23,7 @@ namespace pellucid::cli {
 namespace {
 
 void check_render_outputs(const RenderArguments& arguments) {
-    check_picture_name(arguments.output);
+    check_picture_name(arguments);
     std::vector<std::string> outputs{arguments.output};
     for (const std::string& aov : arguments.aovs) outputs.push_back(parse_aov(aov).second);
     if (arguments.json) outputs.push_back(*arguments.json);
@@ -125,7 +125,7 @@ nlohmann::ordered_json describe(const RenderArguments& arguments, const RenderSe
 }
 
 void write_outputs(const RenderArguments& arguments, const RenderResult& result, const nlohmann::ordered_json& json) {
-    write_picture(arguments.output, result, arguments.samples);
+    write_picture(arguments.output, arguments, result);
     for (const std::string& aov : arguments.aovs) {
         const auto [name, file] = parse_aov(aov);
         write_image(file, result.aovs.at(name));

@@ -5,32 +5,61 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <set>
+#include <sstream>
 #include <tuple>
 
 namespace pellucid::cli {
 namespace {
 
-/// Radiance with what is known about its error: channels R, G, B, their standard errors if the technique estimates them,
-/// and the samples of the pixel.
-void write_estimate(const std::string& file, const RenderResult& result, std::uint32_t samples) {
-    const Image &radiance = result.radiance, &error = result.standard_error, &counts = result.sample_counts;
-    std::vector<std::string> names{"R", "G", "B"};
-    if (!error.pixels.empty()) names.insert(names.end(), {"error.R", "error.G", "error.B"});
-    names.push_back("samples");
-    Image image(radiance.width, radiance.height, int(names.size()));
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            float* to = std::copy_n(radiance.at(x, y), 3, image.at(x, y));
-            if (!error.pixels.empty()) to = std::copy_n(error.at(x, y), 3, to);
-            *to = counts.pixels.empty() ? float(samples) : *counts.at(x, y);
-        }
+/// Channels of an .exr file, which are images of their own here.
+class Channels {
+public:
+    void add(const Image& image, const std::vector<std::string>& names) {
+        images_.push_back(&image);
+        names_.insert(names_.end(), names.begin(), names.end());
     }
-    write_image(file, image, names);
+    void write(const std::string& file) const {
+        Image all(images_.front()->width, images_.front()->height, int(names_.size()));
+        for (int y = 0; y < all.height; ++y)
+            for (int x = 0; x < all.width; ++x) {
+                float* to = all.at(x, y);
+                for (const Image* image : images_) to = std::copy_n(image->at(x, y), image->channels, to);
+            }
+        write_image(file, all, names_);
+    }
+
+private:
+    std::vector<const Image*> images_;
+    std::vector<std::string> names_;
+};
+
+/// Names by which compositing programs know the channels of a layer: colours have R, G and B, vectors X, Y and Z, and a depth
+/// Z alone.
+std::vector<std::string> layer_channels(const std::string& aov, int channels) {
+    static const std::set<std::string, std::less<>> kColors{"emitted", "direct", "caustic", "indirect"};
+    const std::string letters = aov == "depth" ? "Z" : kColors.contains(aov) ? "RGB" : "XYZ";
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < std::size_t(channels); ++k) names.push_back(fmt::format("{}.{}", aov, letters[k]));
+    return names;
+}
+
+std::vector<std::string> layers_of(const RenderArguments& arguments) {
+    std::vector<std::string> layers;
+    std::istringstream names(arguments.multilayer.value_or(""));
+    for (std::string name; std::getline(names, name, ',');)
+        if (std::find(layers.begin(), layers.end(), name) == layers.end()) layers.push_back(name);
+    return layers;
 }
 
 }  // namespace
 
 void add_image_options(CLI::App& command, RenderArguments& a) {
+    command.option_defaults()->group("Output");
+    command.add_option("--multilayer", a.multilayer, "Of -o: these quantities as layers of the .exr (help aovs)")
+        ->type_name("A,B,..");
     command.option_defaults()->group("Image");
     command.add_option("--technique", a.technique, "A preset or a technique (help presets, pellucid techniques)")
         ->capture_default_str()
@@ -98,24 +127,38 @@ RenderSettings render_settings(const RenderArguments& arguments) {
     settings.tonemap = parse_tonemap(arguments.tonemap);
     settings.exposure_ev = float(arguments.exposure_ev);
     settings.unit_luminance_cd_m2 = float(arguments.unit_luminance_cd_m2);
+    settings.aovs = layers_of(arguments);
     for (const std::string& aov : arguments.aovs) settings.aovs.push_back(parse_aov(aov).first);
     return settings;
 }
 
-void check_picture_name(const std::string& file) {
-    const std::string extension = lower_extension(file);
+void check_picture_name(const RenderArguments& arguments) {
+    const std::string extension = lower_extension(arguments.output);
     if (extension != ".png" && extension != ".exr")
-        throw Error(fmt::format("--output: '{}': pictures are written as .png or .exr", file));
+        throw Error(fmt::format("--output: '{}': pictures are written as .png or .exr", arguments.output));
+    if (arguments.multilayer && extension != ".exr")
+        throw Error(fmt::format("--multilayer: '{}': only .exr has layers", arguments.output));
 }
 
-void write_picture(const std::string& file, const RenderResult& result, std::uint32_t samples) {
-    if (lower_extension(file) != ".exr") {
-        write_image(file, result.display);
-    } else if (result.standard_error.pixels.empty() && result.sample_counts.pixels.empty()) {
-        write_image(file, result.radiance);
-    } else {
-        write_estimate(file, result, samples);
+void write_picture(const std::string& file, const RenderArguments& arguments, const RenderResult& result) {
+    if (lower_extension(file) != ".exr") return write_image(file, result.display);
+    Channels channels;
+    channels.add(result.radiance, {"R", "G", "B"});
+    Image counts = result.sample_counts;
+    if (!result.standard_error.pixels.empty()) {
+        channels.add(result.standard_error, {"error.R", "error.G", "error.B"});
+        if (counts.pixels.empty()) {
+            counts = Image(result.radiance.width, result.radiance.height, 1);
+            std::fill(counts.pixels.begin(), counts.pixels.end(), float(arguments.samples));
+        }
     }
+    // Programs take a channel without a layer for one of the image's colours.
+    if (!counts.pixels.empty()) channels.add(counts, {arguments.multilayer ? "samples.X" : "samples"});
+    for (const std::string& layer : layers_of(arguments)) {
+        const Image& image = result.aovs.at(layer);
+        channels.add(image, layer_channels(layer, image.channels));
+    }
+    channels.write(file);
 }
 
 }  // namespace pellucid::cli

@@ -36,6 +36,7 @@ struct RenderArguments {
     std::string view = "radiance";
     std::string layer_builder = "automatic";
     std::vector<std::string> aovs;
+    std::optional<std::string> multilayer;
     std::optional<std::string> json;
     LightArguments light;
     ThicknessArguments thickness;
@@ -53,9 +54,9 @@ std::optional<Camera> chosen_camera(const RenderArguments& arguments, const Rend
 
 RenderSettings render_settings(const RenderArguments& arguments);
 
-/// Throws Error if the name ends in neither .png nor .exr.
-void check_picture_name(const std::string& file);
-/// The displayed image (.png) or the radiance (.exr), with what is known about its error. `samples`: of every pixel.
-void write_picture(const std::string& file, const RenderResult& result, std::uint32_t samples);
+/// Throws Error if the output is neither .png nor .exr, or has layers and is no .exr.
+void check_picture_name(const RenderArguments& arguments);
+/// The displayed image (.png), or the radiance with what is known about its error, and with its layers (.exr).
+void write_picture(const std::string& file, const RenderArguments& arguments, const RenderResult& result);
 
 }  // namespace pellucid::cli

@@ -57,7 +57,7 @@ struct Plan {
     explicit Plan(const SequenceArguments& a)
         : files("--output", a.image.output), camera(keyed("--camera-at", a.camera_keys)),
           light(keyed("--light-at", a.light_keys)) {
-        check_picture_name(a.image.output);
+        check_picture_name(a.image);
         for (const std::string& text : a.image.aovs) {
             const auto [name, file] = parse_aov(text);
             aovs.push_back({name, FilePattern("--aov", file)});
@@ -172,7 +172,7 @@ public:
         const RenderResult result = renderer_.render(settings_);
         for (const auto& [name, files] : plan_.aovs) write_image(files.file(frame), result.aovs.at(name));
         // The image comes last: it says that the frame is done.
-        write_picture(plan_.files.file(frame).string(), result, settings_.samples);
+        write_picture(plan_.files.file(frame).string(), a_.image, result);
         warnings_.show(fmt::format("frame {}: ", frame), result.warnings);
         check_validation(renderer_);
     }

@@ -93,7 +93,9 @@ std::string environments() {
 }
 
 std::string aovs() {
-    std::string text = "--aov NAME=FILE.exr writes a quantity per pixel, 32-bit float, at pixel centres:\n";
+    std::string text =
+        "--aov NAME=FILE.exr writes a quantity per pixel, 32-bit float, at pixel centres; "
+        "--multilayer NAME,NAME writes them as layers of -o FILE.exr:\n";
     for (const AovInfo& aov : aov_infos()) text += row(aov.name, aov.doc);
     return text;
 }
@@ -173,7 +175,7 @@ constexpr std::array<Topic, 14> kTopics = {{
     {"environments", "--environment", environments},
     {"images", "--samples, --error, --tonemap, --view", images},
     {"sequences", "frames, --camera-at, --light-at, resuming", sequences},
-    {"aovs", "--aov", aovs},
+    {"aovs", "--aov, --multilayer", aovs},
     {"statuses", "how the path of a pixel ends", statuses},
     {"presets", "names for a technique", presets_text},
     {"translucency", "light through translucent solids", thickness},
