@@ -62,7 +62,7 @@ void write_annotations(const fs::path& folder, const Images& images, std::uint64
     const std::string name =
         all ? "annotations.json" : fmt::format("annotations.{}-{}.json", images.first, images.last);
     const std::vector<nlohmann::ordered_json> descriptions = read_descriptions(folder, images);
-    write_json((folder / name).string(), coco_annotations(descriptions));
+    write_text_file(folder / name, coco_annotations(descriptions).dump() + "\n");
     console.print("{} images in {}\n", descriptions.size(), (folder / name).string());
     const std::uint64_t wanted = images.last - images.first + 1;
     if (descriptions.size() < wanted)

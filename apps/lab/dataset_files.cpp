@@ -129,7 +129,8 @@ Json describe_object(const DatasetScene& made, const DatasetSample& sample, std:
     const int width = sample.flow.width, height = sample.flow.height, id = int(index) + 1;
     const auto seen = [&](std::size_t i) { return sample.instances[i] == id; };
     const MaskBox visible = box_of(width, height, seen);
-    const MaskBox whole = box_of(width, height, [&](std::size_t i) { return sample.whole_masks[index][i] != 0; });
+    const auto alone = [&](std::size_t i) { return sample.whole_masks[index][i] != 0; };
+    const MaskBox whole = box_of(width, height, alone);
     const glm::dmat4 camera = vision_from_world(made.camera);
     const Material& glass = placed.glass;
     Json json{{"id", id},
@@ -144,14 +145,15 @@ Json describe_object(const DatasetScene& made, const DatasetSample& sample, std:
               {"whole_pixels", whole.pixels},
               {"visible_box", visible.box()},
               {"whole_box", whole.box()},
-              {"segmentation", run_lengths(width, height, seen)}};
+              {"segmentation", run_lengths(width, height, seen)},
+              {"whole_segmentation", run_lengths(width, height, alone)}};
     if (std::isfinite(glass.attenuation_distance)) json["attenuation_distance_m"] = glass.attenuation_distance;
     return json;
 }
 
 Json describe(std::uint64_t number, const Recipe& recipe, const DatasetScene& made, const DatasetSample& sample) {
     Json json{{"image", number},
-              {"seed", recipe.seed},
+              {"seed", std::uint64_t(recipe.seed)},
               {"version", version()},
               {"width", sample.flow.width},
               {"height", sample.flow.height},
@@ -213,7 +215,7 @@ void write_sample(const std::filesystem::path& folder, std::uint64_t number, con
     write_image(folder / (name + ".png"), sample.with_glass.display);
     write_image(folder / (name + ".background.png"), sample.without_glass.display);
     write_image(folder / (name + ".mask.png"), mask_image(sample));
-    write_json((folder / (name + ".json")).string(), describe(number, recipe, made, sample));
+    write_text_file(folder / (name + ".json"), describe(number, recipe, made, sample).dump() + "\n");
 }
 
 nlohmann::ordered_json coco_annotations(const std::vector<nlohmann::ordered_json>& images) {

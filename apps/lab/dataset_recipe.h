@@ -24,7 +24,7 @@ struct Recipe {
     double clear_share = 0.5, spread_m = 0.12;
     std::vector<std::string> backgrounds{"noise", "checker", "stripes"};
     Range background_distance_m{0.2, 1.0};
-    Range distance_m{0.8, 1.2}, elevation_deg{-10, 50}, fov_deg{30, 45};
+    Range distance_m{0.5, 0.8}, elevation_deg{-10, 50}, fov_deg{30, 45};
     std::vector<std::string> environments{"studio", "sky"};
     Range environment_intensity{0.7, 1.3};
     std::string technique = "visibility-layers";

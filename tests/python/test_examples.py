@@ -1,4 +1,6 @@
 """The examples of examples/python, as a user runs them."""
+import json
+import os
 import re
 import subprocess
 import sys
@@ -7,7 +9,7 @@ import pellucid
 import python_test
 from python_test import ROOT, PythonTest
 
-PAGES = [ROOT / "docs" / "python.md"]
+PAGES = [ROOT / "docs" / "python.md", ROOT / "docs" / "datasets.md"]
 
 
 class ExampleTest(PythonTest):
@@ -22,6 +24,9 @@ class Pages(PythonTest):
     """Each block of Python in the pages runs as it is written."""
 
     def test_blocks_of_python(self):
+        small = {"width": 16, "height": 16, "images": 2, "objects": {"sources": ["shape:sphere"]}}
+        (self.folder / "recipe.json").write_text(json.dumps(small), encoding="utf-8")
+        self.run_cli("dataset", "recipe.json", "-o", "out/glass", "--quiet")
         for page in PAGES:
             blocks = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
             self.assertTrue(blocks, page.name)
@@ -30,6 +35,13 @@ class Pages(PythonTest):
                     result = subprocess.run([sys.executable, "-c", block], cwd=self.folder, capture_output=True,
                                             text=True, timeout=250)
                     self.assertEqual(result.returncode, 0, result.stderr)
+
+
+    def test_the_recipe_is_one(self):
+        page = (ROOT / "docs" / "datasets.md").read_text(encoding="utf-8")
+        (recipe,) = re.findall(r"^```json\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+        (self.folder / "recipe.json").write_text(recipe, encoding="utf-8")
+        self.run_cli("dataset", "recipe.json", "-o", "out", "--gather", "--quiet")
 
 
 class Examples(ExampleTest):
@@ -44,6 +56,12 @@ class Examples(ExampleTest):
         said = self.run_example("error_map.py", "shape:sphere", "--size", "48", "--out", "map.png")
         self.assertRegex(said, r"\Awang-2014: \d+\.\d+% of \d+ pixels within 1 degree\n\Z")
         self.assertGreater(pellucid.read_image(self.folder / "map.png").std(), 0.05)
+
+    def test_small_dataset(self):
+        said = self.run_example("small_dataset.py", "--images", "1", "--size", "32", "--out", "set", "--pellucid",
+                                os.environ["PELLUCID_BINARY"])
+        self.assertEqual(said, "1 images in set\n")
+        self.assertGreater(pellucid.read_image(self.folder / "set" / "overview.png").std(), 0.05)
 
 
 if __name__ == "__main__":
