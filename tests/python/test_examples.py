@@ -36,7 +36,6 @@ class Pages(PythonTest):
                                             text=True, timeout=250)
                     self.assertEqual(result.returncode, 0, result.stderr)
 
-
     def test_the_recipe_is_one(self):
         page = (ROOT / "docs" / "datasets.md").read_text(encoding="utf-8")
         (recipe,) = re.findall(r"^```json\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
