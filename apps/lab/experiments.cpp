@@ -59,6 +59,16 @@ std::vector<ExperimentScene> torus_and_bunny(ModelFolder& models) {
     return Scenes(models).shape("torus", "shape:torus").model("bunny", kBunny).all();
 }
 
+std::vector<ExperimentScene> surfaces_with_faults(ModelFolder& models) {
+    return Scenes(models)
+        .shape("torus", "shape:torus,segments=24,sides=12")
+        .shape("goblet", "shape:goblet")
+        .shape("hollow sphere", "shape:hollow-sphere")
+        .model("cow", kCow)
+        .model("bunny", kBunny)
+        .all();
+}
+
 std::vector<ExperimentScene> models_of_the_thesis(ModelFolder& models) {
     return Scenes(models)
         .shape("goblet", "shape:goblet")
@@ -157,15 +167,29 @@ std::vector<Column> with_first(Column first, std::vector<Column> others) {
 }
 
 ExperimentSpec wang_search_step() {
-    ExperimentSpec spec{.name = "wang-search-step",
-                        .source = "Wang 2014, section 3.5.3: SIZE of the linear search",
-                        .varied = "SIZE, the step of the search, 1/5, 1/50 and 1/500 of the depth range",
-                        .environment = "sky",
-                        .scenes = cow,
-                        .columns = accuracy_columns(),
-                        .plots = {{"Accuracy over SIZE", "%", false, {kWithin1, kStable}}}};
-    for (const int steps : {5, 50, 500})
-        spec.variants.push_back({fmt::format("SIZE 1/{}", steps), "wang-2014", {{"steps", double(steps)}}});
+    ExperimentSpec spec{
+        .name = "wang-search-step",
+        .source = "Wang 2014, section 3.5.3: SIZE of the linear search",
+        .varied =
+            "SIZE, the step of the search, 1/5, 1/50 and 1/500 of a depth range: of the object's box, or "
+            "from the eye to the end of the glass; with and without the search for what a step beyond the "
+            "silhouette has passed",
+        .environment = "sky",
+        .scenes = cow,
+        .columns = accuracy_columns(),
+        .plots = {{"Accuracy over SIZE", "%", false, {kWithin1, kStable}}}};
+    for (const bool silhouettes : {true, false}) {
+        for (const bool of_box : {true, false}) {
+            for (const int steps : {5, 50, 500}) {
+                spec.variants.push_back({.label = fmt::format("{}1/{} {}", silhouettes ? "" : "no silhouettes, ", steps,
+                                                              of_box ? "of the box" : "from the eye"),
+                                         .technique = "wang-2014",
+                                         .parameters = {{"steps", double(steps)},
+                                                        {"size-range", of_box ? 0.0 : 1.0},
+                                                        {"silhouettes", silhouettes ? 1.0 : 0.0}}});
+            }
+        }
+    }
     return spec;
 }
 
@@ -199,6 +223,38 @@ ExperimentSpec wang_layers() {
                                   {"Time over layers", "ms", false, {kFrame}}}};
     for (const int layers : {2, 4, 6, 8})
         spec.variants.push_back({fmt::format("{} layers", layers), "wang-2014", {{"layers", double(layers)}}});
+    return spec;
+}
+
+ExperimentSpec wang_exits() {
+    ExperimentSpec spec{.name = "wang-exits",
+                        .source = "Wang 2014, sections 3.5.1 and 5.2: exits of rays below a fault",
+                        .varied = "where the exit of a ray is searched",
+                        .scenes = surfaces_with_faults,
+                        .timed = true,
+                        .columns = {kTriangles,
+                                    kWithin1,
+                                    kStable,
+                                    kWithin5,
+                                    {"missing layer, %", "/status/missing_layer", 100.0},
+                                    {"event limit, %", "/status/event_limit", 100.0},
+                                    kFrame,
+                                    kEmbree,
+                                    {"times as fast as the first", "/times_first_fps", 1.0, 2}},
+                        .plots = {{"Stable pixels within 1 degree", "%", true, {kStable}}}};
+    const auto add = [&](const char* label, int below_faults, bool front_exits, bool steep_walls) {
+        spec.variants.push_back({.label = label,
+                                 .technique = "wang-2014",
+                                 .parameters = {{"below-faults", double(below_faults)},
+                                                {"front-exits", front_exits ? 1.0 : 0.0},
+                                                {"steep-walls", steep_walls ? 1.0 : 0.0}}});
+    };
+    add("waits below faults (3.5.1)", 0, false, false);
+    add("layer k+2 below faults (5.2)", 1, false, false);
+    add("crosses on from its start", 2, false, false);
+    add("layers 1 and 3 after reflection", 0, true, false);
+    add("jumps to the outside are walls", 0, false, true);
+    add("5.2, layers 1 and 3, walls", 1, true, true);
     return spec;
 }
 
@@ -293,8 +349,9 @@ ExperimentSpec wang_many_objects() {
 
 std::span<const ExperimentSpec> experiments() {
     static const std::vector<ExperimentSpec> all = {
-        wang_search_step(),  wang_environment(), wang_layers(), interfaces(), wyman_speed(), wang_table_4_1(),
-        wang_many_objects(), chen_error(),       chen_speed(),  ihrke_rays(), ihrke_light(), ihrke_reflections()};
+        wang_search_step(), wang_environment(), wang_layers(),       wang_exits(), interfaces(),
+        wyman_speed(),      wang_table_4_1(),   wang_many_objects(), chen_error(), chen_speed(),
+        ihrke_rays(),       ihrke_light(),      ihrke_reflections()};
     return all;
 }
 

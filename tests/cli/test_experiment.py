@@ -8,7 +8,7 @@ import cli
 import pictures
 from cli import CliTest, TETRAHEDRON
 
-NAMES = ["wang-search-step", "wang-environment", "wang-layers", "interfaces", "wyman-speed", "wang-table-4-1",
+NAMES = ["wang-search-step", "wang-environment", "wang-layers", "wang-exits", "interfaces", "wyman-speed", "wang-table-4-1",
          "wang-many-objects", "chen-error", "chen-speed", "ihrke-rays", "ihrke-light",
          "ihrke-reflections"]
 

@@ -11,18 +11,34 @@ layout(constant_id = 0) const bool kNextObject = false;  // search layer 1 of an
 
 PELLUCID_APPENDED_LIST(Inside, 17, inside_groups, inside_length, inside_pixels, append_inside)
 
+// Searches the layer along a ray outside the object, first in linear, then in binary steps (3.3, 3.5). Entries are hit
+// from the front: a ray that appears from behind leaves a fault zone.
+Hit search_entry(vec3 world_origin, vec3 world_direction, bool on_layer, bool from_afar) {
+    Walk walk = begin_walk(world_origin, world_direction, on_layer, from_afar);
+    // Beyond the farthest entry of the image there is nothing to hit.
+    float deepest = uintBitsToFloat(farthest_entry) + fault_size;
+    walk.end = min(walk.end, reach_zero(deepest - walk.ray.depth, -walk.ray.depth_rate));
+    bool behind = is_behind(walk.ray, walk.after);
+    while (pass_layer(walk, behind)) {
+        float jump;
+        float hit = binary_search(walk, layer, false, jump);
+        if (jump <= fault_size) return Hit(hit, layer, kStatusOk);
+    }
+    return no_hit(walk);
+}
+
 // Continues a ray that has left a solid to this object. Returns true if it is now inside.
 bool meet_surface_ahead(inout Path path) {
     if (path.status != kStatusOk) return false;  // the path was lost before
     // A ray that has left this object starts on the searched layer.
-    Hit hit = search(path.position, path.direction, !kNextObject, kNextObject);
+    Hit hit = search_entry(path.position, path.direction, !kNextObject, kNextObject);
     if (hit.distance < 0.0) {
         // Most paths hit no further glass. Over glass at the image border the result is unknown.
         if (hit.status == kStatusLeftScreen) path.status = hit.status;
         return false;
     }
     path.position += hit.distance * path.direction;
-    return cross_interface(path, normal_at(world_pixel(path.position)), false, object_material().ior);
+    return cross_interface(path, normal_at(world_pixel(path.position), hit.layer), false, object_material().ior);
 }
 
 void main() {

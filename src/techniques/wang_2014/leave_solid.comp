@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/wang_2014/ray_state.glsl"
 #include "techniques/wang_2014/search.glsl"
+#include "techniques/wang_2014/search_exit.glsl"
 #include "techniques/wang_2014/first_surface.glsl"
 
 layout(constant_id = 0) const bool kFromEye = false;  // the rays are view rays before the first surface
@@ -21,7 +22,7 @@ void main() {
     }
     // A reflected ray starts on the searched layer, a ray that has just entered does not.
     bool reflected = path.status == kStatusEventLimit;
-    Hit hit = search(path.position, path.direction, reflected, false);
+    Hit hit = search_exit(path.position, path.direction, reflected);
     if (hit.distance < 0.0) {
         path.status = hit.status;
         store_world_refraction(texel, path);
@@ -29,7 +30,7 @@ void main() {
     }
     MaterialRecord material = object_material();
     travel(path, hit.distance, material.sigma_a.rgb);
-    bool leaves = cross_interface(path, normal_at(world_pixel(path.position)), true, material.ior);
+    bool leaves = cross_interface(path, normal_at(world_pixel(path.position), hit.layer), true, material.ior);
     path.status = leaves ? kStatusOk : kStatusEventLimit;  // a further search may still resolve kStatusEventLimit
     store_world_refraction(texel, path);
 

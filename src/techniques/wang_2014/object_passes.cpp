@@ -8,11 +8,12 @@
 namespace pellucid {
 
 ObjectPasses::ObjectPasses(Recorder& recorder, const Frame& frame, const Layers& seen, const Layers& layers,
-                           const Refraction& refraction, const ObjectSearch& search)
+                           const Refraction& refraction, const ObjectSearch& search, const ExitSearch& exits)
     : recorder_(recorder), frame_(frame), seen_(seen), layers_(layers), refraction_(refraction), search_(search),
-      merged_(merge_layers(recorder, frame, layers)) {}
+      exits_(exits), merged_(merge_layers(recorder, frame, layers, exits.silhouettes)) {}
 
-ObjectPasses::MergedLayers ObjectPasses::merge_layers(Recorder& recorder, const Frame& frame, const Layers& layers) {
+ObjectPasses::MergedLayers ObjectPasses::merge_layers(Recorder& recorder, const Frame& frame, const Layers& layers,
+                                                      bool silhouettes) {
     Workspace& workspace = frame.workspace;
     const GpuImage& depth = workspace.image("merged layer depth", vk::Format::eR32Sfloat, frame.extent, layers.count);
     const GpuImage& normal = workspace.image("merged layer normal", vk::Format::eR32Uint, frame.extent, layers.count);
@@ -20,7 +21,8 @@ ObjectPasses::MergedLayers ObjectPasses::merge_layers(Recorder& recorder, const 
     // Beside the object there is neither entry nor exit. A ray there must count as outside: in front of entries and
     // behind exits.
     for (std::uint32_t layer = 0; layer < layers.count; ++layer) {
-        const float beside = layer % 2 == 0 ? float(PELLUCID_EMPTY_DEPTH) : -float(PELLUCID_EMPTY_DEPTH);
+        const float beside =
+            layer % 2 == 0 || !silhouettes ? float(PELLUCID_EMPTY_DEPTH) : -float(PELLUCID_EMPTY_DEPTH);
         recorder.clear_layer(depth, layer, vk::ClearColorValue(std::array{beside, 0.0f, 0.0f, 0.0f}));
     }
     recorder.clear(normal, vk::ClearColorValue(std::array{0u, 0u, 0u, 0u}));
@@ -39,7 +41,7 @@ const Buffer& ObjectPasses::enter(const Buffer& pixels, std::uint32_t layer) {
     recorder_.compute_indirect(
         frame_.workspace.compute(shaders::enter_solid_comp, {{"kNextObject", layer == 0}}),
         {frame_.bindings(), layers_.bindings(), refraction_.bindings(), reads("seen_triangle", seen_.triangle),
-         reads_layer("merged_depth", merged_.depth, layer), reads_layer("merged_normal", merged_.normal, layer),
+         reads("merged_depth", merged_.depth), reads("merged_normal", merged_.normal),
          reads("EntryLimit", merged_.entry_limit), reads("PixelList", pixels), updates("Inside", inside)},
         search_, pixels);
     return inside;
@@ -54,9 +56,12 @@ const Buffer& ObjectPasses::leave(const Buffer& pixels, std::uint32_t layer, std
         const Buffer& reflected =
             start_pixel_list(recorder_, frame_, reflection % 2 == 0 ? "rays reflected" : "rays reflected again");
         recorder_.compute_indirect(
-            frame_.workspace.compute(shaders::leave_solid_comp, {{"kFromEye", from_eye && reflection == 0}}),
+            frame_.workspace.compute(shaders::leave_solid_comp, {{"kFromEye", from_eye && reflection == 0},
+                                                                 {"kBelowFaults", exits_.below_faults},
+                                                                 {"kFrontExits", exits_.front_exits},
+                                                                 {"kSteepWalls", exits_.steep_walls}}),
             {frame_.bindings(), layers_.bindings(), refraction_.bindings(), reads("seen_triangle", seen_.triangle),
-             reads_layer("merged_depth", merged_.depth, layer), reads_layer("merged_normal", merged_.normal, layer),
+             reads("merged_depth", merged_.depth), reads("merged_normal", merged_.normal),
              reads("EntryLimit", merged_.entry_limit), reads("PixelList", *searching), updates("Outside", outside),
              updates("Reflected", reflected)},
             search_, *searching);

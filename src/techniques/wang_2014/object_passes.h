@@ -11,6 +11,14 @@ struct ObjectSearch {
     std::uint32_t layer = 0;
     std::uint32_t linear_steps, binary_steps;
     std::uint32_t last_reflection = 0;
+    float fault_size;  ///< SIZE, m
+};
+
+/// Choices for the search of exits, as in search_exit.glsl.
+struct ExitSearch {
+    std::uint32_t below_faults;
+    bool front_exits, steep_walls;
+    bool silhouettes;  ///< beside the object a ray is behind exits, so a step beyond the silhouette is refined
 };
 
 /// The passes of Wang 2014 for one object, from its candidate rays to the rays that have passed it.
@@ -18,7 +26,7 @@ class ObjectPasses {
 public:
     /// `seen`: layers of all solids together; `layers`: layers of the object alone.
     ObjectPasses(Recorder& recorder, const Frame& frame, const Layers& seen, const Layers& layers,
-                 const Refraction& refraction, const ObjectSearch& search);
+                 const Refraction& refraction, const ObjectSearch& search, const ExitSearch& exits);
 
     /// Searches a layer for entries of the rays of `pixels`. Returns the pixels of rays that found one.
     const Buffer& enter(const Buffer& pixels, std::uint32_t layer);
@@ -33,7 +41,7 @@ private:
         const GpuImage& normal;
         const Buffer& entry_limit;  ///< depth of the farthest entry
     };
-    static MergedLayers merge_layers(Recorder& recorder, const Frame& frame, const Layers& layers);
+    static MergedLayers merge_layers(Recorder& recorder, const Frame& frame, const Layers& layers, bool silhouettes);
 
     Recorder& recorder_;
     const Frame& frame_;
@@ -41,6 +49,7 @@ private:
     const Layers& layers_;
     const Refraction& refraction_;
     ObjectSearch search_;
+    ExitSearch exits_;
     MergedLayers merged_;
 };
 

@@ -19,6 +19,9 @@ layout(push_constant) uniform Push {
     uint linear_steps;
     uint binary_steps;
     uint last_reflection;  // 1: another total reflection ends the path
+    // SIZE of the thesis, in metres of depth. Larger depth differences between neighbouring texels, or between the two
+    // ends of a binary search, mean different surfaces.
+    float fault_size;
 };
 
 Path load_path(ivec2 texel) {

@@ -2,11 +2,7 @@
 #define PELLUCID_TECHNIQUES_WANG_2014_SEARCH_GLSL
 
 // Search of a layer along a ray: Wang 2014, sections 3.3 and 3.5. Needs: technique_bindings.glsl; linear_steps,
-// binary_steps, box_low, box_high.
-
-// SIZE of the thesis, in metres of depth. Larger depth differences between neighbouring texels, or between the two
-// ends of a binary search, mean different surfaces.
-float fault_size() { return (box_high.z - box_low.z) / float(linear_steps); }
+// binary_steps, fault_size, box_low, box_high.
 
 #include "techniques/ray_range.glsl"
 #include "techniques/wang_2014/merged_layers.glsl"
@@ -40,7 +36,7 @@ float depth_at(ScreenRay ray, float distance) { return ray.depth + distance * ra
 vec2 distances_in_box(vec3 origin, vec3 direction) {
     origin.z = -origin.z;
     direction.z = -direction.z;
-    vec3 margin = vec3(fault_size());
+    vec3 margin = vec3(fault_size);
     vec3 inverse = 1.0 / mix(direction, vec3(1e-12), lessThan(abs(direction), vec3(1e-12)));
     vec3 low = box_low.xyz - margin;
     if (frame.orthographic == 0u) low.z = max(low.z, frame.near_plane);
@@ -51,18 +47,73 @@ vec2 distances_in_box(vec3 origin, vec3 direction) {
 
 struct Hit {
     float distance;  // negative: no hit
+    uint layer;      // that holds the surface
     uint status;     // reason for a missing hit
 };
 
-// Narrows the interval between a point in front of the layer and one behind it. Returns the last distance in front.
-// `jump`: difference of the layer's depths at both ends.
-float binary_search(ScreenRay ray, float before, float after, out float jump) {
-    float depth_before = footprint(pixel_at(ray, before)).depth;
-    float depth_after = footprint(pixel_at(ray, after)).depth;
+// The searched part of a ray, and the current linear step from `before` to `after`.
+struct Walk {
+    ScreenRay ray;
+    float start, last;  // distances; start >= last: nothing to search
+    float end;          // of the steps; nearer than `last` if nothing can be hit between them
+    float step_length, before, after;
+    uint next_step;
+    bool left_screen;  // `last` is at the edge of the image
+};
+
+// `on_layer`: the ray starts on the searched layer and takes a small step first. `from_afar`: it starts anywhere.
+// Neither: it starts in front of the layer.
+Walk begin_walk(vec3 world_origin, vec3 world_direction, bool on_layer, bool from_afar) {
+    vec3 origin = (frame.view_from_world * vec4(world_origin, 1.0)).xyz;
+    vec3 direction = mat3(frame.view_from_world) * world_direction;
+    float to_screen_edge = distance_to_screen_edge(origin, direction);
+    vec2 in_box = distances_in_box(origin, direction);
+    Walk walk;
+    walk.ray = screen_ray(origin, direction);
+    walk.start = from_afar ? in_box.x : 0.0;
+    walk.last = min(to_screen_edge, in_box.y);
+    walk.left_screen = to_screen_edge <= walk.last;
+    walk.end = walk.start < walk.last ? walk.last : walk.start;
+    walk.step_length = max((walk.last - walk.start) / float(linear_steps), fault_size);
+    walk.before = walk.after = on_layer ? kFirstStep * walk.step_length : walk.start;
+    walk.next_step = 1u;
+    return walk;
+}
+
+bool step_on(inout Walk walk) {
+    if (!(walk.after < walk.end)) return false;
+    walk.before = walk.after;
+    walk.after = min(walk.start + float(walk.next_step) * walk.step_length, walk.end);
+    ++walk.next_step;
+    return true;
+}
+
+// True if the ray is behind the searched layer, "-" in the thesis.
+bool is_behind(ScreenRay ray, float distance) {
+    return depth_at(ray, distance) > stored_depth(pixel_at(ray, distance), layer);
+}
+
+// Steps on until the ray passes from the front of the searched layer to behind it. Returns false if it does not.
+bool pass_layer(inout Walk walk, inout bool behind) {
+    bool passed = false;
+    while (!passed && step_on(walk)) {
+        bool now_behind = is_behind(walk.ray, walk.after);
+        passed = now_behind && !behind;
+        behind = now_behind;  // false: in front, or out of a fault zone
+    }
+    return passed;
+}
+
+// Narrows the current step, which passes a layer to behind it or to its front. Returns the last distance before the
+// crossing. `jump`: difference of the layer's depths at both ends.
+float binary_search(Walk walk, uint crossed, bool to_front, out float jump) {
+    float before = walk.before, after = walk.after;
+    float depth_before = footprint(pixel_at(walk.ray, before), crossed).depth;
+    float depth_after = footprint(pixel_at(walk.ray, after), crossed).depth;
     for (uint i = 0u; i < binary_steps; ++i) {
         float middle = 0.5 * (before + after);
-        float depth = footprint(pixel_at(ray, middle)).depth;
-        if (depth_at(ray, middle) > depth) {
+        float depth = footprint(pixel_at(walk.ray, middle), crossed).depth;
+        if ((depth_at(walk.ray, middle) > depth) != to_front) {
             after = middle;
             depth_after = depth;
         } else {
@@ -74,51 +125,14 @@ float binary_search(ScreenRay ray, float before, float after, out float jump) {
     return before;
 }
 
+Hit no_hit(Walk walk) {
+    // Beside the object the image lacks nothing: the ray has left the object.
+    bool over_glass = abs(stored_depth(pixel_at(walk.ray, walk.last), layer)) < PELLUCID_EMPTY_DEPTH;
+    bool unknown = walk.start < walk.last && walk.left_screen && over_glass;
+    return Hit(-1.0, layer, unknown ? kStatusLeftScreen : kStatusMissingLayer);
+}
+
 // Pixel coordinate of a point in world space.
 vec2 world_pixel(vec3 position) { return project((frame.view_from_world * vec4(position, 1.0)).xyz); }
-
-// Searches the layer along a world-space ray, first in linear, then in binary steps (3.3, 3.5). Both entries and exits
-// are hit from the front: a ray that appears from behind leaves a fault zone. `on_layer`: the ray starts on the
-// searched layer. `from_afar`: it starts anywhere. Neither: it starts in front of the layer.
-Hit search(vec3 world_origin, vec3 world_direction, bool on_layer, bool from_afar) {
-    vec3 origin = (frame.view_from_world * vec4(world_origin, 1.0)).xyz;
-    vec3 direction = mat3(frame.view_from_world) * world_direction;
-    ScreenRay ray = screen_ray(origin, direction);
-    float to_screen_edge = distance_to_screen_edge(origin, direction);
-    vec2 in_box = distances_in_box(origin, direction);
-    float start = from_afar ? in_box.x : 0.0;
-    float last = min(to_screen_edge, in_box.y);
-    if (!(start < last)) return Hit(-1.0, kStatusMissingLayer);
-    // Beyond the farthest entry of the image there is nothing to hit.
-    bool entries = layer % 2u == 0u;
-    float end = entries ? min(last, reach_zero(uintBitsToFloat(farthest_entry) + fault_size() - ray.depth, -ray.depth_rate)) : last;
-    float step_length = max((last - start) / float(linear_steps), fault_size());
-
-    // True if the ray is behind the layer, "-" in the thesis. A ray that starts on layer 1 is in front of layer 2. A
-    // ray that starts on the searched layer takes a small step first.
-    float before = on_layer ? kFirstStep * step_length : start;
-    bool behind = (on_layer || from_afar) && depth_at(ray, before) > stored_depth(pixel_at(ray, before));
-
-    // The binary search stays outside the linear loop: some drivers spend its time in every iteration, executed or
-    // not.
-    float after = before;
-    for (uint i = 1u; after < end;) {
-        bool passed = false;  // from the front of the layer to behind it
-        for (; !passed && after < end; ++i) {
-            before = after;
-            after = min(start + float(i) * step_length, end);
-            bool now_behind = depth_at(ray, after) > stored_depth(pixel_at(ray, after));
-            passed = now_behind && !behind;
-            behind = now_behind;  // false: in front, or out of a fault zone
-        }
-        if (!passed) break;
-        float jump;
-        float hit = binary_search(ray, before, after, jump);
-        if (jump <= fault_size()) return Hit(hit, kStatusOk);  // case 3; otherwise case 2: below the fault
-    }
-    // Beside the object the image lacks nothing: the ray has left the object.
-    bool over_glass = abs(stored_depth(pixel_at(ray, last))) < PELLUCID_EMPTY_DEPTH;
-    return Hit(-1.0, to_screen_edge <= last && over_glass ? kStatusLeftScreen : kStatusMissingLayer);
-}
 
 #endif

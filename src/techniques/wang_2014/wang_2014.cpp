@@ -18,6 +18,14 @@ constexpr std::array kParameters = {
     ParameterInfo{"steps", "", 50, 1, 4096, true, "linear search steps n; SIZE = 1/n of the depth range"},
     ParameterInfo{"binary-steps", "", 8, 0, 24, true, "binary search steps m after a linear one"},
     ParameterInfo{"reflections", "", 1, 0, 16, true, "total internal reflections followed per exit"},
+    ParameterInfo{"below-faults", "", 1, 0, 2, true,
+                  "0: rays wait; 1: they follow deeper layers (5.2); 2: from the start"},
+    ParameterInfo{"front-exits", "", 1, 0, 1, true, "1: reflected rays leave through layers 1 and 3, too"},
+    ParameterInfo{"silhouettes", "", 1, 0, 1, true,
+                  "1: a step beyond the silhouette is refined to what it stepped over"},
+    ParameterInfo{"size-range", "", 0, 0, 1, true,
+                  "depth range of SIZE: 0 of the object's box, 1 from the eye to the glass's end"},
+    ParameterInfo{"steep-walls", "", 1, 0, 1, true, "1: a jump of a layer to the outside is a wall, no fault"},
 };
 
 /// Axis-aligned box in view space: x, y and depth, m.
@@ -36,6 +44,13 @@ ViewBox view_box(const gpu::FrameConstants& view, std::span<const glm::vec3> cor
     box.low.z = std::max(box.low.z, view.near_plane);
     box.high.z = std::max(box.high.z, box.low.z);
     return box;
+}
+
+/// SIZE of section 3.5.3, m.
+float size_of(const ViewBox& box, const gpu::FrameConstants& view, const ParameterValues& parameters) {
+    const bool of_frustum = parameters.whole("size-range") != 0;
+    const float range = of_frustum ? view.glass_far : box.high.z - box.low.z;
+    return range / float(parameters.whole("steps"));
 }
 
 std::uint32_t layer_count(const ParameterValues& parameters) { return parameters.whole("layers"); }
@@ -85,7 +100,12 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
                              .box_high = glm::vec4(box.high, 0.0f),
                              .object = call.object,
                              .linear_steps = parameters.whole("steps"),
-                             .binary_steps = parameters.whole("binary-steps")});
+                             .binary_steps = parameters.whole("binary-steps"),
+                             .fault_size = size_of(box, view, parameters)},
+                            {.below_faults = parameters.whole("below-faults"),
+                             .front_exits = parameters.whole("front-exits") != 0,
+                             .steep_walls = parameters.whole("steep-walls") != 0,
+                             .silhouettes = parameters.whole("silhouettes") != 0});
         const Buffer* rays = &layers.covered;
         for (std::uint32_t entry = 0; entry + 1 < own.count; entry += 2) {
             const bool from_eye = alone && entry == 0;
