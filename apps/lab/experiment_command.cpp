@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
@@ -22,6 +23,7 @@ struct ExperimentArguments {
     std::string report = "out/experiments";
     std::optional<std::string> json;
     std::optional<std::string> size;
+    bool again = false;
     int frames = 30;
     DeviceArguments device;
     Console console;
@@ -71,6 +73,25 @@ void check_json(const ExperimentArguments& arguments, const std::vector<const Ex
     if (is_in_folder(*arguments.json, arguments.report))
         throw Error(
             fmt::format("--json: {} lies in the folder of --report, which pages are written to", *arguments.json));
+}
+
+/// What the results of an experiment depend on.
+nlohmann::ordered_json conditions_of(const ExperimentSpec& spec, const ExperimentArguments& arguments,
+                                     Renderer& renderer) {
+    return {{"command", fmt::format("pellucid experiment {}{}", spec.name, arguments.options)},
+            {"models", std::filesystem::absolute(arguments.models.value_or("")).string()},
+            {"device", renderer.device().name},
+            {"version", version()},
+            {"cpu", cpu_name()},
+            {"cpu_threads", renderer.tracer().threads()}};
+}
+
+/// The results that an earlier run under the same conditions has left with its page; null: there are none.
+nlohmann::ordered_json kept_results(const std::filesystem::path& file, const nlohmann::ordered_json& conditions) {
+    std::ifstream in(file);
+    const auto kept = nlohmann::ordered_json::parse(in, nullptr, false);
+    const bool usable = kept.is_object() && kept.contains("conditions") && kept.contains("experiment");
+    return usable && kept["conditions"] == conditions ? kept["experiment"] : nlohmann::ordered_json();
 }
 
 /// Runs one experiment and writes its page; what it measured, for the JSON.
@@ -146,8 +167,22 @@ void run_experiments(const ExperimentArguments& arguments) {
                                 {"cpu_threads", renderer.tracer().threads()},
                                 {"experiments", nlohmann::ordered_json::array()}};
     UnreadScenes unread(0);
-    for (const ExperimentSpec* spec : chosen) {
-        json["experiments"].push_back(run_one(arguments, *spec, renderer, unread));
+    const bool keeps = !arguments.again && chosen.size() > 1;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const ExperimentSpec* spec = chosen[i];
+        const std::filesystem::path results = experiment_results(arguments.report, *spec);
+        const nlohmann::ordered_json conditions = conditions_of(*spec, arguments, renderer);
+        nlohmann::ordered_json experiment = keeps ? kept_results(results, conditions) : nlohmann::ordered_json();
+        const bool kept = !experiment.is_null();
+        arguments.console.print("[{}/{}] {}{}\n", i + 1, chosen.size(), spec->name, kept ? ": results kept" : "");
+        if (!kept) {
+            const std::size_t errors = unread.errors().size();
+            experiment = run_one(arguments, *spec, renderer, unread);
+            // Last, so that an interrupted run is not kept.
+            if (!experiment["runs"].empty() && unread.errors().size() == errors)
+                write_json(results.string(), {{"conditions", conditions}, {"experiment", experiment}});
+        }
+        json["experiments"].push_back(std::move(experiment));
         // After every experiment, so that what fails later loses nothing.
         if (arguments.json) write_json(*arguments.json, json);
         const std::filesystem::path index = write_experiment_index(arguments.report);
@@ -179,6 +214,7 @@ void add_experiment_command(CLI::App& app) {
     command->add_option("--json", a.json, "Write every measure of every run")->type_name("FILE");
     command->add_option("--size", a.size, "Width and height in pixels; default: what each experiment is made for")
         ->type_name("WxH");
+    command->add_flag("--again", a.again, "Of several: repeat those, too, that --report has results of");
     add_number(*command, "--frames", a.frames, "Frames that are timed, where times are taken")->capture_default_str();
     add_device_options(*command, a.device);
     add_console_options(*command, a.console);

@@ -132,9 +132,14 @@ void check_index_folder(const fs::path& folder) {
 
 }  // namespace
 
+fs::path experiment_results(const fs::path& report, const ExperimentSpec& spec) {
+    return report / spec.name / (std::string(spec.name) + ".json");
+}
+
 ExperimentPage::ExperimentPage(const fs::path& folder, const ExperimentSpec& spec) : spec_(spec), folder_(folder) {
     folder_.claim(kPage);  // first, so that it is also removed first from an older report
     folder_.claim(std::string(spec.name) + ".md");
+    folder_.claim(experiment_results({}, spec).filename());
 }
 
 void ExperimentPage::add_picture(const std::string& scene, const std::string& caption, const Image& display) {

@@ -42,6 +42,9 @@ private:
     std::vector<GridPicture> pictures_;
 };
 
+/// The file beside an experiment's page that keeps its results for a later run.
+std::filesystem::path experiment_results(const std::filesystem::path& report, const ExperimentSpec& spec);
+
 /// Writes DIR/index.html with links to all experiments that have a page in DIR. Returns its path.
 std::filesystem::path write_experiment_index(const std::filesystem::path& folder);
 

@@ -124,6 +124,7 @@ nlohmann::ordered_json measured(ExperimentRun& run, const ExperimentSpec& spec, 
                                 {"technique", variant.technique},
                                 {"width", view.settings.width},
                                 {"height", view.settings.height},
+                                {"ior", view.loaded->materials.front().ior},
                                 {"objects", view.loaded->objects.size()},
                                 {"triangles", view.loaded->triangle_count()}};
     add_parameters(json, find_technique(variant.technique), variant.parameters);
@@ -185,8 +186,9 @@ void run_scene(ExperimentRun& run, const ExperimentSpec& spec, const ExperimentS
                const std::vector<Variant>& variants, ExperimentPage& page) {
     std::unique_ptr<const Scene> loaded;
     const auto load = [&] {
-        loaded = std::make_unique<const Scene>(
-            scene.make ? scene.make() : with_copies(load_scene(scene.how.source), scene.how.copies));
+        Scene made = scene.make ? scene.make() : with_copies(load_scene(scene.how.source), scene.how.copies);
+        for (Material& material : made.materials) material.ior = scene.ior.value_or(material.ior);
+        loaded = std::make_unique<const Scene>(std::move(made));
     };
     if (!run.unread.read(scene.label, load)) {
         run.warnings.insert(run.unread.errors().back());

@@ -16,6 +16,7 @@ namespace {
 
 constexpr Model kDragon{"dragon", {"photon_dragon.obj", nullptr}};
 constexpr Model kHead{"head", {"suzanne.obj", nullptr}};
+constexpr Model kFigure{"closed figure", {"homer.obj", nullptr}};
 constexpr Model kFiftyThousand{"stand-in for the buddha", {"dragon_vrip_res3.ply", nullptr}};
 constexpr Model kPlane{"F-16", {"f16.ply", nullptr}};
 constexpr Model kSphere1600{"sphere of 1,600 triangles", {"gen_sphere_1600.obj", nullptr}};
@@ -45,6 +46,18 @@ public:
         return *this;
     }
     std::vector<ExperimentScene> all() { return std::move(all_); }
+    /// Every scene once with each index of refraction.
+    std::vector<ExperimentScene> with_indices(std::initializer_list<float> indices) {
+        std::vector<ExperimentScene> scenes;
+        for (const ExperimentScene& scene : all_) {
+            for (const float index : indices) {
+                scenes.push_back(scene);
+                scenes.back().label = fmt::format("{}, index {}", scene.label, index);
+                scenes.back().ior = index;
+            }
+        }
+        return scenes;
+    }
 
 private:
     ModelFolder& models_;
@@ -71,6 +84,7 @@ std::vector<ExperimentScene> surfaces_with_faults(ModelFolder& models) {
 
 std::vector<ExperimentScene> models_of_the_thesis(ModelFolder& models) {
     return Scenes(models)
+        .shape("sphere", "shape:sphere")
         .shape("goblet", "shape:goblet")
         .shape("torus", "shape:torus")
         .shape("knot", "shape:knot")
@@ -78,7 +92,17 @@ std::vector<ExperimentScene> models_of_the_thesis(ModelFolder& models) {
         .shape("bottle", "shape:bottle")
         .model("bunny", kBunny)
         .model("head (open)", kHead)
+        .model("figure (closed)", kFigure)
         .all();
+}
+
+std::vector<ExperimentScene> published_indices(ModelFolder& models) {
+    return Scenes(models)
+        .shape("sphere", "shape:sphere")
+        .shape("goblet", "shape:goblet")
+        .model("cow", kCow)
+        .model("bunny", kBunny)
+        .with_indices({1.2f, 1.45f, 1.5f});
 }
 
 std::vector<ExperimentScene> many_objects(ModelFolder& models) {
@@ -266,6 +290,7 @@ ExperimentSpec interfaces() {
             .variants = {{"one interface", "one-interface"},
                          {"two, Wyman 2005", "wyman-2005"},
                          {"two, Oliveira and Brauwers 2007", "oliveira-brauwers-2007"},
+                         {"two, the same with the first back face", "oliveira-brauwers-2007", {{"back-face", 0.0}}},
                          {.label = "four, Wang 2014",
                           .technique = "wang-2014",
                           .parameters = {{"layers", 4.0}},
@@ -276,6 +301,34 @@ ExperimentSpec interfaces() {
             .remark =
                 "The analysis view: red up to two interfaces, blue more, green total internal reflection, grey "
                 "where the technique gave up."};
+}
+
+ExperimentSpec wang_refractions() {
+    ExperimentSpec spec{
+        .name = "wang-refractions",
+        .source = "Wang 2014, section 3.1.2, figure 3.4: four and six refractions of a traced dragon",
+        .varied = "interface events that a traced path may have",
+        .scenes = dragon,
+        .zoom = true,
+        .columns = {kTriangles, {"paths that leave the glass, %", "/status/ok", 100.0}, kWithin1, kFlip, kRmse},
+        .plots = {{"Paths that leave the glass", "%", false, {{"all", "/status/ok", 100.0}}}}};
+    for (const int events : {4, 6, 8, 16})
+        spec.variants.push_back({fmt::format("{} events", events), "reference", {{"events", double(events)}}});
+    return spec;
+}
+
+ExperimentSpec published_index() {
+    return {.name = "index",
+            .source = "Wyman 2005 (index 1.2) and Wang 2014 (1.45): published techniques at the published indices",
+            .varied = "index of refraction, and technique",
+            .variants = {{"one interface", "one-interface"},
+                         {"Kay and Greenberg 1979", "kay-greenberg-1979"},
+                         {"Wyman 2005", "wyman-2005"},
+                         {"Oliveira and Brauwers 2007", "oliveira-brauwers-2007"},
+                         {"the same, first back face", "oliveira-brauwers-2007", {{"back-face", 0.0}}},
+                         {"Wang 2014", "wang-2014"}},
+            .scenes = published_indices,
+            .columns = {kTriangles, kWithin1, kStable, kWithin5, kFlip, {"ok, %", "/status/ok", 100.0}}};
 }
 
 ExperimentSpec wyman_speed() {
@@ -349,9 +402,9 @@ ExperimentSpec wang_many_objects() {
 
 std::span<const ExperimentSpec> experiments() {
     static const std::vector<ExperimentSpec> all = {
-        wang_search_step(), wang_environment(), wang_layers(),       wang_exits(), interfaces(),
-        wyman_speed(),      wang_table_4_1(),   wang_many_objects(), chen_error(), chen_speed(),
-        ihrke_rays(),       ihrke_light(),      ihrke_reflections()};
+        wang_search_step(), wang_environment(), wang_layers(), wang_exits(),     wang_refractions(),
+        published_index(),  interfaces(),       wyman_speed(), wang_table_4_1(), wang_many_objects(),
+        chen_error(),       chen_speed(),       ihrke_rays(),  ihrke_light(),    ihrke_reflections()};
     return all;
 }
 

@@ -29,6 +29,7 @@ struct ExperimentScene {
     std::string label;
     BenchCase how;                                 ///< source, distance, copies
     Scene (*make)() = nullptr;                     ///< instead of how.source
+    std::optional<float> ior = {};                 ///< instead of the index of refraction of all materials
     std::map<std::string, double> published = {};  ///< measurements of the publication for a similar scene
 };
 

@@ -223,7 +223,8 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
 std::string arguments_without_folders(const CLI::App& command, const CLI::Option* left_out) {
     std::string line;
     for (const CLI::Option* option : command.get_options()) {
-        if (option == left_out || option->count() == 0 || option->check_lname("json") || option->check_lname("report"))
+        if (option == left_out || option->count() == 0 || option->check_lname("json") ||
+            option->check_lname("report") || option->check_lname("again"))
             continue;
         if (!option->get_positional()) line += " --" + option->get_lnames().front();
         if (option->get_items_expected_max() == 0) continue;  // a flag

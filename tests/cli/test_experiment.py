@@ -8,7 +8,8 @@ import cli
 import pictures
 from cli import CliTest, TETRAHEDRON
 
-NAMES = ["wang-search-step", "wang-environment", "wang-layers", "wang-exits", "interfaces", "wyman-speed", "wang-table-4-1",
+NAMES = ["wang-search-step", "wang-environment", "wang-layers", "wang-exits", "wang-refractions",
+         "index", "interfaces", "wyman-speed", "wang-table-4-1",
          "wang-many-objects", "chen-error", "chen-speed", "ihrke-rays", "ihrke-light",
          "ihrke-reflections"]
 
@@ -122,6 +123,32 @@ class Experiment(CliTest):
         before = self.files()
         self.measure("wang-search-step", "--models", "models", "--report", "pages", size="32x32")
         self.assertEqual(self.files(), before)
+
+    def test_several_keep_what_an_earlier_run_has_measured(self):
+        """Under the same conditions alone, and until --again; a single experiment always runs."""
+        os.mkdir(self.path("models"))
+        self.write("models/cow.obj", TETRAHEDRON)
+        names = ["wang-search-step", "wang-many-objects"]
+        results = [f"out/experiments/{name}/{name}.json" for name in names]
+
+        def measure(*arguments, size="16x16"):
+            before = [os.stat(self.path(file)).st_mtime_ns if os.path.isfile(self.path(file)) else 0 for file in results]
+            result, content = self.measure(*(arguments or names), "--models", "models", size=size, frames="1")
+            ran = [os.stat(self.path(file)).st_mtime_ns != time for file, time in zip(results, before)]
+            return ran, result.stdout, content["experiments"]
+
+        ran, output, first = measure()
+        self.assertEqual(ran, [True, True])
+        self.assertIn("[2/2] wang-many-objects\n", output)
+        os.remove(self.path(results[1]))  # as if it had been interrupted
+        ran, output, second = measure()
+        self.assertEqual(ran, [False, True])
+        self.assertIn("[1/2] wang-search-step: results kept\n", output)
+        self.assertEqual(second, first)
+        self.assertEqual(measure(size="24x24")[0], [True, True])
+        self.assertEqual(measure(*names, "--again", size="24x24")[0], [True, True])
+        self.assertEqual(measure(size="24x24")[0], [False, False])
+        self.assertEqual(measure(names[0], size="24x24")[0], [True, False])
 
     def test_foreign_files_are_kept(self):
         os.makedirs(self.path("pages/wang-many-objects"))

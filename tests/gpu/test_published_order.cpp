@@ -8,8 +8,9 @@ constexpr std::uint32_t kSize = 160;
 
 class PublishedOrder : public RendererTest {
 protected:
-    std::vector<RefractedPath> paths(const char* technique) {
+    std::vector<RefractedPath> paths(const char* technique, const ParameterMap& parameters = {}) {
         RenderSettings settings;
+        settings.parameters = parameters;
         settings.width = settings.height = kSize;
         settings.technique = technique;
         settings.paths = true;
@@ -30,6 +31,21 @@ TEST_F(PublishedOrder, EveryStepIsMoreAccurateInTheMean) {
         }
     }
     for (std::size_t i = 1; i < order.size(); ++i) EXPECT_GT(mean[i], mean[i - 1] + 0.05) << order[i];
+}
+
+// Thesis, section 5.2, and our choices beyond it: each finds exits that the others do not find.
+TEST_F(PublishedOrder, EveryKindOfExitOfWang2014IsFound) {
+    const auto right = [&](const char* shape, double below_faults, double front_exits, double steep_walls) {
+        renderer().set_scene(load_scene(shape));
+        return within_1deg(
+            paths("wang-2014",
+                  {{"below-faults", below_faults}, {"front-exits", front_exits}, {"steep-walls", steep_walls}}),
+            paths("reference"));
+    };
+    const char* torus = "shape:torus,segments=24,sides=12";
+    EXPECT_GT(right(torus, 1, 0, 0), right(torus, 0, 0, 0) + 0.01);
+    EXPECT_GT(right(torus, 1, 1, 0), right(torus, 1, 0, 0) + 0.01);
+    EXPECT_GT(right("shape:goblet", 0, 0, 1), right("shape:goblet", 0, 0, 0) + 0.02);
 }
 
 }  // namespace
