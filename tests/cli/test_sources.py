@@ -1,0 +1,67 @@
+"""docs/sources.md: the commands of repeated rows, run at a reduced size, give the numbers in bold."""
+import json
+import os
+import re
+import unittest
+from pathlib import Path
+
+import cli
+from cli import CliTest
+
+PAGE = Path(__file__).resolve().parents[2] / "docs/sources.md"
+MODELS = os.path.join(os.environ.get("PELLUCID_TEST_DATA", ""), "models")
+
+STABLE = ("within_1deg_stable", 100.0)
+WANG = "four, Wang 2014"
+# By the section and the figure of a row: scene, variant, key and scale of each number in bold, in their order.
+NUMBERS = {
+    "interfaces": {
+        ("Wang 2014", "4.3, 4.4"): [("sphere", "two, the same with the first back face", *STABLE)],
+        ("Wang 2014", "4.5 to 4.7"): [("goblet", WANG, *STABLE)],
+        ("Wang 2014", "4.8, 4.9"): [("torus", WANG, *STABLE)],
+        ("Wang 2014", "4.10 to 4.12"): [("knot", WANG, *STABLE)],
+        ("Wang 2014", "4.13, 4.14"): [("cow", WANG, *STABLE)],
+        ("Wang 2014", "4.15"): [("bottle", WANG, *STABLE)],
+        ("Wang 2014", "4.16"): [("bunny", WANG, *STABLE)],
+        ("Wang 2014", "4.17"): [("figure (closed)", WANG, *STABLE)]},
+    "wang-many-objects": {
+        ("Wang 2014", "4.18 to 4.21"): [("cube before a knot", "wang-2014", *STABLE),
+                                        ("sphere before a sphere", "wang-2014", *STABLE),
+                                        ("five objects", "wang-2014", *STABLE)]},
+    "chen-error": {
+        ("Chen", "table 1"): [("behind", "translucent-shadow-map, 1024", "relative_error", 100.0)]},
+}
+TOLERANCE = 8.0  # points: at a reduced size a pixel covers more detail
+
+
+def bold_numbers():
+    numbers = {}
+    for section in re.split(r"^## ", PAGE.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]:
+        for line in section.splitlines():
+            bold = re.findall(r"\*\*([0-9.]+)\*\*", line) if line.startswith("| ") else []
+            if bold:
+                numbers[section.split("\n")[0], line.strip("|").split("|")[0].strip()] = [float(number) for number in bold]
+    return numbers
+
+
+class RepeatedSources(CliTest):
+    def test_every_number_in_bold_is_checked(self):
+        checked = {row: len(places) for rows in NUMBERS.values() for row, places in rows.items()}
+        self.assertEqual({row: len(numbers) for row, numbers in bold_numbers().items()}, checked)
+
+    @unittest.skipUnless(os.path.isfile(os.path.join(MODELS, "cow.obj")), "PELLUCID_TEST_DATA names no folder with models")
+    def test_commands_give_the_numbers(self):
+        bold = bold_numbers()
+        for experiment, rows in NUMBERS.items():
+            size = "480x270" if experiment == "chen-error" else "192x192"
+            result = self.run_cli("experiment", experiment, "--models", MODELS, "--size", size, "--json", "runs.json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            runs = {(run["scene"], run["variant"]): run for run in json.loads(self.read("runs.json"))["experiments"][0]["runs"]}
+            for row, places in rows.items():
+                for published, (scene, variant, key, scale) in zip(bold[row], places):
+                    with self.subTest(row=row, scene=scene):
+                        self.assertAlmostEqual(scale * runs[scene, variant][key], published, delta=TOLERANCE)
+
+
+if __name__ == "__main__":
+    cli.main()
