@@ -79,7 +79,7 @@ void check_json(const ExperimentArguments& arguments, const std::vector<const Ex
 nlohmann::ordered_json conditions_of(const ExperimentSpec& spec, const ExperimentArguments& arguments,
                                      Renderer& renderer) {
     return {{"command", fmt::format("pellucid experiment {}{}", spec.name, arguments.options)},
-            {"models", std::filesystem::absolute(arguments.models.value_or("")).string()},
+            {"models", std::filesystem::absolute(arguments.models.value_or(".")).string()},
             {"device", renderer.device().name},
             {"version", version()},
             {"cpu", cpu_name()},
@@ -174,7 +174,8 @@ void run_experiments(const ExperimentArguments& arguments) {
         const nlohmann::ordered_json conditions = conditions_of(*spec, arguments, renderer);
         nlohmann::ordered_json experiment = keeps ? kept_results(results, conditions) : nlohmann::ordered_json();
         const bool kept = !experiment.is_null();
-        arguments.console.print("[{}/{}] {}{}\n", i + 1, chosen.size(), spec->name, kept ? ": results kept" : "");
+        if (chosen.size() > 1)
+            arguments.console.print("[{}/{}] {}{}\n", i + 1, chosen.size(), spec->name, kept ? ": results kept" : "");
         if (!kept) {
             const std::size_t errors = unread.errors().size();
             experiment = run_one(arguments, *spec, renderer, unread);
