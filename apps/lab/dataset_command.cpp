@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct DatasetArguments {
     std::string recipe;
-    std::optional<std::string> output, images;
+    std::optional<std::string> folder, images;
     bool gather = false, schema = false;
     DeviceArguments device;
     Console console;
@@ -51,8 +51,14 @@ Images parse_images(const std::string& text, std::uint64_t count) {
 std::vector<nlohmann::ordered_json> read_descriptions(const fs::path& folder, const Images& images) {
     std::vector<nlohmann::ordered_json> descriptions;
     for (std::uint64_t i = images.first; i <= images.last; ++i) {
-        std::ifstream stream(folder / (sample_name(i) + ".json"));
-        if (stream) descriptions.push_back(nlohmann::ordered_json::parse(stream));
+        const fs::path file = folder / (sample_name(i) + ".json");
+        std::ifstream stream(file);
+        if (!stream) continue;
+        try {
+            descriptions.push_back(nlohmann::ordered_json::parse(stream));
+        } catch (const nlohmann::json::exception& error) {
+            throw Error(fmt::format("{}: {}; make this image again", file.string(), error.what()));
+        }
     }
     return descriptions;
 }
@@ -75,16 +81,18 @@ void make_images(const Recipe& recipe, const fs::path& folder, const Images& ima
     const DatasetScenes scenes(recipe);
     Renderer renderer(device_options(arguments.device));
     std::vector<std::string> warnings = scenes.warnings();
+    std::uint64_t with_warnings = 0;
     ProgressBar bar(arguments.console, fmt::format("images {} to {}", images.first, images.last));
     for (std::uint64_t i = images.first; i <= images.last; ++i) {
         const DatasetScene made = scenes.make(i);
         const DatasetSample sample = make_sample(recipe, made, renderer, arguments.device.threads);
         write_sample(folder, i, recipe, made, sample);
-        for (const std::string& warning : sample.with_glass.warnings)
-            if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+        with_warnings += sample.with_glass.warnings.empty() ? 0 : 1;
         bar.show(double(i - images.first + 1) / double(images.last - images.first + 1));
     }
     bar.clear();
+    if (with_warnings > 0)
+        warnings.push_back(fmt::format("{} images have warnings, which their .json files list", with_warnings));
     arguments.console.warn(warnings);
     check_validation(renderer);
 }
@@ -94,11 +102,11 @@ void run(const DatasetArguments& arguments) {
         fmt::print("{}\n", recipe_schema().dump(2));
         return;
     }
-    if (!arguments.output) throw Error("--output is required (see 'pellucid dataset --help')");
+    if (!arguments.folder) throw Error("--folder is required (see 'pellucid dataset --help')");
     const Recipe recipe = arguments.recipe.empty() ? Recipe{} : read_recipe(arguments.recipe);
     const auto count = std::uint64_t(recipe.images);
     const Images images = arguments.images ? parse_images(*arguments.images, count) : Images{0, count - 1};
-    const fs::path folder = *arguments.output;
+    const fs::path folder = *arguments.folder;
     std::error_code error;
     fs::create_directories(folder, error);
     check_writable(folder / "annotations.json");
@@ -116,16 +124,17 @@ void add_dataset_command(CLI::App& app) {
     command->add_option("recipe", a.recipe, "A JSON file (--schema describes it); default: the recipe of all defaults")
         ->type_name("RECIPE");
     command->option_defaults()->group("Output");
-    command->add_option("-o,--output", a.output, "Folder of the images; it is made if it is missing")->type_name("DIR");
+    command->add_option("--folder", a.folder, "Where the images are written; it is made if it is missing")
+        ->type_name("DIR");
     command->add_option("--images", a.images, "Make these only, from 0; every image can be made alone")
         ->type_name("A..B");
     command->add_flag("--gather", a.gather, "Make no images; write annotations.json of those that are there");
     command->add_flag("--schema", a.schema, "Print the JSON Schema of recipes, with its defaults");
     add_device_options(*command, a.device);
     add_console_options(*command, a.console);
-    set_examples(*command, {"pellucid dataset recipe.json -o out/glass",
-                            "pellucid dataset recipe.json -o out/glass --images 500..999",
-                            "pellucid dataset recipe.json -o out/glass --gather"});
+    set_examples(*command, {"pellucid dataset recipe.json --folder out/glass",
+                            "pellucid dataset recipe.json --folder out/glass --images 500..999",
+                            "pellucid dataset recipe.json --folder out/glass --gather"});
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -234,7 +234,8 @@ nlohmann::ordered_json coco_annotations(const std::vector<nlohmann::ordered_json
                                   {"file_name", sample_name(number) + ".png"},
                                   {"width", image["width"]},
                                   {"height", image["height"]}});
-        for (const Json& object : image["objects"])
+        for (const Json& object : image["objects"]) {
+            if (object["visible_pixels"] == 0) continue;  // outside of the image, or hidden
             coco["annotations"].push_back({{"id", ++annotation},
                                            {"image_id", number},
                                            {"category_id", categories.at(object["source"].get<std::string>())},
@@ -242,6 +243,7 @@ nlohmann::ordered_json coco_annotations(const std::vector<nlohmann::ordered_json
                                            {"area", object["visible_pixels"]},
                                            {"iscrowd", 0},
                                            {"segmentation", object["segmentation"]}});
+        }
     }
     return coco;
 }

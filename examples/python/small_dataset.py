@@ -27,7 +27,7 @@ arguments.out.mkdir(parents=True, exist_ok=True)
 recipe = arguments.out / "recipe.json"
 recipe.write_text(json.dumps({"width": arguments.size, "height": arguments.size, "images": arguments.images,
                               "objects": {"sources": ["shape:sphere", "shape:torus"], "ior": [1.3, 1.6]}}))
-subprocess.run([arguments.pellucid, "dataset", recipe, "-o", arguments.out, "--quiet"], check=True)
+subprocess.run([arguments.pellucid, "dataset", recipe, "--folder", arguments.out, "--quiet"], check=True)
 
 dataset = Dataset(arguments.out)
 figure, axes = plt.subplots(len(dataset), 3, figsize=(9, 3 * len(dataset)), squeeze=False, layout="constrained")

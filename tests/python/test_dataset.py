@@ -19,14 +19,14 @@ RECIPE = {"width": 48, "height": 40, "images": IMAGES, "seed": 5, "objects": {"s
 class DatasetTest(PythonTest):
     def make(self, name, *arguments, recipe=RECIPE):
         (self.folder / "recipe.json").write_text(json.dumps(recipe), encoding="utf-8")
-        self.run_cli("dataset", "recipe.json", "-o", name, "--quiet", *arguments)
+        self.run_cli("dataset", "recipe.json", "--folder", name, "--quiet", *arguments)
         return self.folder / name
 
     def refused(self, *words, recipe=None, arguments=()):
         if recipe is not None:
             text = recipe if isinstance(recipe, str) else json.dumps(recipe)
             (self.folder / "wrong.json").write_text(text, encoding="utf-8")
-        result = subprocess.run([os.environ["PELLUCID_BINARY"], "dataset", "wrong.json", "-o", "out", *arguments],
+        result = subprocess.run([os.environ["PELLUCID_BINARY"], "dataset", "wrong.json", "--folder", "out", *arguments],
                                 cwd=self.folder, capture_output=True, text=True, timeout=250)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertRegex(result.stderr, r"\Apellucid: [^\n]+\n\Z")
@@ -106,10 +106,9 @@ class DatasetFiles(DatasetTest):
             self.assertEqual(mask.sum(), each["area"])
             self.assertIn(names[each["category_id"]], RECIPE["objects"]["sources"])
             self.assertTrue((samples[each["image_id"]]["instance"][mask] > 0).all())
-            if each["area"]:
-                rows, columns = np.nonzero(mask)
-                box = [columns.min(), rows.min(), np.ptp(columns) + 1, np.ptp(rows) + 1]
-                self.assertEqual(each["bbox"], box)
+            self.assertGreater(each["area"], 0)
+            rows, columns = np.nonzero(mask)
+            self.assertEqual(each["bbox"], [columns.min(), rows.min(), np.ptp(columns) + 1, np.ptp(rows) + 1])
 
     def check_layouts(self, folder):
         dataset = datasets.Dataset(folder)
@@ -171,7 +170,7 @@ class DatasetInput(DatasetTest):
             return part["default"]
 
         (self.folder / "defaults.json").write_text(json.dumps(defaults(schema) | {"images": 1}), encoding="utf-8")
-        self.run_cli("dataset", "defaults.json", "-o", "out", "--gather", "--quiet")
+        self.run_cli("dataset", "defaults.json", "--folder", "out", "--gather", "--quiet")
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ class Pages(PythonTest):
     def test_blocks_of_python(self):
         small = {"width": 16, "height": 16, "images": 2, "objects": {"sources": ["shape:sphere"]}}
         (self.folder / "recipe.json").write_text(json.dumps(small), encoding="utf-8")
-        self.run_cli("dataset", "recipe.json", "-o", "out/glass", "--quiet")
+        self.run_cli("dataset", "recipe.json", "--folder", "out/glass", "--quiet")
         for page in PAGES:
             blocks = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
             self.assertTrue(blocks, page.name)
@@ -40,7 +40,7 @@ class Pages(PythonTest):
         page = (ROOT / "docs" / "datasets.md").read_text(encoding="utf-8")
         (recipe,) = re.findall(r"^```json\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
         (self.folder / "recipe.json").write_text(recipe, encoding="utf-8")
-        self.run_cli("dataset", "recipe.json", "-o", "out", "--gather", "--quiet")
+        self.run_cli("dataset", "recipe.json", "--folder", "out", "--gather", "--quiet")
 
 
 class Examples(ExampleTest):
