@@ -32,4 +32,14 @@ if(TARGET pellucid_viewer)
     set(CPACK_DEBIAN_VIEWER_DESCRIPTION
         "Viewer that shows scenes of transparent objects in a window.")
 endif()
+if(TARGET pellucid_python)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-pellucid)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "pellucid ${same_version}, python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA  # compile on installation, and remove what that has made
+        ${PROJECT_SOURCE_DIR}/cmake/python3-pellucid/postinst ${PROJECT_SOURCE_DIR}/cmake/python3-pellucid/prerm)
+    set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+        "Python package that renders transparent objects into NumPy arrays, and an add-on for Blender.")
+endif()
 include(CPack)

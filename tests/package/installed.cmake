@@ -18,7 +18,7 @@ foreach(file ${files})
 endforeach()
 
 # Each file belongs to one component, and what does not draw or build is in none of the others.
-foreach(component runtime development viewer)
+foreach(component runtime development viewer python)
     run(${folder} ${CMAKE_COMMAND} --install ${BUILD} --prefix ${folder}/${component} --config "${CONFIG}" --component ${component})
     file(GLOB_RECURSE of_component RELATIVE ${folder}/${component} ${folder}/${component}/*)
     list(APPEND of_components ${of_component})

@@ -13,19 +13,22 @@
 namespace pellucid {
 namespace {
 
+constexpr NamedValue kBelowFaults[] = {{0, "wait", "until the layer comes below them"},
+                                       {1, "deeper", "they follow deeper layers, as in section 5.2"},
+                                       {2, "from-start", "so do those that begin below a fault"}};
+constexpr NamedValue kSizeRanges[] = {{0, "box", "of the object's box"}, {1, "eye", "from the eye to the glass's end"}};
+
 constexpr std::array kParameters = {
     ParameterInfo{"layers", "", 4, 2, 64, true, "layers peeled; entries and exits alternate"},
     ParameterInfo{"steps", "", 50, 1, 4096, true, "linear search steps n; SIZE = 1/n of the depth range"},
     ParameterInfo{"binary-steps", "", 8, 0, 24, true, "binary search steps m after a linear one"},
     ParameterInfo{"reflections", "", 1, 0, 16, true, "total internal reflections followed per exit"},
-    ParameterInfo{"below-faults", "", 1, 0, 2, true,
-                  "0: rays wait; 1: they follow deeper layers (5.2); 2: from the start"},
-    ParameterInfo{"front-exits", "", 1, 0, 1, true, "1: reflected rays leave through layers 1 and 3, too"},
-    ParameterInfo{"silhouettes", "", 1, 0, 1, true,
-                  "1: a step beyond the silhouette is refined to what it stepped over"},
-    ParameterInfo{"size-range", "", 0, 0, 1, true,
-                  "depth range of SIZE: 0 of the object's box, 1 from the eye to the glass's end"},
-    ParameterInfo{"steep-walls", "", 1, 0, 1, true, "1: a jump of a layer to the outside is a wall, no fault"},
+    ParameterInfo{"below-faults", "", 1, 0, 2, true, "rays that come below a fault of their layer", kBelowFaults},
+    ParameterInfo{"front-exits", "", 1, 0, 1, true, "reflected rays leave through layers 1 and 3, too", kOffOn},
+    ParameterInfo{"silhouettes", "", 1, 0, 1, true, "a step beyond the silhouette is refined to what it stepped over",
+                  kOffOn},
+    ParameterInfo{"size-range", "", 0, 0, 1, true, "depth range of which SIZE is a share", kSizeRanges},
+    ParameterInfo{"steep-walls", "", 1, 0, 1, true, "a jump of a layer to the outside is a wall, no fault", kOffOn},
 };
 
 /// Axis-aligned box in view space: x, y and depth, m.
