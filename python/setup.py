@@ -39,7 +39,8 @@ class BuildWithCMake(build_py):
         target = Path(self.build_lib).resolve() / "pellucid"
         for module in staged.glob("**/_pellucid*.so"):
             self.copy_file(str(module), str(target / module.name))
-        for name in (f"libpellucid.so.{version().split('.')[0]}", "libpellucid_images.so"):
+        interface = ".".join(version().split(".")[:2])  # as SOVERSION in src/CMakeLists.txt
+        for name in (f"libpellucid.so.{interface}", "libpellucid_images.so"):
             self.copy_file(str(build / "lib" / name), str(target / name))
 
 

@@ -23,9 +23,16 @@ ELSEWHERE = {"experiment", "--suite"}
 SMALL = {"render": {"--size": "24x24", "--samples": "2"},
          "compare": {"--size": "24x24", "--samples": "1", "--views": "1", "--truth-samples": "2"},
          "bench": {"--size": "24x24", "--frames": "1"},
+         "sequence": {"--size": "24x24", "--samples": "1", "--frames": "0..1"},
+         "dataset": {"--images": "0..0"},
          "thickness": {"--size": "24x24"},
          "volume": {"--resolution": "24"}}
 OUTPUTS = {"-o", "--json", "--html", "--report", "--flip-map", "--aov"}
+
+
+def words_of(command):
+    """Without a comment, and what another program does next."""
+    return shlex.split(re.split(r"\s#|&&", command)[0])
 
 
 def commands_of_pages():
@@ -34,8 +41,8 @@ def commands_of_pages():
         for block in re.findall(r"^```(?:sh)?\n(.*?)^```", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL):
             for line in block.replace("\\\n", " ").splitlines():
                 found = re.search(r"^(?:build/release/bin/)?pellucid (\S.*)", line)
-                if found and not PLACEHOLDER.search(found[1].split("#")[0]):
-                    yield page.name, shlex.split(found[1], comments=True)
+                if found and not PLACEHOLDER.search(re.split(r"\s#", found[1])[0]):
+                    yield page.name, words_of(found[1])
 
 
 def ball(rings=12):
@@ -110,6 +117,8 @@ class Examples(CliTest):
                 self.write(word, ball())
             elif word.endswith(".glb"):
                 self.write(word, jumping_glb())
+            elif word == "recipe.json":
+                self.write(word, json.dumps({"images": 2, "width": 24, "height": 24, "samples": 1}))
             elif word.endswith(".hdr"):
                 self.write(word, radiance_hdr())
             elif word.endswith((".exr", ".png")):
@@ -150,7 +159,7 @@ class Examples(CliTest):
         for command in table["commands"]:
             text = self.run_cli(command["name"], "--help").stdout
             for line in text.split("\nExamples:\n")[1].splitlines():
-                self.runs(command["name"], shlex.split(line)[1:])
+                self.runs(command["name"], words_of(line)[1:])
 
 
 if __name__ == "__main__":
