@@ -21,6 +21,7 @@ struct ImageModule {
     /// As PNG of 8 bits or as EXR of 32-bit float.
     std::string (*write)(const std::string& file, bool png, const Image& image,
                          const std::vector<std::string>& channel_names);
+    std::string (*encode_png)(const Image& image, std::vector<std::byte>& bytes);
 };
 
 /// Name by which the module exports its `extern "C" const ImageModule`.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 
 namespace pellucid {
@@ -82,11 +83,12 @@ std::string decode(const void* bytes, std::size_t size, Image& image) {
     return read_pixels(*input, image);
 }
 
-std::string write(const std::string& file, bool png, const Image& image,
-                  const std::vector<std::string>& channel_names) {
+/// `memory`, if any, gets the bytes, and `file` only says what they are.
+std::string write_to(const std::string& file, OIIO::Filesystem::IOProxy* memory, bool png, const Image& image,
+                     const std::vector<std::string>& channel_names) {
     OIIO::ImageSpec spec(image.width, image.height, image.channels,
                          png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
-    spec.channelnames = channel_names;
+    if (!channel_names.empty()) spec.channelnames = channel_names;
     if (png) {
         spec.attribute("oiio:ColorSpace", "sRGB");
         spec.attribute("oiio:UnassociatedAlpha", 1);
@@ -98,14 +100,28 @@ std::string write(const std::string& file, bool png, const Image& image,
     const void* pixels = png ? static_cast<const void*>(bytes.data()) : image.pixels.data();
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file);
     if (!output) return "cannot write: " + cause_or(OIIO::geterror(), "no writer");
+    if (memory) output->set_ioproxy(memory);
     if (!output->open(file, spec) || !output->write_image(spec.format, pixels) || !output->close())
         return fmt::format("cannot write {} x {} pixels: {}", image.width, image.height,
                            cause_or(output->geterror(), "unknown cause"));
     return {};
 }
 
+std::string write(const std::string& file, bool png, const Image& image,
+                  const std::vector<std::string>& channel_names) {
+    return write_to(file, nullptr, png, image, channel_names);
+}
+
+std::string encode_png(const Image& image, std::vector<std::byte>& bytes) {
+    OIIO::Filesystem::IOVecOutput memory;
+    std::string cause = write_to("image.png", &memory, true, image, {});
+    const std::span<const std::byte> encoded = std::as_bytes(std::span(memory.buffer()));
+    bytes.assign(encoded.begin(), encoded.end());
+    return cause;
+}
+
 }  // namespace
 }  // namespace pellucid
 
 extern "C" [[gnu::visibility("default")]] const pellucid::ImageModule pellucid_image_module{
-    &pellucid::read, &pellucid::decode, &pellucid::write};
+    &pellucid::read, &pellucid::decode, &pellucid::write, &pellucid::encode_png};

@@ -1,33 +1,18 @@
 #include "scene/write/png_bytes.h"
 
-#include "core/fail.h"
-#include "core/file.h"
+#include "core/image_module.h"
 
-#include <unistd.h>
+#include <pellucid/error.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
-#include <system_error>
 
 namespace pellucid {
 
-// The image library writes files only.
 std::vector<std::byte> png_bytes(const Image& image) {
     std::vector<std::byte> bytes;
-    std::string folder = (std::filesystem::temp_directory_path() / "pellucid-XXXXXX").string();
-    if (!mkdtemp(folder.data())) fail(folder, "cannot make a temporary folder");
-    const std::filesystem::path file = std::filesystem::path(folder) / "image.png";
-    std::error_code ignored;
-    try {
-        write_image(file, image);
-        bytes = read_file(file);
-    } catch (...) {
-        std::filesystem::remove_all(folder, ignored);
-        throw;
-    }
-    std::filesystem::remove_all(folder, ignored);
+    if (const std::string cause = image_module().encode_png(image, bytes); !cause.empty()) throw Error(cause);
     return bytes;
 }
 
