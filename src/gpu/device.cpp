@@ -193,11 +193,8 @@ Device::Device(const DeviceOptions& options) : messages_(std::make_unique<std::v
 
 std::string name_of(const vulkan::LentDevice& lent) {
     if (!lent.instance || !lent.physical_device) return {};
-    const vk::raii::Context context;
-    vk::raii::Instance instance(context, lent.instance);
-    std::string name = vk::raii::PhysicalDevice(instance, lent.physical_device).getProperties().deviceName.data();
-    instance.release();
-    return name;
+    const BorrowedPhysicalDevice borrowed(lent.instance, lent.physical_device);
+    return borrowed.get().getProperties().deviceName.data();
 }
 
 Device::Device(const vulkan::LentDevice& lent) : messages_(std::make_unique<std::vector<std::string>>()) {

@@ -136,10 +136,8 @@ struct DeviceFeatures::Impl {
 
 DeviceFeatures::DeviceFeatures(VkInstance instance, VkPhysicalDevice physical_device)
     : impl_(std::make_unique<Impl>()) {
-    const vk::raii::Context context;
-    vk::raii::Instance borrowed(context, instance);
-    const vk::raii::PhysicalDevice physical(borrowed, physical_device);
-    borrowed.release();
+    const BorrowedPhysicalDevice borrowed(instance, physical_device);
+    const vk::raii::PhysicalDevice& physical = borrowed.get();
     if (const auto missing = missing_features(physical); !missing.empty())
         throw DeviceError(
             fmt::format("{} lacks {}", physical.getProperties().deviceName.data(), fmt::join(missing, ", ")));

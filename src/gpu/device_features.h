@@ -11,6 +11,23 @@
 
 namespace pellucid {
 
+/// A device of the caller's instance, which stays the caller's. The instance's function table lives as long as this.
+class BorrowedPhysicalDevice {
+public:
+    BorrowedPhysicalDevice(VkInstance instance, VkPhysicalDevice physical_device)
+        : instance_(context_, instance), physical_(instance_, physical_device) {}
+    ~BorrowedPhysicalDevice() { instance_.release(); }
+    BorrowedPhysicalDevice(const BorrowedPhysicalDevice&) = delete;
+    BorrowedPhysicalDevice& operator=(const BorrowedPhysicalDevice&) = delete;
+
+    const vk::raii::PhysicalDevice& get() const { return physical_; }
+
+private:
+    vk::raii::Context context_;
+    vk::raii::Instance instance_;
+    vk::raii::PhysicalDevice physical_;
+};
+
 /// The first queue family with graphics and compute, if any.
 std::optional<std::uint32_t> universal_queue_family(const vk::raii::PhysicalDevice& physical);
 /// Whether the device has ray queries and acceleration structures.
