@@ -132,7 +132,7 @@ TEST_F(ObjMaterials, OpaqueSurfaces) {
     EXPECT_TRUE(material("Kd 1 1 1").double_sided);
     EXPECT_EQ(warnings("Kd 1 x 1", "a.mtl: line 2: \"x\" is no number, left out"), 1u);
     EXPECT_EQ(warnings("Kd spectral a.rfl", "a.mtl: line 2: a spectral curve, left out"), 1u);
-    EXPECT_EQ(warnings("bump a.png\nPc 0\nmap_Ks b.png", "material a: bump, map_ks not used"), 1u);
+    EXPECT_EQ(warnings("disp a.png\nPc 0\nmap_Ks b.png", "material a: disp, map_ks not used"), 1u);
 }
 
 TEST_F(ObjMaterials, Textures) {
@@ -200,6 +200,54 @@ TEST_F(ObjMaterials, WideCutOuts) {
     ASSERT_EQ(apart.images.size(), 1u);
     EXPECT_EQ(apart.images[0].height, 1);
     EXPECT_EQ(warnings_with(apart, "make more than 2^28"), 1u);
+}
+
+TEST_F(ObjMaterials, BumpMaps) {
+    // Heights that rise by a half per texel along u and fall by a quarter along the rows, where v runs upwards.
+    Image heights(3, 3, 1);
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 3; ++x) heights.at(x, y)[0] = 0.25f * float(2 * x - y);
+    write_image(folder_ / "heights.exr", heights);
+    for (const char* statement : {"map_Bump -bm 2", "bump -bm 2"}) {
+        const Scene scene = load(fmt::format("{} heights.exr", statement));
+        EXPECT_EQ(warnings_with(scene, "not used"), 0u);
+        ASSERT_EQ(scene.materials[0].normal_texture.image, 0);
+        const float* const encoded = scene.images[0].at(1, 1);
+        const glm::vec3 normal = glm::vec3(encoded[0], encoded[1], encoded[2]) * 2.0f - 1.0f;
+        const glm::vec3 expected = glm::normalize(glm::vec3(-2.0f * 0.5f, -2.0f * 0.25f, 1.0f));
+        EXPECT_NEAR(glm::length(normal - expected), 0.0f, 1e-6f);
+    }
+    // At the left edge heights fall where the image repeats, and rise where it is clamped.
+    const auto left = [](const Scene& scene) { return scene.images[0].at(0, 1)[0] * 2.0f - 1.0f; };
+    EXPECT_GT(left(load("bump heights.exr")), 0.0f);
+    EXPECT_LT(left(load("bump -clamp on heights.exr")), 0.0f);
+
+    // A coloured image has normals, as Blender writes them.
+    Image normals(1, 1, 3);
+    normals.pixels = {0.8f, 0.5f, 0.9f};
+    write_image(folder_ / "normals.exr", normals);
+    const Scene scene = load("map_Bump -bm 0.5 normals.exr");
+    const float* const encoded = scene.images.at(0).at(0, 0);
+    EXPECT_NEAR((encoded[0] * 2.0f - 1.0f) / (encoded[2] * 2.0f - 1.0f), 0.5f * 0.6f / 0.8f, 1e-5f);
+    EXPECT_EQ(warnings("illum 7\nbump heights.exr", "map_Bump of glass is not used"), 1u);
+}
+
+TEST_F(ObjMaterials, RoughnessAndMetalMaps) {
+    Image rough(2, 1, 1), metal(1, 1, 1);
+    rough.pixels = {0.25f, 0.75f};
+    metal.pixels = {0.5f};
+    write_image(folder_ / "rough.exr", rough);
+    write_image(folder_ / "metal.exr", metal);
+    const Scene both = load("Pr 0.1\nmap_Pr rough.exr\nmap_Pm metal.exr");
+    ASSERT_EQ(both.materials[0].metallic_roughness_texture.image, 0);
+    EXPECT_EQ(both.materials[0].roughness, 1.0f);
+    EXPECT_EQ(both.materials[0].metallic, 1.0f);
+    EXPECT_EQ(both.images[0].at(1, 0)[1], 0.75f);
+    EXPECT_EQ(both.images[0].at(1, 0)[2], 0.5f);
+    const Scene one = load("Pm 0.5\nmap_Pr rough.exr");
+    EXPECT_EQ(one.images[0].at(0, 0)[1], 0.25f);
+    EXPECT_EQ(one.images[0].at(0, 0)[2], 1.0f);
+    EXPECT_EQ(one.materials[0].metallic, 0.5f);
 }
 
 TEST_F(ObjMaterials, LibrariesAndNames) {

@@ -60,10 +60,12 @@ private:
         if (keyword == "map_kd") return read_texture(words, material.map_Kd, material);
         if (keyword == "map_d") return read_texture(words, material.map_d, material);
         if (keyword == "map_ke") return read_texture(words, material.map_Ke, material);
+        if (keyword == "map_pr") return read_texture(words, material.map_Pr, material);
+        if (keyword == "map_pm") return read_texture(words, material.map_Pm, material);
+        if (keyword == "map_bump" || keyword == "bump") return read_texture(words, material.bump, material);
         if (keyword == "norm") return read_texture(words, material.normal, material);
-        static constexpr std::array<std::string_view, 14> kUnused = {"map_bump", "bump",  "map_ks", "map_ns", "map_tr",
-                                                                     "disp",     "decal", "map_pr", "map_pm", "map_tf",
-                                                                     "pc",       "ps",    "aniso",  "map_ps"};
+        static constexpr std::array<std::string_view, 10> kUnused = {"map_ks", "map_ns", "map_tr", "disp",  "decal",
+                                                                     "map_tf", "pc",     "ps",     "aniso", "map_ps"};
         if (std::find(kUnused.begin(), kUnused.end(), keyword) == kUnused.end()) return;
         if (const auto number = parse_real(Words(words.rest()).next()); number && *number == 0.0) return;  // none of it
         material.unused.push_back(keyword);
@@ -144,11 +146,11 @@ private:
             } else {
                 const std::string_view value = options.next();
                 if (option == "-clamp") texture.clamp = value == "on";
+                if (option == "-bm") parse_number(value, texture.bump);
             }
             if (option == "-s" && count > 0) texture.scale = {values[0], count > 1 ? values[1] : 1.0f};
             if (option == "-o" && count > 0) texture.offset = {values[0], values[1]};
-            if (option == "-t" || option == "-mm" || option == "-bm" || option == "-imfchan")
-                material.unused.emplace_back(option);
+            if (option == "-t" || option == "-mm" || option == "-imfchan") material.unused.emplace_back(option);
             left = options.rest();
         }
         texture.name = left;

@@ -17,6 +17,7 @@ struct MtlTexture {
     std::filesystem::path file;  ///< empty: there is no such file
     glm::vec2 scale{1.0f}, offset{0.0f};
     bool clamp = false;
+    float bump = 1.0f;  ///< -bm; multiplies heights
 };
 
 /// A material of an MTL file; members have the names of its statements.
@@ -25,7 +26,8 @@ struct MtlMaterial {
     std::optional<glm::vec3> Kd, Ks, Ke, Tf;
     std::optional<float> Ns, Ni, d, Pr, Pm;
     std::optional<int> illum;
-    MtlTexture map_Kd, map_d, map_Ke, normal;
+    MtlTexture map_Kd, map_d, map_Ke, map_Pr, map_Pm, normal;
+    MtlTexture bump;                  ///< heights, or normals: Blender writes those as map_Bump
     std::vector<std::string> unused;  ///< statements that would change the picture and are not read
 };
 

@@ -2,6 +2,7 @@
 
 #include "core/fail.h"
 #include "core/image_module.h"
+#include "scene/mesh_files/mtl_images.h"
 
 #include <pellucid/image.h>
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <utility>
 
 namespace pellucid {
 namespace {
@@ -37,16 +39,30 @@ public:
         there(color);
         const std::string name = fmt::format("{} with alpha of {}", color.file.string(), cover.file.string());
         const int index = index_of(name, [&] {
-            const Image alpha = read_image(cover.file);
-            const Image colors = color.file.empty() ? Image() : read_image(color.file);
-            const int width = std::max(colors.width, alpha.width), height = std::max(colors.height, alpha.height);
-            if (std::int64_t(width) * height > kMaxPixels)
-                fail(cover.file,
-                     fmt::format("its {} x {} pixels and the {} x {} of {} make more than 2^28", alpha.width,
-                                 alpha.height, colors.width, colors.height, color.file.string()));
+            const auto [colors, alpha] = read_both(color, cover);
             return with_alpha(colors, alpha);
         });
         return index < 0 ? read(color) : placed(color.file.empty() ? cover : color, index);
+    }
+
+    /// Normals of a bump map, whose heights or slopes its -bm multiplies.
+    Texture read_bump(const MtlTexture& from) {
+        if (!there(from)) return {};
+        const std::string name = fmt::format("{} as bump map, -bm {}", from.file.string(), from.bump);
+        return placed(from,
+                      index_of(name, [&] { return normals_from_bump(read_image(from.file), from.bump, from.clamp); }));
+    }
+
+    /// Green: roughness, blue: metallic value.
+    Texture read_roughness_and_metal(const MtlTexture& roughness, const MtlTexture& metal) {
+        const bool rough = there(roughness), metallic = there(metal);
+        if (!rough && !metallic) return {};
+        const std::string name =
+            fmt::format("roughness of {}, metal of {}", roughness.file.string(), metal.file.string());
+        return placed(rough ? roughness : metal, index_of(name, [&] {
+                          const auto [a, b] = read_both(roughness, metal);
+                          return roughness_and_metal(a, b);
+                      }));
     }
 
 private:
@@ -70,23 +86,15 @@ private:
         return int(scene_.images.size()) - 1;
     }
 
-    static Image with_alpha(const Image& color, const Image& alpha) {
-        Image result(std::max(color.width, alpha.width), std::max(color.height, alpha.height), 4);
-        for (int y = 0; y < result.height; ++y) {
-            for (int x = 0; x < result.width; ++x) {
-                const auto texel = [&](const Image& image) {
-                    return image.at(int(std::int64_t(x) * image.width / result.width),
-                                    int(std::int64_t(y) * image.height / result.height));
-                };
-                float* const out = result.at(x, y);
-                for (int k = 0; k < 3; ++k)
-                    out[k] = color.channels == 0 ? 1.0f : texel(color)[color.channels < 3 ? 0 : k];
-                const float* const a = texel(alpha);
-                const bool own = alpha.channels == 2 || alpha.channels == 4;
-                out[3] = own ? a[alpha.channels - 1] : alpha.channels < 3 ? a[0] : (a[0] + a[1] + a[2]) / 3.0f;
-            }
-        }
-        return result;
+    /// Two images that become one; without a file, an empty image.
+    static std::pair<Image, Image> read_both(const MtlTexture& one, const MtlTexture& other) {
+        const Image a = one.file.empty() ? Image() : read_image(one.file);
+        const Image b = other.file.empty() ? Image() : read_image(other.file);
+        const int width = std::max(a.width, b.width), height = std::max(a.height, b.height);
+        if (std::int64_t(width) * height > kMaxPixels)
+            fail(other.file, fmt::format("its {} x {} pixels and the {} x {} of {} make more than 2^28", b.width,
+                                         b.height, a.width, a.height, one.file.string()));
+        return {a, b};
     }
 
     static Texture placed(const MtlTexture& from, int image) {
@@ -165,7 +173,9 @@ Material material_from_mtl(const MtlMaterial& from, Scene& scene, Warnings& warn
     if (is_glass(from)) {
         make_glass(from, material, warnings);
         if (!from.map_Kd.name.empty()) warn("map_Kd of glass is not used");
-        if (!from.normal.name.empty()) warn("norm of glass is not used");
+        for (const auto& [texture, what] : {std::pair(&from.normal, "norm"), std::pair(&from.bump, "map_Bump"),
+                                            std::pair(&from.map_Pr, "map_Pr"), std::pair(&from.map_Pm, "map_Pm")})
+            if (!texture->name.empty()) warn(fmt::format("{} of glass is not used", what));
     } else {
         glm::vec3 color = from.Kd.value_or(glm::vec3(0.8f));
         // Programs write a black Kd beside a texture that they mean to be seen.
@@ -187,7 +197,16 @@ Material material_from_mtl(const MtlMaterial& from, Scene& scene, Warnings& warn
             material.base_color_texture = textures.read_cut_out(from.map_Kd, from.map_d);
             if (!from.map_d.file.empty()) material.alpha_cutoff = 0.5f;
         }
-        material.normal_texture = textures.read(from.normal);
+        if (!from.normal.name.empty() || from.bump.name.empty()) {
+            material.normal_texture = textures.read(from.normal);
+        } else {
+            material.normal_texture = textures.read_bump(from.bump);
+        }
+        material.metallic_roughness_texture = textures.read_roughness_and_metal(from.map_Pr, from.map_Pm);
+        if (material.metallic_roughness_texture.image >= 0) {  // the maps stand for the numbers
+            if (!from.map_Pr.file.empty()) material.roughness = 1.0f;
+            if (!from.map_Pm.file.empty()) material.metallic = 1.0f;
+        }
         if (from.map_d.name.empty() && d < 1.0f) {
             material.base_color.a = d;
             material.alpha_is_coverage = true;

@@ -45,7 +45,7 @@ MtlMaterial named(const std::string& name) {
 
 bool textured(const Material& material) {
     return material.base_color_texture.image >= 0 || material.emission_texture.image >= 0 ||
-           material.normal_texture.image >= 0;
+           material.normal_texture.image >= 0 || material.metallic_roughness_texture.image >= 0;
 }
 
 /// Glass that is no surface of a solid bends no light: a pane of one sheet.

@@ -30,9 +30,6 @@ std::optional<std::int64_t> parse_integer(std::string_view word);
 /// ASCII only.
 std::string lower_case(std::string_view text);
 
-/// The beginning of a word for a message.
-inline std::string_view shortened(std::string_view word) { return word.substr(0, 40); }
-
 /// Walks through the words of a text.
 class Words {
 public:
