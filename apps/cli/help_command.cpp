@@ -17,7 +17,7 @@
 namespace pellucid::cli {
 namespace {
 
-constexpr std::size_t kNames = 16;  ///< columns
+constexpr std::size_t kTopicWidth = 16;  ///< columns
 
 struct HelpArguments {
     std::string topic;
@@ -34,9 +34,9 @@ void print_wrapped(const std::string& text) {
 void print_topics(const CLI::App& app) {
     fmt::print("pellucid help COMMAND or pellucid help TOPIC\n\nCommands:\n");
     for (const CLI::App* command : commands_of(app))
-        fmt::print("{}", help_row(command->get_name(), command->get_description(), kNames));
+        fmt::print("{}", help_row(command->get_name(), command->get_description(), kTopicWidth));
     fmt::print("\nTopics:\n");
-    for (const Topic& topic : topics()) fmt::print("{}", help_row(topic.name, topic.summary, kNames));
+    for (const Topic& topic : topics()) fmt::print("{}", help_row(topic.name, topic.summary, kTopicWidth));
 }
 
 /// All that --help and this command can print.

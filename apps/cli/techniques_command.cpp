@@ -17,14 +17,14 @@
 namespace pellucid::cli {
 namespace {
 
-constexpr std::size_t kNames = 26;  ///< columns
+constexpr std::size_t kNameWidth = 26;  ///< columns
 
 struct TechniquesArguments {
     std::string name;
     bool json = false;
 };
 
-std::string row(std::string_view name, std::string_view text) { return help_row(name, text, kNames); }
+std::string row(std::string_view name, std::string_view text) { return help_row(name, text, kNameWidth); }
 
 /// ", section 3" of "3", ", sections 2 and 4" of "2 and 4", ", chapter 3" of "chapter 3".
 std::string place_in(std::string_view section) {

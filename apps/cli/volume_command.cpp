@@ -107,9 +107,7 @@ void add_volume_command(CLI::App& app) {
         ->required()
         ->type_name("SOURCE");
     command->option_defaults()->group("Output");
-    command->add_option("-o,--output", a.output, "OpenVDB file, compressed by Blosc")
-        ->required()
-        ->type_name("FILE");
+    command->add_option("-o,--output", a.output, "OpenVDB file, compressed by Blosc")->required()->type_name("FILE");
     command->add_flag("--double", a.double_precision, "Grids of double precision");
     command->add_flag("--uncompressed", a.uncompressed, "Without compression");
     command->option_defaults()->group("Voxels");

@@ -168,7 +168,7 @@ nlohmann::ordered_json run_technique(Bench& bench, const BenchView& view, const 
     return run;
 }
 
-void print_head(const Console& console) {
+void print_bench_head(const Console& console) {
     console.print("{:<46} {:>9} {:>9} {:<20} {:>8} {:>9} {:>9} {:>9} {:>6}\n", "scene", "size", "triangles",
                   "technique", "stable%", "frame ms", "p95", "Embree ms", "ratio");
 }
@@ -294,7 +294,7 @@ void run_bench(const BenchArguments& arguments) {
                   {"environment_intensity", arguments.environment.intensity},
                   {"warnings", bench.warnings},
                   {"runs", nlohmann::ordered_json::array()}};
-    print_head(arguments.console);
+    print_bench_head(arguments.console);
     for (const BenchCase& each : bench.cases) run_case(bench, each);
     bench.json["warnings"] = bench.warnings;
     save(bench);

@@ -199,7 +199,7 @@ void save(const Comparison& comparison) {
     write_json(*comparison.arguments.json, comparison.json);
 }
 
-void print_head(const Console& console) {
+void print_comparison_head(const Console& console) {
     console.print("{:<28} {:>4} {:<22} {:>7} {:>7} {:>8} {:>7} {:>8}\n", "scene", "view", "technique", "1 deg%",
                   "5 deg%", "stable%", "median", "FLIP");
 }
@@ -244,7 +244,7 @@ void compare_scene(Comparison& comparison, const std::string& name) {
     }
     comparison.warnings.insert(scene.warnings.begin(), scene.warnings.end());
     comparison.renderer.set_scene(scene);
-    if (comparison.json["runs"].empty()) print_head(comparison.arguments.console);
+    if (comparison.json["runs"].empty()) print_comparison_head(comparison.arguments.console);
     // An older report in the folder is replaced when there is something to replace it with.
     if (comparison.arguments.html && !comparison.report) comparison.report.emplace(*comparison.arguments.html);
     for (int index = 0; index < comparison.arguments.views; ++index) {

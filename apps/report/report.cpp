@@ -29,7 +29,7 @@ constexpr unsigned char kScriptBytes[] = {
 };
 
 constexpr const char* kPage = "index.html";
-constexpr const char* kStyle = "report.css";
+constexpr const char* kStyleFile = "report.css";
 constexpr const char* kScript = "report.js";
 constexpr const char* kData = "data.js";
 constexpr const char* kFrontier = "frontier.svg";
@@ -81,10 +81,10 @@ ordered_json described(const Region& region) {
 
 /// Data for the page's legends: some colours of the scale, between which the page interpolates.
 ordered_json described_scale() {
-    constexpr int kColors = 33;
+    constexpr int kSamples = 33;
     const ColorScale scale;
     ordered_json colors = ordered_json::array();
-    for (int i = 0; i < kColors; ++i) colors.push_back(hex_color(scale.at(float(i) / float(kColors - 1))));
+    for (int i = 0; i < kSamples; ++i) colors.push_back(hex_color(scale.at(float(i) / float(kSamples - 1))));
     return {{"colors", std::move(colors)},
             {"uncovered", hex_color(kUncoveredColor)},
             {"least_deg", kLeastErrorDeg},
@@ -124,7 +124,7 @@ std::string frontier_of(const ordered_json& runs) {
 Report::Report(const std::filesystem::path& folder) : folder_(folder) {
     // Claim all names before long work, to detect conflicts. The page is first on the list, and is therefore removed
     // first.
-    for (const char* name : {kPage, kStyle, kScript, kData, kFrontier}) folder_.claim(name);
+    for (const char* name : {kPage, kStyleFile, kScript, kData, kFrontier}) folder_.claim(name);
 }
 
 std::string Report::new_picture_file(const PictureOf& of, PictureKind kind) const {
@@ -169,7 +169,7 @@ std::filesystem::path Report::finish(const ReportHeader& header) {
                             {"runs", runs_},
                             {"frontier", frontier}};
     write_text_file(folder_ / kData, "window.pellucidReport = " + script_text(data) + ";\n");
-    write_text_file(folder_ / kStyle, text_of(kStyleBytes));
+    write_text_file(folder_ / kStyleFile, text_of(kStyleBytes));
     write_text_file(folder_ / kScript, text_of(kScriptBytes));
     if (!frontier.empty()) write_text_file(folder_ / kFrontier, frontier);
     write_text_file(folder_ / kPage, text_of(kPageBytes));

@@ -21,4 +21,9 @@ void fail(const std::filesystem::path& file, std::string_view cause) {
     throw Error(one_line(file.string() + ": " + std::string(cause)));
 }
 
+std::string shortened(std::string_view text) {
+    constexpr std::size_t kLongest = 60;
+    return one_line(text.substr(0, kLongest)) + (text.size() > kLongest ? "..." : "");
+}
+
 }  // namespace pellucid

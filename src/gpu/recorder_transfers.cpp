@@ -13,7 +13,7 @@ using Stage = vk::PipelineStageFlagBits2;
 using AccessBit = vk::AccessFlagBits2;
 
 constexpr vk::DeviceSize kReadBufferSize = 1 << 16;
-constexpr vk::DeviceSize kStagingSize = 1 << 20;
+constexpr vk::DeviceSize kWriteBufferSize = 1 << 20;
 constexpr std::size_t kLargestUpdate = 65536;  // bytes; limit of vkCmdUpdateBuffer
 
 }  // namespace
@@ -84,7 +84,7 @@ void Recorder::copy_depths_from(vk::Image source, vk::ImageLayout layout, vk::Ex
 std::byte* Recorder::stage(vk::DeviceSize bytes, const Buffer*& buffer, vk::DeviceSize& offset) {
     while (staging_used_ == 0 || staging_end_ + bytes > staging_[staging_used_ - 1].size()) {
         if (staging_used_ == staging_.size()) {
-            staging_.emplace_back(device_, "values written", std::max(bytes, kStagingSize),
+            staging_.emplace_back(device_, "values written", std::max(bytes, kWriteBufferSize),
                                   vk::BufferUsageFlagBits::eTransferSrc, true);
         }
         ++staging_used_;

@@ -75,7 +75,7 @@ std::uint32_t most_map_items(const Device& device, vk::DeviceSize item_size) {
     return std::uint32_t(most / kMapRangeBlock * kMapRangeBlock);
 }
 
-constexpr std::uint32_t kCoarsest = 8;  // texels across; if even such maps do not fit, memory is too small
+constexpr std::uint32_t kCoarsestLevel = 8;  // texels across; if even such maps do not fit, memory is too small
 
 }  // namespace
 
@@ -147,8 +147,8 @@ void MeshMaps::lay_out(const Frame& frame) {
                tiles_.capacity() > tiles_.limit(device);
     };
     // Coarser maps find the same surfaces, but take more time.
-    while (too_much() && texels_across_ > kCoarsest) {
-        texels_across_ = std::max(texels_across_ * 4 / 5, kCoarsest);
+    while (too_much() && texels_across_ > kCoarsestLevel) {
+        texels_across_ = std::max(texels_across_ * 4 / 5, kCoarsestLevel);
         tiles_.set_capacity(tiles());
         for (Mapped& mesh : meshes_) {
             for (Place& place : mesh.places) place.records = 0;

@@ -17,7 +17,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-constexpr double kTolerance = 1e-7;      // tolerance per step: relative, and absolute in voxels
+constexpr double kStepTolerance = 1e-7;      // tolerance per step: relative, and absolute in voxels
 constexpr double kLongestStep = 1.0;     // voxels; surfaces are intersected along the step's chord
 constexpr double kLeastCrossing = 1e-3;  // voxels; shorter segments in a box are skipped
 constexpr double kMostSides = 32.0;      // longest optical path in a box, in its longest sides; longer rays are trapped
@@ -199,7 +199,7 @@ bool CurvedVolumes::bend(const List& volumes, std::size_t own, const Geometry& g
         const glm::dvec3 back = glm::reflect(velocity_of(here), normal);
         for (int k = 0; k < 3; ++k) here[std::size_t(3 + k)] = back[k];
     };
-    auto stepper = odeint::make_controlled(kTolerance, kTolerance, odeint::runge_kutta_dopri5<Values>());
+    auto stepper = odeint::make_controlled(kStepTolerance, kStepTolerance, odeint::runge_kutta_dopri5<Values>());
     double time = 0.0, step = 0.25;
     const double longest = kMostSides * std::max({placed.size.x, placed.size.y, placed.size.z});
     while (time < longest) {

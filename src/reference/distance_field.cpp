@@ -20,7 +20,7 @@ namespace {
 
 using namespace reference;
 
-constexpr double kTolerance = 1e-9;  // relative to the solid's radius
+constexpr double kSurfaceTolerance = 1e-9;  // relative to the solid's radius
 
 /// Distance between `start` and `end` at which the ray comes within `tolerance` of the surface. A step is at least the
 /// tolerance, so that the march does not stall past a grazed surface.
@@ -64,7 +64,7 @@ Image march_thickness(const DistanceField& field, const Bounds& bounds, const Ca
     check_camera(camera);
     if (width == 0 || height == 0) throw Error(fmt::format("a picture of {}x{} has no pixels", width, height));
     const CameraRays rays(camera, width, height);
-    const double radius = double(bounds.radius), tolerance = kTolerance * radius;
+    const double radius = double(bounds.radius), tolerance = kSurfaceTolerance * radius;
     const glm::dvec3 center(bounds.center), way = glm::normalize(light_direction);
     Image thickness(int(width), int(height), 1);
     for_each_tile({width, height}, threads, [&](glm::uvec2 first, glm::uvec2 end) {

@@ -19,7 +19,7 @@
 namespace pellucid {
 namespace {
 
-constexpr const char* kName = "KHR_draco_mesh_compression";
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
 std::unique_ptr<draco::Mesh> decode_mesh(std::span<const std::byte> data) {
     draco::DecoderBuffer buffer;
@@ -171,7 +171,7 @@ void decode_draco(GltfFile& gltf, Warnings& warnings) {
         tinygltf::Mesh& mesh = gltf.model.meshes[m];
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
             tinygltf::Primitive& primitive = mesh.primitives[p];
-            const auto extension = primitive.extensions.find(kName);
+            const auto extension = primitive.extensions.find(kDraco);
             if (extension == primitive.extensions.end() || !extension->second.IsObject()) continue;
             const std::string user =
                 fmt::format("mesh {} primitive {}", mesh.name.empty() ? std::to_string(m) : mesh.name, p);

@@ -15,7 +15,7 @@
 namespace pellucid {
 namespace {
 
-constexpr const char* kName = "EXT_mesh_gpu_instancing";
+constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 
 int accessor_of(const tinygltf::Value& attributes, const char* name) {
     if (!attributes.Has(name) || !attributes.Get(name).IsNumber()) return -1;
@@ -46,7 +46,7 @@ void warn_of_custom(const tinygltf::Value& attributes, const std::string& user, 
 std::optional<std::vector<glm::dmat4>> gltf_instances(const GltfFile& gltf, int node, const std::string& user,
                                                       std::size_t most, Warnings& warnings) {
     const tinygltf::Node& from = gltf.model.nodes[std::size_t(node)];
-    const auto extension = from.extensions.find(kName);
+    const auto extension = from.extensions.find(kInstancing);
     if (extension == from.extensions.end() || !extension->second.IsObject() || !extension->second.Has("attributes") ||
         !extension->second.Get("attributes").IsObject())
         return std::nullopt;

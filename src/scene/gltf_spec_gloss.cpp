@@ -16,7 +16,7 @@
 namespace pellucid {
 namespace {
 
-constexpr const char* kName = "KHR_materials_pbrSpecularGlossiness";
+constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 constexpr float kDielectric = 0.04f;
 
 struct MetalRough {
@@ -77,7 +77,7 @@ bool same_mapping(const Texture& a, const Texture& b) {
 }  // namespace
 
 bool SpecularGlossiness::read(const tinygltf::Material& from, const std::string& user, Material& material) {
-    const GltfProperties given(from.extensions, kName);
+    const GltfProperties given(from.extensions, kSpecularGlossiness);
     if (!given.present()) return false;
     ++count_;
     const auto fraction = [](double value) { return float(std::clamp(value, 0.0, 1.0)); };

@@ -63,7 +63,7 @@ bool enclosed(const Mesh& mesh, const std::vector<Shell>& shells, const Shell& o
 /// Points just outside an inward shell: first at its extreme corners, then on its triangles.
 std::vector<glm::dvec3> probes(const Mesh& mesh, const Shell& shell) {
     const double apart = kApart * glm::length(shell.high - shell.low);
-    struct Corner {
+    struct Extreme {
         std::size_t triangle = 0;
         int corner = 0;
         double along = -std::numeric_limits<double>::infinity();
@@ -74,7 +74,7 @@ std::vector<glm::dvec3> probes(const Mesh& mesh, const Shell& shell) {
         const double turn = double(d) * std::numbers::pi * (3.0 - std::sqrt(5.0));
         directions.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
     }
-    std::vector<Corner> farthest(kDirections);
+    std::vector<Extreme> farthest(kDirections);
     for (std::size_t i = 0; i < shell.corners.size(); ++i) {
         for (int k = 0; k < 3; ++k) {
             const glm::dvec3 p = mesh.positions[shell.corners[i][k]];
@@ -91,7 +91,7 @@ std::vector<glm::dvec3> probes(const Mesh& mesh, const Shell& shell) {
         const double length = glm::length(inward);
         return length > 0.0 ? p - apart / length * inward : p;
     };
-    for (const Corner& c : farthest)
+    for (const Extreme& c : farthest)
         points.push_back(outside(c.triangle, mesh.positions[shell.corners[c.triangle][c.corner]]));
     const std::size_t step = std::max<std::size_t>(shell.corners.size() / kTriangles, 1);
     for (std::size_t i = 0; i < shell.corners.size(); i += step) {

@@ -8,7 +8,7 @@ namespace pellucid {
 namespace {
 
 constexpr auto kRadianceFormat = vk::Format::eR32G32B32A32Sfloat;
-constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;  // 32-bit float targets need not blend
+constexpr auto kThinFormat = vk::Format::eR16G16B16A16Sfloat;  // 32-bit float targets need not blend
 
 Program::Graphics surface_program(ShaderCode fragment, std::vector<vk::Format> colors, Blend blend, bool depth) {
     return {.vertex = shaders::surface_vert,
@@ -73,12 +73,12 @@ Opaque draw_opaque(Recorder& recorder, const Frame& frame) {
 ThinWalls draw_thin_walls(Recorder& recorder, const Frame& frame, const Opaque& opaque, const Layers& layers) {
     Workspace& workspace = frame.workspace;
     const Program& tint =
-        workspace.graphics(surface_program(shaders::thin_tint_frag, {kLookFormat}, Blend::kMultiply, false));
+        workspace.graphics(surface_program(shaders::thin_tint_frag, {kThinFormat}, Blend::kMultiply, false));
     const Program& reflection =
-        workspace.graphics(surface_program(shaders::thin_reflection_frag, {kLookFormat}, Blend::kAdd, false));
+        workspace.graphics(surface_program(shaders::thin_reflection_frag, {kThinFormat}, Blend::kAdd, false));
     // What nothing in the scene draws into is not looked at either.
     const auto look_image = [&](std::string_view name) -> const GpuImage& {
-        return workspace.image(name, kLookFormat, frame.scene.thin_walled.empty() ? vk::Extent2D{1, 1} : frame.extent);
+        return workspace.image(name, kThinFormat, frame.scene.thin_walled.empty() ? vk::Extent2D{1, 1} : frame.extent);
     };
     const GpuImage& thin_tint = look_image("thin tint");
     const GpuImage& thin_reflection = look_image("thin reflection");

@@ -16,7 +16,7 @@
 namespace pellucid {
 namespace {
 
-constexpr auto kLookFormat = vk::Format::eR16G16B16A16Sfloat;
+constexpr auto kTranslucentFormat = vk::Format::eR16G16B16A16Sfloat;
 
 /// Value of kMethod in transmit_light.comp.
 std::uint32_t method_constant(ThicknessMethod method) {
@@ -53,13 +53,13 @@ TransmittedLight::Surfaces TransmittedLight::draw_surfaces(Recorder& recorder, c
                                                            const Opaque& opaque) {
     Workspace& workspace = frame.workspace;
     const GpuScene& scene = frame.scene;
-    const Program& program =
-        workspace.graphics({.vertex = shaders::surface_vert,
-                            .fragment = shaders::translucent_surface_frag,
-                            .colors = {kLookFormat, kLookFormat, vk::Format::eR32Uint, vk::Format::eR32Uint},
-                            .depth = true});
-    const GpuImage& reflected = workspace.image("translucent reflected", kLookFormat, frame.extent);
-    const GpuImage& transmitted = workspace.image("translucent transmitted", kLookFormat, frame.extent);
+    const Program& program = workspace.graphics(
+        {.vertex = shaders::surface_vert,
+         .fragment = shaders::translucent_surface_frag,
+         .colors = {kTranslucentFormat, kTranslucentFormat, vk::Format::eR32Uint, vk::Format::eR32Uint},
+         .depth = true});
+    const GpuImage& reflected = workspace.image("translucent reflected", kTranslucentFormat, frame.extent);
+    const GpuImage& transmitted = workspace.image("translucent transmitted", kTranslucentFormat, frame.extent);
     const GpuImage& triangle = workspace.image("translucent triangle", vk::Format::eR32Uint, frame.extent);
     const GpuImage& normal = workspace.image("translucent normal", vk::Format::eR32Uint, frame.extent);
     const GpuImage& nearest = workspace.image("translucent depth test", vk::Format::eD32Sfloat, frame.extent);

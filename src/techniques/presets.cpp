@@ -74,8 +74,7 @@ void check_technique_name(std::string_view name) {
     std::vector<std::string_view> known;
     for (const PresetInfo& preset : presets()) known.push_back(preset.name);
     for (const TechniqueInfo* info : techniques()) known.push_back(info->name);
-    if (std::find(known.begin(), known.end(), name) == known.end())
-        throw unknown_name("technique", name, known);
+    if (std::find(known.begin(), known.end(), name) == known.end()) throw unknown_name("technique", name, known);
 }
 
 TechniqueChoice choose_technique(std::string_view name, const Device& device, bool volumes, const MeasuredTimes& times,

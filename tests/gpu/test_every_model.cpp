@@ -78,7 +78,8 @@ TEST_P(EveryModel, IsDrawnSoundlyAndTheSameTwice) {
 
 std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
     std::string name = std::filesystem::path(info.param).filename();
-    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
     return name + "_" + std::to_string(info.index);
 }
 

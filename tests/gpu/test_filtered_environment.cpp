@@ -64,10 +64,11 @@ protected:
         for (const glm::vec3& direction : directions) data.emplace_back(direction, roughness);
         std::memcpy(frame.mapped(), &constants_, sizeof(constants_));
         std::memcpy(lookups.mapped(), data.data(), lookups.size());
-        recorder().compute(workspace().compute(shaders::filtered_radiance_comp),
-                           {reads("Frame", frame), reads("Lookups", lookups), writes("Answers", answers),
-                            reads_layer("environment_map", map_, 0), reads_layer("filtered_environment", filtered_->filtered, 0)},
-                           {std::uint32_t(directions.size()), 1});
+        recorder().compute(
+            workspace().compute(shaders::filtered_radiance_comp),
+            {reads("Frame", frame), reads("Lookups", lookups), writes("Answers", answers),
+             reads_layer("environment_map", map_, 0), reads_layer("filtered_environment", filtered_->filtered, 0)},
+            {std::uint32_t(directions.size()), 1});
         recorder().submit_and_wait();
         std::vector<glm::vec3> seen;
         for (const glm::vec4& answer : read_back<glm::vec4>(answers)) seen.emplace_back(answer);

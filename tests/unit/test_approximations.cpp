@@ -18,7 +18,8 @@ using namespace test;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::vector<std::string> of_lights(const Scene& scene, LightTransport transport, const char* technique = "visibility-layers") {
+std::vector<std::string> of_lights(const Scene& scene, LightTransport transport,
+                                   const char* technique = "visibility-layers") {
     LightOptions light;
     light.transport = transport;
     return approximations(scene, find_technique(technique), light, false);

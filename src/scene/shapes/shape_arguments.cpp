@@ -11,11 +11,6 @@
 
 namespace pellucid {
 
-std::string shortened(std::string_view text) {
-    constexpr std::size_t kLongest = 60;
-    return fmt::format("{}{}", one_line(text.substr(0, kLongest)), text.size() > kLongest ? "..." : "");
-}
-
 std::string in_quotes(std::string_view text) { return fmt::format("'{}'", shortened(text)); }
 
 ShapeArguments::ShapeArguments(const ShapeInfo& info, std::string_view text, std::string_view kind)

@@ -29,9 +29,7 @@ private:
     std::vector<double> values_;
 };
 
-/// `text` shortened and without control characters, so that an error stays one line.
-std::string shortened(std::string_view text);
-/// The same in quotes.
+/// `text` shortened, in quotes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace pellucid

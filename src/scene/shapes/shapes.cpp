@@ -3,6 +3,7 @@
 #include <pellucid/error.h>
 #include <pellucid/names.h>
 
+#include "core/fail.h"
 #include "scene/shapes/shape_arguments.h"
 #include "scene/shapes/shape_builders.h"
 

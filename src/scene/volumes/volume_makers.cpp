@@ -3,6 +3,8 @@
 #include <pellucid/error.h>
 #include <pellucid/names.h>
 
+#include "core/fail.h"
+
 namespace pellucid {
 namespace {
 
