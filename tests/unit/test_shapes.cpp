@@ -113,6 +113,10 @@ TEST(Shapes, EveryTessellationIsClosed) {
                              "bottle,segments=9,rings=64",
                              "bottle,segments=24,rings=200,grooves=8,wall=0.06",
                              "bottle,segments=64,rings=500,grooves=1,wall=0.008",
+                             "vase,segments=7,rings=48",
+                             "vase,segments=9,rings=48,wall=0.12,half=1",
+                             "vase,segments=3,rings=97,wall=0.008,half=1",
+                             "vase,segments=64,rings=500,wall=0.04,half=1",
                              "gem,facets=5,table=0.7",
                              "gem,facets=64,girdle=0.005",
                              "hollow-sphere,segments=3,inner=0.99",
@@ -240,6 +244,26 @@ TEST(Shapes, BottleIsHollowAndOpen) {
         }
         EXPECT_GT(thinnest, 0.6 * thickness);
         EXPECT_GT(rim->x, 0.05);
+    }
+}
+
+TEST(Shapes, HalfAVaseLiesBehindItsSections) {
+    const Mesh half = load_shape("vase,segments=64,half=1"), whole = load_shape("vase,segments=128");
+    EXPECT_NEAR(signed_volume(half), 0.5 * signed_volume(whole), 1e-5);
+    for (const glm::vec3 position : half.positions) EXPECT_LE(position.z, 0.0f);
+}
+
+TEST(Shapes, VaseProfileDoesNotCrossItself) {
+    for (const char* wall : {"0.008", "0.04", "0.12"}) {
+        SCOPED_TRACE(wall);
+        const std::vector<glm::dvec2> profile = profile_of("vase,rings=400,wall=" + std::string(wall));
+        ASSERT_EQ(profile.size(), 401u);
+        int crossing_count = 0;
+        for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+            for (std::size_t j = i + 2; j + 1 < profile.size(); ++j)
+                crossing_count += cross(profile[i], profile[i + 1], profile[j], profile[j + 1]);
+        EXPECT_EQ(crossing_count, 0);
+        EXPECT_NEAR(profile.back().y - profile.front().y, std::stod(wall), 1e-3);
     }
 }
 

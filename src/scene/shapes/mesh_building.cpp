@@ -10,6 +10,20 @@ glm::vec3 rounded(glm::dvec3 v) {
     return glm::vec3(v) + 0.0f;  // -0 + 0 is 0
 }
 
+/// Unit (x, z) after `i` of `count` equal parts of a whole turn.
+glm::dvec2 turn(unsigned i, unsigned count) {
+    const double longitude = 2.0 * std::numbers::pi * i / count;
+    return {std::cos(longitude), std::sin(longitude)};
+}
+
+/// The same of half a turn behind the plane z = 0, which both ends meet exactly.
+glm::dvec2 half_turn(unsigned i, unsigned count) {
+    if (i == 0) return {-1.0, 0.0};
+    if (i == count) return {1.0, 0.0};
+    const double longitude = std::numbers::pi * (1.0 + double(i) / count);
+    return {std::cos(longitude), std::sin(longitude)};
+}
+
 }  // namespace
 
 unsigned add_vertex(Mesh& mesh, glm::dvec3 position, glm::dvec3 normal) {
@@ -27,10 +41,11 @@ void add_facet(Mesh& mesh, const std::vector<glm::dvec3>& corners) {
     }
 }
 
-Mesh revolve(const std::vector<ProfilePoint>& profile, int segments) {
+Mesh revolve(const std::vector<ProfilePoint>& profile, int segments, bool half) {
     Mesh mesh;
     const unsigned around = unsigned(segments);
     const unsigned ring_count = unsigned(profile.size()) - 2;
+    const unsigned columns = half ? around + 1 : around;
     const auto pole = [&](const ProfilePoint& point) {
         return add_vertex(mesh, {0.0, point.position.y, 0.0}, {0.0, point.normal.y, 0.0});
     };
@@ -39,17 +54,16 @@ Mesh revolve(const std::vector<ProfilePoint>& profile, int segments) {
     const unsigned first = start + 1;
     for (unsigned ring = 0; ring < ring_count; ++ring) {
         const ProfilePoint& point = profile[ring + 1];
-        for (unsigned i = 0; i < around; ++i) {
-            const double longitude = 2.0 * std::numbers::pi * i / around;
-            const double c = std::cos(longitude), s = std::sin(longitude);
-            add_vertex(mesh, {point.position.x * c, point.position.y, point.position.x * s},
-                       {point.normal.x * c, point.normal.y, point.normal.x * s});
+        for (unsigned i = 0; i < columns; ++i) {
+            const glm::dvec2 way = half ? half_turn(i, around) : turn(i, around);
+            add_vertex(mesh, {point.position.x * way.x, point.position.y, point.position.x * way.y},
+                       {point.normal.x * way.x, point.normal.y, point.normal.x * way.y});
         }
     }
     const unsigned end = pole(profile.back());
 
-    // The modulo closes the seam: the last column shares the vertices of the first.
-    const auto vertex = [&](unsigned ring, unsigned i) { return first + ring * around + i % around; };
+    // The modulo closes the seam of a whole turn: the last column shares the vertices of the first.
+    const auto vertex = [&](unsigned ring, unsigned i) { return first + ring * columns + i % columns; };
     for (unsigned i = 0; i < around; ++i) {
         mesh.triangles.push_back({start, vertex(0, i), vertex(0, i + 1)});
         for (unsigned ring = 0; ring + 1 < ring_count; ++ring) {

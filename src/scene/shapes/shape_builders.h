@@ -17,6 +17,7 @@ Mesh make_infinity_ring(const ShapeArguments& arguments);
 Mesh make_knot(const ShapeArguments& arguments);
 Mesh make_goblet(const ShapeArguments& arguments);
 Mesh make_bottle(const ShapeArguments& arguments);
+Mesh make_vase(const ShapeArguments& arguments);
 Mesh make_gem(const ShapeArguments& arguments);
 
 // Building blocks of several shapes, computed in double and rounded once at the end.
@@ -53,8 +54,8 @@ struct ProfilePoint {
 };
 
 /// Solid of revolution around +Y. The solid lies on the profile's left. The profile begins and ends on the axis, where
-/// it forms a fan around one vertex.
-Mesh revolve(const std::vector<ProfilePoint>& profile, int segments);
+/// it forms a fan around one vertex. `half`: half a turn behind the plane z = 0, open there.
+Mesh revolve(const std::vector<ProfilePoint>& profile, int segments, bool half = false);
 
 /// A profile for revolve(): the uniform cubic B-spline of control points (distance from the axis, height). It begins
 /// and ends on the axis at right angles. It has `rings` segments, shorter at bends.
