@@ -2,6 +2,7 @@
 
 #include "lab/experiment_scenes.h"
 #include "lab/ihrke_experiments.h"
+#include "lab/kay_greenberg_experiments.h"
 #include "lab/light_experiments.h"
 #include "lab/thickness_experiments.h"
 
@@ -401,10 +402,23 @@ ExperimentSpec wang_many_objects() {
 }  // namespace
 
 std::span<const ExperimentSpec> experiments() {
-    static const std::vector<ExperimentSpec> all = {
-        wang_search_step(), wang_environment(), wang_layers(), wang_exits(),     wang_refractions(),
-        published_index(),  interfaces(),       wyman_speed(), wang_table_4_1(), wang_many_objects(),
-        chen_error(),       chen_speed(),       ihrke_rays(),  ihrke_light(),    ihrke_reflections()};
+    static const std::vector<ExperimentSpec> all = {wang_search_step(),
+                                                    wang_environment(),
+                                                    wang_layers(),
+                                                    wang_exits(),
+                                                    wang_refractions(),
+                                                    published_index(),
+                                                    interfaces(),
+                                                    wyman_speed(),
+                                                    wang_table_4_1(),
+                                                    wang_many_objects(),
+                                                    chen_error(),
+                                                    chen_speed(),
+                                                    ihrke_rays(),
+                                                    ihrke_light(),
+                                                    ihrke_reflections(),
+                                                    kay_greenberg_transparency(),
+                                                    kay_greenberg_background()};
     return all;
 }
 

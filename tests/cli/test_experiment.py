@@ -11,7 +11,7 @@ from cli import CliTest, TETRAHEDRON
 NAMES = ["wang-search-step", "wang-environment", "wang-layers", "wang-exits", "wang-refractions",
          "index", "interfaces", "wyman-speed", "wang-table-4-1",
          "wang-many-objects", "chen-error", "chen-speed", "ihrke-rays", "ihrke-light",
-         "ihrke-reflections"]
+         "ihrke-reflections", "kay-greenberg-transparency", "kay-greenberg-background"]
 
 
 class Experiment(CliTest):
@@ -228,6 +228,45 @@ class ThicknessExperiments(CliTest):
         result = self.run_cli("experiment", "chen-speed", "--size", "64x64")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("nothing is left to measure", result.stderr)
+
+
+class KayGreenbergExperiments(CliTest):
+    def runs(self, name, size):
+        result = self.run_cli("experiment", name, "--size", size, "--json", "e.json", "--validate")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return {(run["scene"], run["variant"]): run for run in json.loads(self.read("e.json"))["experiments"][0]["runs"]}
+
+    def test_transparency(self):
+        """The length in the slabs is the best form for an even wall; none sees the stem of a glass, or the cut of half a vase."""
+        runs = self.runs("kay-greenberg-transparency", "64x64")
+        self.assertEqual(len(runs), 4 * 5)
+        for run in runs.values():
+            self.assertGreater(run["pixels"], 400)
+            self.assertTrue(0 < run["transparency"] < 1 and 0 < run["exact_transparency"] < 1)
+        errors = {variant: run["error"] for (scene, variant), run in runs.items() if scene == "vase"}
+        self.assertEqual(min(errors, key=errors.get), "refraction, T^d")
+        self.assertLess(runs["vase", "refraction, T^d"]["median"], 0.01)
+        self.assertGreater(errors["power 1"], errors["power 2"])
+        self.assertGreater(errors["power 2"], errors["power 3"])
+        for scene in ("thick half vase", "champagne glass, thin"):
+            self.assertLess(runs[scene, "refraction, T^d"]["length_ratio"], 0.5)
+
+    def test_background(self):
+        """Section 4.3: errors grow with thickness and distance of the background, and a little with the field of view."""
+        runs = self.runs("kay-greenberg-background", "64x64")
+        walls, fields = ("0.01", "0.04", "0.12"), (1, 15, 30, 60, 90)
+        self.assertEqual(len(runs), len(walls) * len(fields) * 2)
+        for variant in ("linear", "refraction, T^d"):
+            medians = {(wall, field): [runs[f"wall {wall} m, {field} degrees", variant][f"at_{distance}"]["median"]
+                                       for distance in (0, 1, 4)] for wall in walls for field in fields}
+            for median in medians.values():
+                self.assertEqual(median, sorted(median))
+            for field in fields:
+                for distance in range(3):
+                    of_walls = [medians[wall, field][distance] for wall in walls]
+                    self.assertEqual(of_walls, sorted(of_walls))
+            for wall in walls:
+                self.assertLess(medians[wall, 1][2], medians[wall, 90][2])
 
 
 class RayExperiments(CliTest):
