@@ -8,8 +8,9 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pellucid)
 
 install(TARGETS pellucid EXPORT pellucid-targets
         LIBRARY COMPONENT runtime NAMELINK_COMPONENT development)
-# pellucid looks for it beside itself.
+# pellucid looks for these beside itself.
 install(TARGETS pellucid_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
+install(TARGETS pellucid_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
 install(EXPORT pellucid-targets NAMESPACE pellucid:: DESTINATION ${package_dir} COMPONENT development)
 install(DIRECTORY include/pellucid DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h")

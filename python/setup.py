@@ -25,7 +25,7 @@ def built_folder():
     folder = WORK / "cmake"
     subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                     "-DPELLUCID_BUILD_TESTS=OFF", "-DPELLUCID_BUILD_PYTHON=ON"], check=True)
-    subprocess.run(["cmake", "--build", folder, "--target", "pellucid_python", "pellucid_images"], check=True)
+    subprocess.run(["cmake", "--build", folder, "--target", "pellucid_python", "pellucid_images", "pellucid_reader"], check=True)
     return folder
 
 
@@ -40,7 +40,7 @@ class BuildWithCMake(build_py):
         for module in staged.glob("**/_pellucid*.so"):
             self.copy_file(str(module), str(target / module.name))
         interface = ".".join(version().split(".")[:2])  # as SOVERSION in src/CMakeLists.txt
-        for name in (f"libpellucid.so.{interface}", "libpellucid_images.so"):
+        for name in (f"libpellucid.so.{interface}", "libpellucid_images.so", "pellucid-reader"):
             self.copy_file(str(build / "lib" / name), str(target / name))
 
 

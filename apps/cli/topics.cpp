@@ -29,7 +29,11 @@ std::string scenes() {
            "--priority OBJECT=N: where solids overlap, the one of the highest whole number (default 0) displaces the "
            "others, then the one of less volume. 'pellucid info SCENE' lists the names.\n"
            "--animation NAME|N, --time S: the pose of a glTF file; default: the file at rest, or with --time its first "
-           "animation.\n";
+           "animation.\n"
+           "--allow-outside: images, buffers, volumes and material libraries outside the scene's folder are read, "
+           "too.\n"
+           "PELLUCID_MEMORY_SHARE, an environment variable: the share of the machine's memory that a scene may take "
+           "while it is read (default 0.5).\n";
 }
 
 std::string list_of(const std::vector<ShapeInfo>& infos, std::string_view prefix) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct DatasetArguments {
     std::string recipe;
     std::optional<std::string> folder, images;
-    bool gather = false, schema = false;
+    bool gather = false, schema = false, allow_outside = false;
     DeviceArguments device;
     Console console;
 };
@@ -78,7 +78,7 @@ void write_annotations(const fs::path& folder, const Images& images, std::uint64
 void make_images(const Recipe& recipe, const fs::path& folder, const Images& images,
                  const DatasetArguments& arguments) {
     check_technique_name(recipe.technique);
-    const DatasetScenes scenes(recipe);
+    const DatasetScenes scenes(recipe, arguments.allow_outside);
     Renderer renderer(device_options(arguments.device));
     std::vector<std::string> warnings = scenes.warnings();
     std::uint64_t with_warnings = 0;
@@ -130,6 +130,7 @@ void add_dataset_command(CLI::App& app) {
         ->type_name("A..B");
     command->add_flag("--gather", a.gather, "Make no images; write annotations.json of those that are there");
     command->add_flag("--schema", a.schema, "Print the JSON Schema of recipes, with its defaults");
+    command->add_flag("--allow-outside", a.allow_outside, kAllowOutsideHelp);
     add_device_options(*command, a.device);
     add_console_options(*command, a.console);
     set_examples(*command, {"pellucid dataset recipe.json --folder out/glass",

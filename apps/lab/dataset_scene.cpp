@@ -19,8 +19,10 @@ std::string located(const Recipe& recipe, const std::string& source) {
     return name ? source : (recipe.folder / source).string();
 }
 
-Scene load_source(const Recipe& recipe, const std::string& source) {
-    Scene scene = load_scene(located(recipe, source));
+Scene load_source(const Recipe& recipe, const std::string& source, bool allow_outside) {
+    LoadOptions options;
+    options.allow_outside = allow_outside;
+    Scene scene = load_scene(located(recipe, source), options);
     const bool glass = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
         return scene.materials[std::size_t(object.material)].refractive();
     });
@@ -118,8 +120,8 @@ glm::dmat3 DatasetRandom::rotation() {
     return glm::mat3_cast(glm::dquat(c * std::cos(b), s * std::sin(a), s * std::cos(a), c * std::sin(b)));
 }
 
-DatasetScenes::DatasetScenes(const Recipe& recipe) : recipe_(recipe) {
-    for (const std::string& source : recipe.sources) sources_.try_emplace(source, load_source(recipe, source));
+DatasetScenes::DatasetScenes(const Recipe& recipe, bool allow_outside) : recipe_(recipe) {
+    for (const std::string& source : recipe.sources) sources_.try_emplace(source, load_source(recipe, source, allow_outside));
     for (const std::string& name : recipe.backgrounds)
         if (!is_pattern(name)) backgrounds_.try_emplace(name, read_background(located(recipe, name)));
     for (const std::string& name : recipe.environments) {

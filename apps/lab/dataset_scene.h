@@ -55,8 +55,8 @@ struct DatasetScene {
 /// Makes scenes of a recipe. Each depends on the recipe and the image's number only.
 class DatasetScenes {
 public:
-    /// Loads every file of the recipe. Throws Error naming the file.
-    explicit DatasetScenes(const Recipe& recipe);
+    /// Loads every file of the recipe. `allow_outside`: see LoadOptions. Throws Error naming the file.
+    explicit DatasetScenes(const Recipe& recipe, bool allow_outside = false);
     DatasetScene make(std::uint64_t image) const;
     const std::vector<std::string>& warnings() const { return warnings_; }
 

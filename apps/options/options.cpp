@@ -55,6 +55,7 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
     command.add_flag("--remake-normals", arguments.remake_normals, "Replace the normals that a mesh file brings along");
     command.add_flag("--solid", arguments.solid,
                      "Closed glTF meshes of transmissive materials are solid glass, also without a volume");
+    command.add_flag("--allow-outside", arguments.allow_outside, kAllowOutsideHelp);
     command
         .add_option("--priority", arguments.priorities,
                     "Which solid displaces others where they overlap; may be repeated (help scenes)")
@@ -90,6 +91,7 @@ LoadOptions load_options(const SceneArguments& arguments) {
     if (arguments.crease_angle_deg) options.crease_angle = glm::radians(float(*arguments.crease_angle_deg));
     options.remake_normals = arguments.remake_normals;
     options.solid = arguments.solid;
+    options.allow_outside = arguments.allow_outside;
     for (const std::string& text : arguments.priorities) options.priorities.push_back(parse_priority(text));
     options.translucent = parse_translucency(arguments.translucency);
     options.animation = arguments.animation;

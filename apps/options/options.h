@@ -41,6 +41,7 @@ struct SceneArguments {
     std::optional<double> crease_angle_deg;
     bool remake_normals = false;
     bool solid = false;
+    bool allow_outside = false;
     std::vector<std::string> priorities;
     std::optional<std::string> animation;
     std::optional<double> time_s;
@@ -52,6 +53,9 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments);
 LoadOptions load_options(const SceneArguments& arguments);
 /// load_scene(), and the lights and volumes that the command line adds.
 Scene load_given_scene(const std::string& source, const SceneArguments& arguments, const Console& console);
+
+inline constexpr const char* kAllowOutsideHelp =
+    "Read images, buffers and material libraries outside the scene's folder, too";
 
 /// Positional argument of commands that load a scene.
 inline constexpr const char* kSceneHelp = "A file, shape:NAME or volume:NAME (help scenes, shapes, volumes)";

@@ -45,6 +45,7 @@ void add_loading(CommandLine& line, const cli::SceneArguments& how, const Look& 
     line.option("crease-angle", how.crease_angle_deg);
     if (how.remake_normals) line.word("--remake-normals");
     if (how.solid) line.word("--solid");
+    if (how.allow_outside) line.word("--allow-outside");
     line.each("priority", how.priorities);
     line.option("translucent", how.translucency.translucent);
     line.each("add-light", how.translucency.lights);

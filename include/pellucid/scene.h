@@ -277,6 +277,9 @@ struct LoadOptions {
         int priority = 0;
     };
     std::vector<Priority> priorities;
+    /// A scene file may name files outside its own folder. Otherwise an image there is left out with a warning, and a
+    /// buffer, a volume or a material library there is an error. Links and ".." are resolved first.
+    bool allow_outside = false;
     /// Of OpenVDB files; empty: grids have the names of fields. See load_volume().
     std::vector<GridMapping> grids;
 };

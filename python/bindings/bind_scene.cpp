@@ -78,7 +78,7 @@ int append(std::vector<Item>& items, const Item& added) {
 
 Scene load(const std::string& source, std::optional<float> ior, const py::object& attenuation_color,
            std::optional<float> attenuation_distance, std::optional<float> crease_angle, bool remake_normals,
-           bool solid, const std::optional<std::string>& animation, std::optional<double> time_s) {
+           bool solid, const std::optional<std::string>& animation, std::optional<double> time_s, bool allow_outside) {
     LoadOptions options;
     options.ior = ior;
     if (!attenuation_color.is_none())
@@ -89,6 +89,7 @@ Scene load(const std::string& source, std::optional<float> ior, const py::object
     options.solid = solid;
     options.animation = animation;
     options.time_s = time_s;
+    options.allow_outside = allow_outside;
     const py::gil_scoped_release release;
     return load_scene(source, options);
 }
@@ -196,10 +197,10 @@ void bind_scene(py::module_& module) {
     module.def("load_scene", &load, py::arg("source"), py::kw_only(), py::arg("ior") = py::none(),
                py::arg("attenuation_color") = py::none(), py::arg("attenuation_distance") = py::none(),
                py::arg("crease_angle") = py::none(), py::arg("remake_normals") = false, py::arg("solid") = false,
-               py::arg("animation") = py::none(), py::arg("time_s") = py::none(),
+               py::arg("animation") = py::none(), py::arg("time_s") = py::none(), py::arg("allow_outside") = false,
                "Scene of a file (.gltf, .glb, .obj, .ply, .stl, .off, .3ds, .vdb), shape:NAME or volume:NAME. ior "
                "(>= 1), attenuation_color (RGB 0..1) and attenuation_distance (m) replace those of all glass; "
-               "crease_angle in radians, time_s in s.");
+               "crease_angle in radians, time_s in s. allow_outside: the file may name others outside its folder.");
 }
 
 }  // namespace pellucid::python

@@ -1,5 +1,7 @@
 #include "core/image_module.h"
 
+#include "core/read_apart.h"
+
 #include <pellucid/error.h>
 
 #include <dlfcn.h>
@@ -14,16 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "libpellucid_images.so";
-
-/// Folder of the library or program that holds this code.
-fs::path own_folder() {
-    Dl_info info{};
-    dladdr(reinterpret_cast<const void*>(&image_module), &info);
-    std::error_code error;
-    const fs::path file = info.dli_fname ? info.dli_fname : "";
-    const fs::path resolved = fs::canonical(file, error);
-    return (error ? file : resolved).parent_path();
-}
 
 const ImageModule& load() {
     // Beside the library; or, of a program that has the library inside, where the build puts libraries.

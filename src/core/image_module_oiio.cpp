@@ -25,12 +25,18 @@ OIIO::ImageSpec keep_alpha_as_stored() {
     return config;
 }
 
-std::string read_pixels(OIIO::ImageInput& input, Image& image) {
+std::string read_pixels(OIIO::ImageInput& input, std::uint64_t most_bytes, Image& image) {
     const OIIO::ImageSpec& spec = input.spec();
     if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1 || spec.deep)
         return "is not a flat two-dimensional image";
     if (std::int64_t(spec.width) * spec.height > kMaxPixels)
         return fmt::format("image of {} x {} pixels is larger than 2^28 pixels", spec.width, spec.height);
+    if (std::uint64_t(spec.width) * std::uint64_t(spec.height) >
+        most_bytes / sizeof(float) / std::uint64_t(spec.nchannels)) {
+        image.width = spec.width, image.height = spec.height, image.channels = spec.nchannels;
+        return fmt::format("image of {} x {} pixels with {} channels does not fit into memory", spec.width, spec.height,
+                           spec.nchannels);
+    }
     image = Image(spec.width, spec.height, spec.nchannels);
     if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()))
         return "damaged image: " + cause_or(input.geterror(), "pixels cannot be read");
@@ -63,14 +69,14 @@ std::vector<std::uint8_t> display_bytes(const Image& image) {
     return bytes;
 }
 
-std::string read(const std::string& file, Image& image) {
+std::string read(const std::string& file, std::uint64_t most_bytes, Image& image) {
     const OIIO::ImageSpec config = keep_alpha_as_stored();
     const auto input = OIIO::ImageInput::open(file, &config);
     if (!input) return "is no readable image: " + cause_or(OIIO::geterror(), "unknown format");
-    return read_pixels(*input, image);
+    return read_pixels(*input, most_bytes, image);
 }
 
-std::string decode(const void* bytes, std::size_t size, Image& image) {
+std::string decode(const void* bytes, std::size_t size, std::uint64_t most_bytes, Image& image) {
     const std::string_view extension = extension_of_content(bytes, size);
     if (extension.empty()) return "is no image of a known format";
     OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);
@@ -80,7 +86,7 @@ std::string decode(const void* bytes, std::size_t size, Image& image) {
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     const auto input = OIIO::ImageInput::open("image" + std::string(extension), &config);
     if (!input) return "is no readable image: " + cause_or(OIIO::geterror(), "unknown format");
-    return read_pixels(*input, image);
+    return read_pixels(*input, most_bytes, image);
 }
 
 /// `memory`, if any, gets the bytes, and `file` only says what they are.

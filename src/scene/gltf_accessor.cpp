@@ -75,6 +75,7 @@ Elements elements_of(const GltfFile& gltf, const tinygltf::Accessor& accessor, i
         // Zeros cost nothing in the file but memory here.
         fail(gltf.path, fmt::format("{}: {} elements without data", user, accessor.count));
     }
+    gltf.memory.take(elements.count, std::size_t(components) * sizeof(float));
     return elements;
 }
 

@@ -114,6 +114,7 @@ private:
         const int components = tinygltf::GetNumComponentsInType(std::uint32_t(decoded.type));
         if (components < 1 || components > 4) throw Error(fmt::format("accessor {} is of no vector type", accessor));
         decoded.count = points;
+        gltf_.memory.take(points, std::uint64_t(components) * sizeof(float));
         return add(std::move(decoded), values_of(attribute, points, decoded.componentType, components));
     }
 
@@ -124,6 +125,7 @@ private:
         decoded.type = TINYGLTF_TYPE_SCALAR;
         decoded.normalized = false;
         decoded.count = std::size_t(mesh.num_faces()) * 3;
+        gltf_.memory.take(decoded.count, sizeof(std::uint32_t));
         std::vector<std::byte> bytes(decoded.count * sizeof(std::uint32_t));
         std::byte* at = bytes.data();
         for (std::uint32_t f = 0; f < mesh.num_faces(); ++f) {

@@ -83,7 +83,7 @@ void read_buffers(GltfFile& gltf, const json& root, std::span<const std::byte> b
         std::vector<std::byte> bytes;
         if (!uri.empty()) {
             try {
-                bytes = read_gltf_uri(gltf.path, uri);
+                bytes = read_gltf_uri(gltf.scope, uri);
             } catch (const Error& error) {
                 fail(gltf.path, fmt::format("buffer {}: {}", i, error.what()));
             }
@@ -97,6 +97,7 @@ void read_buffers(GltfFile& gltf, const json& root, std::span<const std::byte> b
             fail(gltf.path,
                  fmt::format("buffer {}{} has {} bytes, {} are needed", i,
                              uri.empty() || uri.starts_with("data:") ? "" : " (" + uri + ")", bytes.size(), length));
+        gltf.memory.take(length);
         bytes.resize(length);
         gltf.buffers.push_back(std::move(bytes));
     }
@@ -117,9 +118,9 @@ void read_images(GltfFile& gltf, const json& root) {
                 image.name = name;
             }
             if (uri.starts_with("data:")) {
-                image.bytes = read_gltf_uri(gltf.path, uri);
+                image.bytes = read_gltf_uri(gltf.scope, uri);
             } else if (!uri.empty()) {
-                image.file = gltf_uri_file(gltf.path, uri);
+                image.file = gltf_uri_file(gltf.scope, uri);
             } else {
                 image.view = gltf.view(images[i].at("bufferView").get<int>(), image.name);
             }
@@ -152,13 +153,13 @@ std::span<const std::byte> GltfFile::view(int buffer_view, const std::string& us
     return std::span(buffer).subspan(v.byteOffset, v.byteLength);
 }
 
-GltfFile read_gltf_file(const std::filesystem::path& path, Warnings& warnings) {
+void read_gltf_file(GltfFile& gltf, Warnings& warnings) {
+    const std::filesystem::path& path = gltf.path;
+    gltf.memory.take(check_readable(path));
     const std::vector<std::byte> file = read_file(path);
     std::string_view text;
     std::span<const std::byte> binary;
     split_container(path, file, text, binary);
-    GltfFile gltf;
-    gltf.path = path;
     try {
         const json root = parse_gltf_json(path, text, warnings);
         gltf.model = gltf_model(path, root, warnings);
@@ -172,7 +173,6 @@ GltfFile read_gltf_file(const std::filesystem::path& path, Warnings& warnings) {
         // Values of an unexpected JSON type, here or in tinygltf.
         fail(path, std::string("malformed glTF: ") + cause.what());
     }
-    return gltf;
 }
 
 }  // namespace pellucid

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/file_scope.h"
+#include "core/memory_budget.h"
 #include "scene/warnings.h"
 
 #include "scene/tinygltf.h"
@@ -26,7 +28,12 @@ struct GltfImage {
 /// A glTF file with everything that belongs to it. tinygltf's model holds the JSON part only:
 /// buffers and images are read here, where sizes are checked. Compressed meshes are decoded.
 struct GltfFile {
+    explicit GltfFile(const std::filesystem::path& file, bool allow_outside = false)
+        : path(file), scope{file.parent_path(), allow_outside}, memory(file) {}
+
     std::filesystem::path path;
+    FileScope scope;
+    mutable MemoryBudget memory;
     tinygltf::Model model;  ///< its buffers and images are empty; views and accessors may follow those of the file
     std::vector<std::vector<std::byte>> buffers;
     std::vector<GltfImage> images;
@@ -35,8 +42,8 @@ struct GltfFile {
     std::span<const std::byte> view(int buffer_view, const std::string& user) const;
 };
 
-/// Throws Error for a damaged file, for missing buffers, and for required extensions that are refused. Extensions that
-/// are left out, and images that are missing, give a warning.
-GltfFile read_gltf_file(const std::filesystem::path& path, Warnings& warnings);
+/// Reads the content of `gltf.path`. Throws Error for a damaged file, for missing buffers, and for required extensions
+/// that are refused. Extensions that are left out, and images that are missing, give a warning.
+void read_gltf_file(GltfFile& gltf, Warnings& warnings);
 
 }  // namespace pellucid

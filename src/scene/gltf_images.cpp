@@ -1,6 +1,7 @@
 #include "scene/gltf_images.h"
 
 #include "core/file.h"
+#include "core/image_module.h"
 #include "core/parallel.h"
 
 #include <pellucid/error.h>
@@ -26,7 +27,7 @@ void GltfImages::decode(std::size_t gltf_image) {
         const std::span<const std::byte> bytes = !from.file.empty()    ? read
                                                  : !from.bytes.empty() ? from.bytes
                                                                        : from.view;
-        entry.image = decode_image(bytes.data(), bytes.size(), from.name);
+        entry.image = decode_scene_image(bytes, from.name, gltf_.memory);
     } catch (const std::exception& error) {
         entry.problem = error.what();
     }
@@ -37,6 +38,7 @@ void GltfImages::decode_noted() {
     for (std::size_t i = 0; i < entries_.size(); ++i)
         if (entries_[i].noted) noted.push_back(i);
     for_each_parallel(noted.size(), [&](std::size_t i) { decode(noted[i]); });
+    gltf_.memory.check();
     noting_ = false;
 }
 
@@ -57,6 +59,7 @@ bool GltfImages::have(int gltf_image, const std::string& user) {
     if (gltf_image >= 0 && std::size_t(gltf_image) < entries_.size()) {
         Entry& entry = entries_[std::size_t(gltf_image)];
         if (!noting_ && !entry.noted) decode(std::size_t(gltf_image));
+        gltf_.memory.check();
         entry.noted = true;
         if (entry.image || entry.index >= 0) return true;
     }

@@ -31,6 +31,7 @@ public:
         constexpr std::size_t kBestRatio = 64;
         if (view.stride == 0 || view.stride > 256 || view.count > (view.data.size() * kBestRatio) / view.stride)
             damaged(fmt::format("{} elements of {} bytes in {} bytes", view.count, view.stride, view.data.size()));
+        gltf_.memory.take(view.count, view.stride);
         std::vector<std::byte> decoded(view.count * view.stride);
         if (decoded.empty()) return decoded;
         decode_elements(view, decoded);

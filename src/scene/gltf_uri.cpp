@@ -85,24 +85,25 @@ std::string percent_decoded(const std::string& uri) {
     return decoded;
 }
 
-std::filesystem::path gltf_uri_file(const std::filesystem::path& path, const std::string& uri) {
+std::filesystem::path gltf_uri_file(const FileScope& scope, const std::string& uri) {
     if (uri.starts_with("http://") || uri.starts_with("https://"))
         throw Error(uri + ": is on a network: save it beside the glTF file and name it there");
-    const std::filesystem::path folder = path.parent_path();
     // Some programs write names as they are, or with the separators of Windows.
     std::string slashes = percent_decoded(uri);
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     for (const std::string& name : {percent_decoded(uri), uri, slashes}) {
+        const std::filesystem::path file = scope.folder / name;
+        scope.check(file);
         std::error_code error;
-        if (!std::filesystem::exists(folder / name, error)) continue;
-        check_readable(folder / name);
-        return folder / name;
+        if (!std::filesystem::exists(file, error)) continue;
+        check_readable(file);
+        return file;
     }
-    fail(folder / percent_decoded(uri), "no such file");
+    fail(scope.folder / percent_decoded(uri), "no such file");
 }
 
-std::vector<std::byte> read_gltf_uri(const std::filesystem::path& path, const std::string& uri) {
-    return uri.starts_with("data:") ? decode_data_uri(uri) : read_file(gltf_uri_file(path, uri));
+std::vector<std::byte> read_gltf_uri(const FileScope& scope, const std::string& uri) {
+    return uri.starts_with("data:") ? decode_data_uri(uri) : read_file(gltf_uri_file(scope, uri));
 }
 
 }  // namespace pellucid

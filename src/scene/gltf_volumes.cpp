@@ -33,7 +33,7 @@ void GltfVolumes::add(const tinygltf::Node& node, const std::string& node_name, 
     auto known = volumes_.find(source);
     if (known == volumes_.end()) {
         try {
-            scene_.volumes.push_back(std::make_shared<const Volume>(open_volume(source, gltf_.path.parent_path())));
+            scene_.volumes.push_back(std::make_shared<const Volume>(open_volume(source, gltf_.scope)));
         } catch (const Error& error) {
             fail(gltf_.path, fmt::format("{}: {}", user, error.what()));
         }

@@ -29,6 +29,8 @@
 namespace pellucid {
 namespace {
 
+constexpr std::size_t kMostObjects = kMostInstances;
+
 bool finite(const glm::dmat4& m) {
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r)
@@ -168,6 +170,10 @@ private:
         const std::string left_out = fmt::format("{}: scaled to nothing or out of all proportion, left out", name);
         if (!rigid && gltf_.model.nodes[std::size_t(node)].skin < 0) return warnings_.add(left_out);
         const std::vector<GltfPart> parts = meshes.parts(node, pose);
+        // A short file may place a mesh of many primitives by many nodes.
+        if (parts.size() > kMostObjects - scene_.objects.size())
+            fail(gltf_.path, fmt::format("{}: more than {} objects in the scene; join meshes", name, kMostObjects));
+        gltf_.memory.take(parts.size(), sizeof(Object) + sizeof(NodeObject) + name.size());
         const auto refracts = [&](const GltfPart& part) {
             return scene_.materials[std::size_t(part.material)].refractive();
         };
@@ -288,7 +294,8 @@ private:
 }  // namespace
 
 Scene load_gltf(const std::filesystem::path& file, const LoadOptions& options, Warnings& warnings) {
-    const GltfFile gltf = read_gltf_file(file, warnings);
+    GltfFile gltf(file, options.allow_outside);
+    read_gltf_file(gltf, warnings);
     Scene scene;
     const std::vector<TexcoordSets> sets = read_gltf_materials(gltf, scene, warnings);
     SceneReader(gltf, options, sets, scene, warnings).read();

@@ -2,6 +2,7 @@
 
 #include "core/fail.h"
 #include "core/file.h"
+#include "core/memory_budget.h"
 #include "scene/far_positions.h"
 #include "scene/glass_scene.h"
 #include "scene/mesh_files/file_meshes.h"
@@ -22,7 +23,20 @@
 namespace pellucid {
 namespace {
 
-PolygonFile read_polygons(const std::filesystem::path& file, const std::string& extension, Warnings& warnings) {
+// What a mesh needs while it is repaired, for each corner of a polygon: indices, normals, and maps of edges.
+constexpr std::uint64_t kBytesPerCorner = 200;
+
+std::uint64_t bytes_of(const PolygonFile& content) {
+    return content.positions.size() * sizeof(glm::dvec3) + content.normals.size() * sizeof(glm::vec3) +
+           content.texcoords.size() * sizeof(glm::vec2) + content.colors.size() * sizeof(glm::vec4) +
+           content.corners.size() * (sizeof(PolygonCorner) + kBytesPerCorner);
+}
+
+PolygonFile read_polygons(const std::filesystem::path& file, const std::string& extension, MemoryBudget& memory,
+                          Warnings& warnings) {
+    // Text of a few bytes becomes a corner of 12, or a position of 24.
+    constexpr std::uint64_t kMostGrowth = 6;
+    memory.take(check_readable(file), kMostGrowth);
     std::vector<std::byte> bytes = read_file(file);
     if (bytes.empty()) fail(file, "is empty");
     if (extension == ".obj") return read_obj(file, std::move(bytes), warnings);
@@ -42,7 +56,7 @@ std::string what_it_is(const PolygonFile& content) {
 /// Materials of the file. None where it is glass as a whole: it has none, or `options` asks for glass and none is.
 std::vector<MtlMaterial> chosen_materials(const std::filesystem::path& file, const PolygonFile& content,
                                           const LoadOptions& options, Warnings& warnings) {
-    std::vector<MtlMaterial> materials = read_obj_materials(file, content, warnings);
+    std::vector<MtlMaterial> materials = read_obj_materials(file, content, options.allow_outside, warnings);
     if (materials.empty() || std::any_of(materials.begin(), materials.end(), is_glass)) return materials;
     const std::string name = file.filename().string();
     if (!options.ior && !options.attenuation_color && !options.attenuation_distance) {
@@ -78,7 +92,9 @@ Scene whole_glass(const std::filesystem::path& file, const PolygonFile& content,
 
 Scene load_mesh_file(const std::filesystem::path& file, const LoadOptions& options, Warnings& warnings) {
     const std::string extension = lower_extension(file), name = file.stem().string();
-    const PolygonFile content = read_polygons(file, extension, warnings);
+    MemoryBudget memory(file);
+    const PolygonFile content = read_polygons(file, extension, memory, warnings);
+    memory.take(bytes_of(content));
     if (content.ends.empty()) fail(file, what_it_is(content));
     if (content.points + content.lines > 0)
         warnings.add(fmt::format("{}: {} points and {} lines left out", name, content.points, content.lines));
@@ -93,7 +109,7 @@ Scene load_mesh_file(const std::filesystem::path& file, const LoadOptions& optio
     // The normals of .stl files are those of the facets, or zero where a program left them out.
     const bool facets = extension == ".stl" && !options.remake_normals;
     Scene scene = materials.empty() ? whole_glass(file, content, origin, facets, options, warnings)
-                                    : obj_scene(file, content, materials, origin, options, warnings);
+                                    : obj_scene(file, content, materials, origin, options, memory, warnings);
     scene.origin = origin;
     return scene;
 }

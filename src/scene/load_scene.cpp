@@ -65,7 +65,7 @@ Scene load_by_kind(const std::string& source, const LoadOptions& options, Warnin
     const bool shape = source.starts_with(kShapePrefix), volume = names_volume(source) && !shape;
     const bool gltf = !shape && !volume && (extension == ".gltf" || extension == ".glb");
     if (!gltf && (options.animation || options.time_s)) fail(source, "has no animations");
-    if (volume) return volume_scene(open_volume(source, {}, options.grids));
+    if (volume) return volume_scene(open_volume(source, {.folder = {}, .allow_outside = true}, options.grids));
     if (!options.grids.empty()) fail(source, "has no grids; those of .vdb files are mapped to fields");
     if (shape)
         // A shape knows its normals exactly; made ones would only be worse.

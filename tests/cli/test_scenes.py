@@ -23,6 +23,36 @@ def gltf(**changes):
     return json.dumps({**GLTF, **changes})
 
 
+class FilesOutside(CliTest):
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("scene"))
+        self.write("b.bin", base64.b64decode(GLTF["buffers"][0]["uri"].split(",")[1]))
+        self.write("m.mtl", "newmtl m\nKd 1 0 0\n")
+
+    def refuse_unless_allowed(self, scene, name):
+        self.assert_refused(self.run_cli("info", scene), scene, name, "--allow-outside")
+        self.assertEqual(self.run_cli("info", scene, "--allow-outside").returncode, 0)
+
+    def test_a_buffer_is_refused_by_name(self):
+        for uri in ("../b.bin", "%2e%2e/b.bin", self.path("b.bin")):
+            self.write("scene/a.gltf", gltf(buffers=[{"byteLength": 36, "uri": uri}]))
+            self.refuse_unless_allowed("scene/a.gltf", "b.bin")
+
+    def test_a_material_library_is_refused_by_name(self):
+        self.write("scene/a.obj", "mtllib ../m.mtl\nusemtl m\n" + TETRAHEDRON)
+        result = self.run_cli("info", "scene/a.obj")
+        self.assert_refused(result, "m.mtl", "--allow-outside")
+        self.assertEqual(self.run_cli("info", "scene/a.obj", "--allow-outside").returncode, 0)
+
+
+class MemoryShare(CliTest):
+    def test_a_scene_beyond_it_is_refused(self):
+        self.write("a.obj", TETRAHEDRON * 1000)
+        environment = dict(os.environ, PELLUCID_MEMORY_SHARE="0.000001")
+        self.assert_refused(self.run_cli("info", "a.obj", env=environment), "a.obj", "PELLUCID_MEMORY_SHARE")
+
+
 class SceneFiles(CliTest):
     def test_made_files_render(self):
         for name, content in (("a.obj", TETRAHEDRON), ("a.gltf", gltf())):

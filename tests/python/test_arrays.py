@@ -10,6 +10,14 @@ TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]])
 
 
 class ScenesFromArrays(PythonTest):
+    def test_files_outside_the_scenes_folder_need_permission(self):
+        (self.folder / "scene").mkdir()
+        (self.folder / "m.mtl").write_text("newmtl m\nKd 1 0 0\n")
+        scene = self.folder / "scene" / "a.obj"
+        scene.write_text("mtllib ../m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")
+        self.refuses(["m.mtl", "outside"], lambda: pellucid.load_scene(str(scene)))
+        self.assertEqual(pellucid.load_scene(str(scene), allow_outside=True).materials[0].name, "m")
+
     def test_the_arrays_of_a_file_give_its_image(self):
         scene = pellucid.load_scene("shape:knot")
         expected = renderer_of(scene).render(32, 32).radiance

@@ -5,6 +5,8 @@
 #include "core/file.h"
 #include "scene/mesh_files/text_file.h"
 
+#include <pellucid/error.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +19,8 @@ namespace {
 
 class MtlReader {
 public:
-    MtlReader(const std::filesystem::path& file, Warnings& warnings) : file_(file), warnings_(warnings) {}
+    MtlReader(const std::filesystem::path& file, const FileScope& scope, Warnings& warnings)
+        : file_(file), scope_(scope), warnings_(warnings) {}
 
     std::vector<MtlMaterial> read(std::string_view text) {
         Lines lines(text);
@@ -154,10 +157,15 @@ private:
             left = options.rest();
         }
         texture.name = left;
-        texture.file = find_beside(file_.parent_path(), left);
+        try {
+            texture.file = find_beside(file_.parent_path(), left, scope_);
+        } catch (const Error&) {
+            texture.problem = kOutsideScope;
+        }
     }
 
     const std::filesystem::path& file_;
+    const FileScope& scope_;
     Warnings& warnings_;
     std::vector<MtlMaterial> materials_;
     std::size_t line_ = 0;
@@ -165,27 +173,31 @@ private:
 
 }  // namespace
 
-std::vector<MtlMaterial> read_mtl(const std::filesystem::path& file, Warnings& warnings) {
+std::vector<MtlMaterial> read_mtl(const std::filesystem::path& file, const FileScope& scope, Warnings& warnings) {
     std::vector<std::byte> bytes = read_file(file);
     make_utf8(bytes);
-    return MtlReader(file, warnings).read(as_text(bytes));
+    return MtlReader(file, scope, warnings).read(as_text(bytes));
 }
 
-std::filesystem::path find_beside(const std::filesystem::path& folder, std::string_view name) {
+std::filesystem::path find_beside(const std::filesystem::path& folder, std::string_view name, const FileScope& scope) {
     std::string clean(name);
     if (clean.size() > 1 && clean.front() == '"' && clean.back() == '"') clean = clean.substr(1, clean.size() - 2);
     std::replace(clean.begin(), clean.end(), '\\', '/');
     std::error_code error;
     const std::filesystem::path file = folder / clean;
     if (clean.empty()) return {};
-    if (std::filesystem::is_regular_file(file, error)) return file;
+    const bool exists = std::filesystem::is_regular_file(file, error);
+    if (exists && scope.contains(file)) return file;
     const std::string wanted = lower_case(file.filename().string());
     for (const std::filesystem::path& place : {file.parent_path(), folder}) {
+        if (!scope.contains(place)) continue;
         std::filesystem::directory_iterator entries(place.empty() ? "." : place, error);
         for (const auto& entry : entries)
-            if (lower_case(entry.path().filename().string()) == wanted && entry.is_regular_file(error))
+            if (lower_case(entry.path().filename().string()) == wanted && entry.is_regular_file(error) &&
+                scope.contains(entry.path()))
                 return entry.path();
     }
+    if (exists) scope.check(file);
     return {};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/file_scope.h"
 #include "scene/warnings.h"
 
 #include <glm/glm.hpp>
@@ -14,7 +15,8 @@ namespace pellucid {
 /// A texture of an MTL material. Texture coordinates are scaled, then moved, with v upwards.
 struct MtlTexture {
     std::string name;            ///< as the material file has it; empty: there is no texture
-    std::filesystem::path file;  ///< empty: there is no such file
+    std::filesystem::path file;  ///< empty: there is none, because of `problem`
+    std::string problem = "no such file";
     glm::vec2 scale{1.0f}, offset{0.0f};
     bool clamp = false;
     float bump = 1.0f;  ///< -bm; multiplies heights
@@ -33,10 +35,11 @@ struct MtlMaterial {
 
 /// Reads a material file. What is malformed is left out with a warning that names file and line.
 /// Throws Error if the file cannot be read.
-std::vector<MtlMaterial> read_mtl(const std::filesystem::path& file, Warnings& warnings);
+std::vector<MtlMaterial> read_mtl(const std::filesystem::path& file, const FileScope& scope, Warnings& warnings);
 
 /// The file of that name as another one in `folder` writes it: with slashes or backslashes, in quotes, in other letter
 /// case, or with a path from another computer, of which then the name counts. Empty if there is no such regular file.
-std::filesystem::path find_beside(const std::filesystem::path& folder, std::string_view name);
+/// Throws Error if there is one that `scope` does not allow.
+std::filesystem::path find_beside(const std::filesystem::path& folder, std::string_view name, const FileScope& scope);
 
 }  // namespace pellucid

@@ -23,13 +23,13 @@ float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 /// Reads the textures of one material.
 class Textures {
 public:
-    Textures(const std::string& user, Scene& scene, Warnings& warnings)
-        : user_(user), scene_(scene), warnings_(warnings) {}
+    Textures(const std::string& user, Scene& scene, MemoryBudget& memory, Warnings& warnings)
+        : user_(user), scene_(scene), memory_(memory), warnings_(warnings) {}
 
     /// Without an image where it cannot be read.
     Texture read(const MtlTexture& from) {
         if (!there(from)) return {};
-        return placed(from, index_of(from.file.string(), [&] { return read_image(from.file); }));
+        return placed(from, index_of(from.file.string(), [&] { return read_scene_image(from.file, memory_); }));
     }
 
     /// Colour of the one texture, if it can be read, with the alpha of the other: its alpha channel, or else the mean
@@ -39,7 +39,7 @@ public:
         there(color);
         const std::string name = fmt::format("{} with alpha of {}", color.file.string(), cover.file.string());
         const int index = index_of(name, [&] {
-            const auto [colors, alpha] = read_both(color, cover);
+            const auto [colors, alpha] = read_both(color, cover, 4);
             return with_alpha(colors, alpha);
         });
         return index < 0 ? read(color) : placed(color.file.empty() ? cover : color, index);
@@ -60,7 +60,7 @@ public:
         const std::string name =
             fmt::format("roughness of {}, metal of {}", roughness.file.string(), metal.file.string());
         return placed(rough ? roughness : metal, index_of(name, [&] {
-                          const auto [a, b] = read_both(roughness, metal);
+                          const auto [a, b] = read_both(roughness, metal, 3);
                           return roughness_and_metal(a, b);
                       }));
     }
@@ -68,7 +68,7 @@ public:
 private:
     bool there(const MtlTexture& texture) {
         if (!texture.name.empty() && texture.file.empty())
-            warnings_.add(fmt::format("material {}: texture left out: {}: no such file", user_, texture.name));
+            warnings_.add(fmt::format("material {}: texture left out: {}: {}", user_, texture.name, texture.problem));
         return !texture.file.empty();
     }
 
@@ -79,6 +79,7 @@ private:
         try {
             scene_.images.push_back(make());
         } catch (const std::exception& error) {
+            memory_.check();
             warnings_.add(fmt::format("material {}: texture left out: {}", user_, error.what()));
             return -1;
         }
@@ -86,14 +87,15 @@ private:
         return int(scene_.images.size()) - 1;
     }
 
-    /// Two images that become one; without a file, an empty image.
-    static std::pair<Image, Image> read_both(const MtlTexture& one, const MtlTexture& other) {
-        const Image a = one.file.empty() ? Image() : read_image(one.file);
-        const Image b = other.file.empty() ? Image() : read_image(other.file);
+    /// Two images that become one with so many channels; without a file, an empty image.
+    std::pair<Image, Image> read_both(const MtlTexture& one, const MtlTexture& other, std::uint64_t channels) {
+        const Image a = one.file.empty() ? Image() : read_scene_image(one.file, memory_);
+        const Image b = other.file.empty() ? Image() : read_scene_image(other.file, memory_);
         const int width = std::max(a.width, b.width), height = std::max(a.height, b.height);
         if (std::int64_t(width) * height > kMaxPixels)
             fail(other.file, fmt::format("its {} x {} pixels and the {} x {} of {} make more than 2^28", b.width,
                                          b.height, a.width, a.height, one.file.string()));
+        memory_.take(std::uint64_t(width) * std::uint64_t(height), channels * sizeof(float));
         return {a, b};
     }
 
@@ -109,6 +111,7 @@ private:
 
     const std::string& user_;
     Scene& scene_;
+    MemoryBudget& memory_;
     Warnings& warnings_;
 };
 
@@ -164,10 +167,10 @@ bool is_glass(const MtlMaterial& from) {
     return filter && (from.Pr || from.Pm);
 }
 
-Material material_from_mtl(const MtlMaterial& from, Scene& scene, Warnings& warnings) {
+Material material_from_mtl(const MtlMaterial& from, Scene& scene, MemoryBudget& memory, Warnings& warnings) {
     Material material;
     material.name = from.name;
-    Textures textures(material.name, scene, warnings);
+    Textures textures(material.name, scene, memory, warnings);
     const auto warn = [&](const std::string& what) { warnings.add(fmt::format("material {}: {}", from.name, what)); };
     const float d = std::clamp(from.d.value_or(1.0f), 0.0f, 1.0f);
     if (is_glass(from)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/memory_budget.h"
 #include "scene/mesh_files/mtl_file.h"
 
 #include <pellucid/scene.h>
@@ -12,6 +13,6 @@ namespace pellucid {
 bool is_glass(const MtlMaterial& from);
 
 /// The material as the renderer has it. Its textures are read into `scene`; what is not drawn is added to `warnings`.
-Material material_from_mtl(const MtlMaterial& from, Scene& scene, Warnings& warnings);
+Material material_from_mtl(const MtlMaterial& from, Scene& scene, MemoryBudget& memory, Warnings& warnings);
 
 }  // namespace pellucid

@@ -17,9 +17,9 @@ namespace pellucid {
 namespace {
 
 /// Adds the files that an mtllib statement names: one whose name may have blanks, or else several.
-void find_libraries(const std::filesystem::path& folder, const std::string& names,
-                    std::vector<std::filesystem::path>& found, std::vector<std::string>& missing) {
-    if (std::filesystem::path whole = find_beside(folder, names); !whole.empty()) {
+void find_libraries(const FileScope& scope, const std::string& names, std::vector<std::filesystem::path>& found,
+                    std::vector<std::string>& missing) {
+    if (std::filesystem::path whole = find_beside(scope.folder, names, scope); !whole.empty()) {
         found.push_back(std::move(whole));
         return;
     }
@@ -27,7 +27,7 @@ void find_libraries(const std::filesystem::path& folder, const std::string& name
     const std::size_t before = found.size();
     Words words(names);
     for (std::string_view name = words.next(); !name.empty(); name = words.next()) {
-        if (std::filesystem::path one = find_beside(folder, name); !one.empty()) {
+        if (std::filesystem::path one = find_beside(scope.folder, name, scope); !one.empty()) {
             found.push_back(std::move(one));
         } else {
             absent.emplace_back(name);
@@ -63,15 +63,16 @@ void make_sheets_thin(Scene& scene, Warnings& warnings) {
 }  // namespace
 
 std::vector<MtlMaterial> read_obj_materials(const std::filesystem::path& file, const PolygonFile& content,
-                                            Warnings& warnings) {
+                                            bool allow_outside, Warnings& warnings) {
+    const FileScope scope{.folder = file.parent_path(), .allow_outside = allow_outside};
     std::vector<std::string> libraries = content.libraries, missing_files;
     std::sort(libraries.begin(), libraries.end());
     libraries.erase(std::unique(libraries.begin(), libraries.end()), libraries.end());
     std::vector<std::filesystem::path> files;
-    for (const std::string& names : libraries) find_libraries(file.parent_path(), names, files, missing_files);
+    for (const std::string& names : libraries) find_libraries(scope, names, files, missing_files);
     std::vector<MtlMaterial> known;
     for (const std::filesystem::path& library : files)
-        for (MtlMaterial& material : read_mtl(library, warnings)) known.push_back(std::move(material));
+        for (MtlMaterial& material : read_mtl(library, scope, warnings)) known.push_back(std::move(material));
 
     std::vector<MtlMaterial> result;
     std::vector<std::string> missing;
@@ -100,7 +101,7 @@ std::vector<MtlMaterial> read_obj_materials(const std::filesystem::path& file, c
 
 Scene obj_scene(const std::filesystem::path& file, const PolygonFile& content,
                 const std::vector<MtlMaterial>& materials, const glm::dvec3& origin, const LoadOptions& options,
-                Warnings& warnings) {
+                MemoryBudget& memory, Warnings& warnings) {
     Scene scene;
     std::vector<std::vector<std::uint32_t>> polygons(materials.size());  // the last without a material
     for (std::uint32_t f = 0; f < content.materials.size(); ++f)
@@ -109,7 +110,7 @@ Scene obj_scene(const std::filesystem::path& file, const PolygonFile& content,
         warnings.add(fmt::format("{}: faces without a material, drawn matt grey", file.filename().string()));
     for (std::size_t m = 0; m < materials.size(); ++m) {
         if (polygons[m].empty()) continue;
-        Material material = material_from_mtl(materials[m], scene, warnings);
+        Material material = material_from_mtl(materials[m], scene, memory, warnings);
         PartChoice part;
         part.polygons = std::move(polygons[m]);
         part.origin = origin;

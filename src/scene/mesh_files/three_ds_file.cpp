@@ -1,5 +1,9 @@
 // 3DS (Autodesk 3D Studio), by assimp.
+#include "core/byte_stream.h"
 #include "core/fail.h"
+#include "core/memory_budget.h"
+#include "core/read_apart.h"
+#include "scene/apart_readers.h"
 #include "scene/mesh_files/read_mesh_files.h"
 
 #include <assimp/postprocess.h>
@@ -84,16 +88,13 @@ void append_part(const std::filesystem::path& file, const aiMesh& part, const gl
     }
 }
 
-}  // namespace
-
-PolygonFile read_3ds(const std::filesystem::path& file, const std::vector<std::byte>& bytes, Warnings& warnings) {
-    check_first_chunk(file, bytes);
+PolygonFile polygons_of(const std::filesystem::path& file, const std::vector<std::byte>& bytes,
+                        std::size_t& materials_left_out) {
     Assimp::Importer importer;
     importer.SetIOHandler(new NoFiles);  // the importer owns it
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "3ds");
     if (!scene) fail(file, cause_of(importer));
     PolygonFile content;
-    content.single_precision = true;
     std::vector<std::pair<const aiNode*, glm::dmat4>> open = {{scene->mRootNode, glm::dmat4(1.0)}};
     while (!open.empty()) {
         const auto [node, world_from_parent] = open.back();
@@ -106,9 +107,57 @@ PolygonFile read_3ds(const std::filesystem::path& file, const std::vector<std::b
     }
     std::set<unsigned> materials;
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) materials.insert(scene->mMeshes[i]->mMaterialIndex);
-    if (materials.size() > 1)
+    if (materials.size() > 1) materials_left_out = materials.size();
+    return content;
+}
+
+void check_references(const std::filesystem::path& file, const PolygonFile& content) {
+    const auto fits = [](std::uint32_t index, std::size_t count) { return index == kNoIndex || index < count; };
+    for (const PolygonCorner& corner : content.corners)
+        if (corner.position >= content.positions.size() || !fits(corner.normal, content.normals.size()))
+            fail(file, "refers to a vertex that does not exist");
+    std::uint32_t last = 0;
+    for (const std::uint32_t end : content.ends)
+        if (end < std::exchange(last, end) + 3 || end > content.corners.size()) fail(file, "has a damaged polygon");
+}
+
+}  // namespace
+
+std::vector<std::byte> read_3ds_here(std::span<const std::byte> request) {
+    ByteReader reader(request);
+    const std::string file = reader.text();
+    std::size_t materials_left_out = 0;
+    const PolygonFile content = polygons_of(file, reader.values<std::byte>(), materials_left_out);
+    ByteWriter result;
+    result.values(content.positions);
+    result.values(content.normals);
+    result.values(content.corners);
+    result.values(content.ends);
+    for (const std::uint64_t count : {content.points, content.lines, std::uint64_t(materials_left_out)})
+        result.value(count);
+    return result.take();
+}
+
+PolygonFile read_3ds(const std::filesystem::path& file, const std::vector<std::byte>& bytes, Warnings& warnings) {
+    check_first_chunk(file, bytes);
+    ByteWriter request;
+    request.text(file.string());
+    request.values(bytes);
+    const std::vector<std::byte> result =
+        read_apart(ApartKind::k3ds, read_3ds_here, request.take(), scene_memory(), file);
+    ByteReader reader(result);
+    PolygonFile content;
+    content.single_precision = true;
+    content.positions = reader.values<glm::dvec3>();
+    content.normals = reader.values<glm::vec3>();
+    content.corners = reader.values<PolygonCorner>();
+    content.ends = reader.values<std::uint32_t>();
+    content.points = reader.value<std::uint64_t>();
+    content.lines = reader.value<std::uint64_t>();
+    if (const auto materials = reader.value<std::uint64_t>(); materials > 0)
         warnings.add(fmt::format("{}: its {} materials are not used: the whole file is glass", file.filename().string(),
-                                 materials.size()));
+                                 materials));
+    check_references(file, content);
     return content;
 }
 

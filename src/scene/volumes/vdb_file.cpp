@@ -1,8 +1,12 @@
 // Volumes in OpenVDB files (Museth, VDB: High-resolution sparse volumes with dynamic topology, 2013). This is the only
 // file that includes OpenVDB's headers.
+#include "core/byte_stream.h"
 #include "core/fail.h"
 #include "core/file.h"
+#include "core/memory_budget.h"
+#include "core/read_apart.h"
 #include "optics/index_fields.h"
+#include "scene/apart_readers.h"
 
 #include <pellucid/error.h>
 #include <pellucid/volume.h>
@@ -251,6 +255,21 @@ Volume read_volume(const fs::path& file, std::span<const GridMapping> mapping) {
     return volume;
 }
 
+/// As read_volume(), and for another process. Throws Error for all that is wrong with the file.
+Volume volume_of(const fs::path& file, std::span<const GridMapping> mapping) {
+    try {
+        return read_volume(file, mapping);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::ios_base::failure&) {
+        fail(file, "is no OpenVDB file, or ends too soon");
+    } catch (const std::exception& error) {
+        fail(file, fmt::format("is no OpenVDB file that can be read ({})", one_line(error.what())));
+    }
+}
+
 template <class Grid, class Value>
 void add_grid(vdb::GridPtrVec& grids, const Volume& volume, const char* name, float background, const Value& value) {
     using T = typename Grid::ValueType;
@@ -297,17 +316,48 @@ vdb::GridPtrVec grids_of(const Volume& volume, bool double_precision) {
 
 }  // namespace
 
+std::vector<std::byte> read_vdb_here(std::span<const std::byte> request) {
+    ByteReader reader(request);
+    const fs::path file = reader.text();
+    std::vector<GridMapping> mapping(reader.value<std::uint64_t>());
+    for (GridMapping& each : mapping) {
+        each.grid = reader.text();
+        each.field = reader.text();
+        each.scale = reader.value<float>();
+    }
+    const Volume volume = volume_of(file, mapping);
+    ByteWriter result;
+    result.value(volume.size);
+    result.value(volume.voxel);
+    result.value(volume.low);
+    for (const FieldAccess& field : kFields) {
+        if (field.number) result.values(volume.*field.number);
+        if (field.color) result.values(volume.*field.color);
+    }
+    return result.take();
+}
+
 Volume load_volume(const fs::path& file, std::span<const GridMapping> mapping) {
     check_readable(file);
+    ByteWriter request;
+    request.text(file.string());
+    request.value(std::uint64_t(mapping.size()));
+    for (const GridMapping& each : mapping) {
+        request.text(each.grid);
+        request.text(each.field);
+        request.value(each.scale);
+    }
+    const std::vector<std::byte> result =
+        read_apart(ApartKind::kVdb, read_vdb_here, request.take(), scene_memory(), file);
     Volume volume;
-    try {
-        volume = read_volume(file, mapping);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::ios_base::failure&) {
-        fail(file, "is no OpenVDB file, or ends too soon");
-    } catch (const std::exception& error) {
-        fail(file, fmt::format("is no OpenVDB file that can be read ({})", one_line(error.what())));
+    volume.name = file.stem().string();
+    ByteReader reader(result);
+    volume.size = reader.value<glm::uvec3>();
+    volume.voxel = reader.value<float>();
+    volume.low = reader.value<glm::vec3>();
+    for (const FieldAccess& field : kFields) {
+        if (field.number) volume.*field.number = reader.values<float>();
+        if (field.color) volume.*field.color = reader.values<glm::vec3>();
     }
     try {
         check_volume(volume);
