@@ -1,11 +1,8 @@
-#include "commands.h"
-#include "lab/commands.h"
+#include "cli/command_line.h"
+#include "cli/commands.h"
 #include "options/arguments.h"
-#include "options/help.h"
 
 #include <pellucid/error.h>
-#include <pellucid/names.h>
-#include <pellucid/pellucid.h>
 
 #include <fmt/format.h>
 
@@ -28,26 +25,6 @@ int complain(const std::string& message, int exit_code) {
     return exit_code;
 }
 
-/// The parser would only say that a command is missing.
-void check_command(const CLI::App& app, const std::string& command) {
-    std::vector<std::string> names;
-    for (const CLI::App* subcommand : pellucid::cli::commands_of(app)) {
-        if (subcommand->get_name() == command) return;
-        names.push_back(subcommand->get_name());
-    }
-    throw pellucid::unknown_name("command", command, std::vector<std::string_view>(names.begin(), names.end()));
-}
-
-/// An error of the parser in one line, with the option that may have been meant, and where to read on.
-std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-    const std::vector<const CLI::App*> parsed =
-        app.get_subcommands([&](const CLI::App* command) { return argc > 1 && command->get_name() == argv[1]; });
-    const CLI::App& command = parsed.empty() ? app : *parsed.front();
-    const std::string unknown = pellucid::cli::unknown_option(command, argc, argv);
-    return fmt::format("{} (see 'pellucid{} --help')", unknown.empty() ? error.what() : unknown,
-                       parsed.empty() ? "" : " " + command.get_name());
-}
-
 /// The command as it can be typed again.
 std::string command_line(int argc, char** argv) {
     std::string line = "pellucid";
@@ -63,33 +40,14 @@ int main(int argc, char** argv) {
         "of a sequence are missing, "
         "1 a bug.",
         "pellucid"};
-    app.set_version_flag("--version", std::string(pellucid::version()));
-    app.require_subcommand(1);
-    pellucid::cli::use_short_help(app);
-    pellucid::cli::set_examples(app, {"pellucid render shape:goblet -o goblet.png", "pellucid techniques",
-                                      "pellucid help lights    # 'pellucid help' lists the topics"});
-    pellucid::cli::add_render_command(app);
-    pellucid::cli::add_sequence_command(app);
-    pellucid::cli::add_compare_command(app, command_line(argc, argv));
-    pellucid::cli::add_bench_command(app);
-    pellucid::cli::add_experiment_command(app);
-    pellucid::cli::add_difference_command(app);
-    pellucid::cli::add_dataset_command(app);
-    pellucid::cli::add_thickness_command(app);
-    pellucid::cli::add_volume_command(app);
-    pellucid::cli::add_export_command(app);
-    pellucid::cli::add_info_command(app);
-    pellucid::cli::add_techniques_command(app);
-    pellucid::cli::add_help_command(app);
+    pellucid::cli::add_commands(app, command_line(argc, argv));
     try {
-        if (argc == 1) throw pellucid::Error("no command given (see 'pellucid --help')");
-        if (argv[1][0] != '-') check_command(app, argv[1]);
-        app.parse(argc, argv);
+        pellucid::cli::parse_arguments(app, argc, argv);
         return kDone;
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
-        return complain(usage_error(app, error, argc, argv), kBadInput);
+        return complain(pellucid::cli::usage_error(app, error, argc, argv), kBadInput);
     } catch (const pellucid::Error& error) {
         return complain(error.what(), kBadInput);
     } catch (const pellucid::DeviceError& error) {
