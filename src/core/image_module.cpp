@@ -35,4 +35,11 @@ const ImageModule& image_module() {
     return module;
 }
 
+void load_image_module() {
+    try {
+        image_module();
+    } catch (const Error&) {
+    }
+}
+
 }  // namespace pellucid

@@ -32,6 +32,9 @@ struct ImageModule {
 /// Name by which the module exports its `extern "C" const ImageModule`.
 inline constexpr const char* kImageModuleSymbol = "pellucid_image_module";
 
+/// Loads the module. Its absence shows with the first image.
+void load_image_module();
+
 /// The reader of images, for read_apart().
 std::vector<std::byte> read_image_here(std::span<const std::byte> request);
 

@@ -23,8 +23,8 @@ struct DescriptorMessage {
     }
 
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
-    char byte = 0;
-    iovec part{.iov_base = &byte, .iov_len = 1};
+    std::uint8_t number = 0;
+    iovec part{.iov_base = &number, .iov_len = 1};
     msghdr header{};
 };
 
@@ -65,8 +65,9 @@ bool read_all(int socket, void* data, std::size_t size) {
     return true;
 }
 
-bool send_descriptor(int socket, int descriptor) {
+bool send_descriptor(int socket, int descriptor, std::uint8_t number) {
     DescriptorMessage message;
+    message.number = number;
     cmsghdr* const part = CMSG_FIRSTHDR(&message.header);
     part->cmsg_level = SOL_SOCKET;
     part->cmsg_type = SCM_RIGHTS;
@@ -78,13 +79,14 @@ bool send_descriptor(int socket, int descriptor) {
     return count == 1;
 }
 
-Descriptor receive_descriptor(int socket) {
+Descriptor receive_descriptor(int socket, std::uint8_t& number) {
     DescriptorMessage message;
     ssize_t count = 0;
     do count = recvmsg(socket, &message.header, MSG_CMSG_CLOEXEC);
     while (count < 0 && errno == EINTR);
     const cmsghdr* const part = count == 1 ? CMSG_FIRSTHDR(&message.header) : nullptr;
     if (!part || part->cmsg_type != SCM_RIGHTS) return Descriptor();
+    number = message.number;
     int descriptor = -1;
     std::memcpy(&descriptor, CMSG_DATA(part), sizeof descriptor);
     return Descriptor(descriptor);

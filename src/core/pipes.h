@@ -26,7 +26,6 @@ enum class ApartResult : std::uint32_t { kDone, kRefused, kOutOfMemory };
 
 /// What a request and a reply begin with. The name of the current folder and `size` bytes follow.
 struct ApartHead {
-    std::uint32_t kind;
     std::uint64_t most_bytes, folder_size, size;
 };
 struct ApartReply {
@@ -41,9 +40,9 @@ std::pair<Descriptor, Descriptor> socket_pair(int type);
 /// All `size` bytes; false if the other side has gone.
 bool write_all(int socket, const void* data, std::size_t size);
 bool read_all(int socket, void* data, std::size_t size);
-/// False if the other side has gone.
-bool send_descriptor(int socket, int descriptor);
+/// A descriptor with a number. False if the other side has gone.
+bool send_descriptor(int socket, int descriptor, std::uint8_t number);
 /// Of get() -1 if the other side has gone.
-Descriptor receive_descriptor(int socket);
+Descriptor receive_descriptor(int socket, std::uint8_t& number);
 
 }  // namespace pellucid

@@ -51,13 +51,13 @@ fs::path own_folder() {
 }
 
 /// A socket to a new process of the program.
-Descriptor ReaderProgram::connect() {
+Descriptor ReaderProgram::connect(ApartKind kind) {
     auto [ours, theirs] = socket_pair(SOCK_STREAM);
     const std::lock_guard lock(mutex_);
     // A program that has ended is started again, once.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (control_.get() < 0 || attempt > 0) control_ = start();
-        if (send_descriptor(control_.get(), theirs.get())) return std::move(ours);
+        if (send_descriptor(control_.get(), theirs.get(), std::uint8_t(kind))) return std::move(ours);
     }
     fail(program_, "does not run; without it no image, 3DS or VDB file is read");
 }
@@ -82,11 +82,10 @@ Descriptor ReaderProgram::start() const {
 
 std::vector<std::byte> ReaderProgram::read(ApartKind kind, std::span<const std::byte> request, std::uint64_t most_bytes,
                                            const fs::path& file) {
-    const Descriptor socket = connect();
+    const Descriptor socket = connect(kind);
     std::error_code error;
     const std::string folder = fs::current_path(error).string();  // the file's name may be relative to it
-    const ApartHead head{
-        .kind = std::uint32_t(kind), .most_bytes = most_bytes, .folder_size = folder.size(), .size = request.size()};
+    const ApartHead head{.most_bytes = most_bytes, .folder_size = folder.size(), .size = request.size()};
     ApartReply reply{};
     const bool answered =
         write_all(socket.get(), &head, sizeof head) && write_all(socket.get(), folder.data(), folder.size()) &&

@@ -13,7 +13,7 @@
 namespace pellucid {
 
 /// What is read by libraries that were not written for hostile files.
-enum class ApartKind : std::uint32_t { kImage, k3ds, kVdb };
+enum class ApartKind : std::uint8_t { kImage, k3ds, kVdb };
 
 /// Reads one file: bytes of a request in, bytes of the result out. Throws an exception for a file that is refused.
 using ApartReader = std::vector<std::byte> (*)(std::span<const std::byte> request);
@@ -30,7 +30,7 @@ public:
                                 const std::filesystem::path& file);
 
 private:
-    Descriptor connect();
+    Descriptor connect(ApartKind kind);
     Descriptor start() const;
 
     std::filesystem::path program_;
@@ -43,8 +43,14 @@ private:
 std::vector<std::byte> read_apart(ApartKind kind, ApartReader reader, std::span<const std::byte> request,
                                   std::uint64_t most_bytes, const std::filesystem::path& file);
 
+/// A reader as such a program has it.
+struct ServedReader {
+    ApartReader read;
+    void (*prepare)() = nullptr;  ///< once, before the first file: loads what all files need, and starts no thread
+};
+
 /// The main function of such a program. `readers`: by their kind.
-void serve_readers(std::span<const ApartReader> readers);
+[[noreturn]] void serve_readers(std::span<const ServedReader> readers);
 
 /// Folder of the library or program that holds this code.
 std::filesystem::path own_folder();

@@ -14,6 +14,8 @@
 #include <new>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace pellucid {
 namespace {
@@ -49,9 +51,9 @@ void answer(int socket, ApartResult result, const void* data, std::size_t size) 
     if (write_all(socket, &reply, sizeof reply)) write_all(socket, data, size);
 }
 
-void read_one(std::span<const ApartReader> readers, int socket) {
+void read_one(ApartReader reader, int socket) {
     ApartHead head{};
-    if (!read_all(socket, &head, sizeof head) || head.kind >= readers.size()) return;
+    if (!read_all(socket, &head, sizeof head)) return;
     try {
         std::string folder(head.folder_size, '\0');
         std::vector<std::byte> request(head.size);
@@ -59,7 +61,7 @@ void read_one(std::span<const ApartReader> readers, int socket) {
             return;
         if (!folder.empty() && chdir(folder.c_str()) != 0) return;
         limit_resources(head.most_bytes);
-        const std::vector<std::byte> result = readers[head.kind](request);
+        const std::vector<std::byte> result = reader(request);
         answer(socket, ApartResult::kDone, result.data(), result.size());
     } catch (const std::bad_alloc&) {
         answer(socket, ApartResult::kOutOfMemory, nullptr, 0);
@@ -80,16 +82,20 @@ void detach() {
 
 }  // namespace
 
-void serve_readers(std::span<const ApartReader> readers) {
+void serve_readers(std::span<const ServedReader> readers) {
     detach();
     std::signal(SIGCHLD, SIG_IGN);  // nobody waits for the processes
+    std::vector<char> prepared(readers.size(), 0);
     for (;;) {
-        const Descriptor socket = receive_descriptor(kReaderSocket);
-        if (socket.get() < 0) return;
-        const pid_t child = fork();
-        if (child != 0) continue;
+        std::uint8_t kind = 0;
+        const Descriptor socket = receive_descriptor(kReaderSocket, kind);
+        // Destructors of libraries would wait for threads that fork() has left behind.
+        if (socket.get() < 0 || kind >= readers.size()) _exit(0);
+        const ServedReader& reader = readers[kind];
+        if (reader.prepare && !std::exchange(prepared[kind], 1)) reader.prepare();
+        if (fork() != 0) continue;
         close(kReaderSocket);
-        read_one(readers, socket.get());
+        read_one(reader.read, socket.get());
         _exit(0);
     }
 }

@@ -23,6 +23,11 @@ std::vector<std::byte> fail_as_asked(std::span<const std::byte> request) {
     if (how == "throw") throw Error("a.png: is bad");
     if (how == "memory") return std::vector<std::byte>(std::size_t(1) << 40);
     if (how == "large") return std::vector<std::byte>(std::size_t(1) << 24);
+    if (how == "pid") {
+        const pid_t program = getppid();
+        const auto bytes = std::as_bytes(std::span(&program, 1));
+        return {bytes.begin(), bytes.end()};
+    }
     if (how == "kill") {
         const pid_t program = getppid();
         kill(program, SIGKILL);
@@ -35,4 +40,4 @@ std::vector<std::byte> fail_as_asked(std::span<const std::byte> request) {
 }  // namespace
 }  // namespace pellucid
 
-int main() { pellucid::serve_readers(std::array<pellucid::ApartReader, 1>{pellucid::fail_as_asked}); }
+int main() { pellucid::serve_readers(std::array{pellucid::ServedReader{pellucid::fail_as_asked}}); }

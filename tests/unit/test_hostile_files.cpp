@@ -9,6 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sched.h>
+#include <signal.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -301,6 +304,20 @@ TEST(ReadApart, AProgramThatEndedIsStartedAgain) {
     EXPECT_EQ(failure_of("echo"), "echo");
     EXPECT_TRUE(has(failure_of("kill"), "crashed"));
     EXPECT_EQ(failure_of("echo"), "echo");
+}
+
+TEST(ReadApart, TheProgramEndsWithItsUser) {
+    const std::string file = fs::read_symlink("/proc/self/exe").parent_path() / "failing_reader";
+    pid_t pid = 0;
+    {
+        ReaderProgram program(file);
+        const std::vector<std::byte> answer =
+            program.read(ApartKind::kImage, std::as_bytes(std::span(std::string_view("pid"))), 1 << 20, "a.png");
+        std::memcpy(&pid, answer.data(), sizeof pid);
+        EXPECT_EQ(kill(pid, 0), 0);
+    }
+    for (int i = 0; i < 10'000'000 && kill(pid, 0) == 0; ++i) sched_yield();
+    EXPECT_NE(kill(pid, 0), 0) << "is still there";
 }
 
 TEST(ReadApart, AMissingProgramIsAnError) {

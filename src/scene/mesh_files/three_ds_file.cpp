@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <set>
 #include <string>
 #include <utility>
@@ -93,6 +94,7 @@ PolygonFile polygons_of(const std::filesystem::path& file, const std::vector<std
     Assimp::Importer importer;
     importer.SetIOHandler(new NoFiles);  // the importer owns it
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "3ds");
+    if (!scene && importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();
     if (!scene) fail(file, cause_of(importer));
     PolygonFile content;
     std::vector<std::pair<const aiNode*, glm::dmat4>> open = {{scene->mRootNode, glm::dmat4(1.0)}};

@@ -7,6 +7,7 @@
 
 int main() {
     using namespace pellucid;
-    constexpr std::array<ApartReader, 3> kReaders = {read_image_here, read_3ds_here, read_vdb_here};
-    serve_readers(kReaders);
+    const std::array<ServedReader, 3> readers = {ServedReader{read_image_here, load_image_module},
+                                                 ServedReader{read_3ds_here}, ServedReader{read_vdb_here}};
+    serve_readers(readers);
 }
