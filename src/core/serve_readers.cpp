@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint64_t kThreadBytes = std::uint64_t(160) << 20;  // addresses for stack and heap of a thread
 constexpr rlim_t kMostSeconds = 600;                              // of processor time, for one file
-constexpr std::uint64_t kWorkBytes = std::uint64_t(1) << 30;      // of a library, beside the result
+constexpr std::uint64_t kWorkBytes = std::uint64_t(1) << 28;      // of a library, beside the result
 
 void set_limit(int resource, rlim_t value) {
     rlimit limit{};

@@ -31,7 +31,7 @@ CLI::App& commands() {
     static CLI::App app;
     if (!app.get_subcommands({}).empty()) return app;
     cli::add_commands(app, "");
-    for (CLI::App* command : app.get_subcommands({})) command->callback(nullptr);
+    app.parse_complete_callback([] { throw CLI::Success(); });  // before any command runs
     return app;
 }
 
