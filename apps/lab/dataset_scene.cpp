@@ -121,7 +121,8 @@ glm::dmat3 DatasetRandom::rotation() {
 }
 
 DatasetScenes::DatasetScenes(const Recipe& recipe, bool allow_outside) : recipe_(recipe) {
-    for (const std::string& source : recipe.sources) sources_.try_emplace(source, load_source(recipe, source, allow_outside));
+    for (const std::string& source : recipe.sources)
+        sources_.try_emplace(source, load_source(recipe, source, allow_outside));
     for (const std::string& name : recipe.backgrounds)
         if (!is_pattern(name)) backgrounds_.try_emplace(name, read_background(located(recipe, name)));
     for (const std::string& name : recipe.environments) {
