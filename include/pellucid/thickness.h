@@ -21,6 +21,10 @@ enum class ThicknessMethod {
     kDepthPeeling,          ///< layers from the light, one geometry pass each
     kDualDepthPeeling,      ///< layers from the light, two per geometry pass
     kLayers,                ///< layers from the light, all in one geometry pass (default)
+    // Published forms, for comparison.
+    kPublishedShadowMap,       ///< depth of the point minus the depth that the nearest texel stores
+    kPublishedLocalThickness,  ///< share of the samples around a vertex that lie inside
+    kPublishedDepthPeeling,    ///< depths that the nearest texel stores, compared with the point's depth
 };
 
 struct ThicknessMethodInfo {

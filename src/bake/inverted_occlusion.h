@@ -18,4 +18,10 @@ namespace pellucid::bake {
 std::vector<float> inverted_occlusion(const Mesh& mesh, std::uint32_t rays, std::uint32_t threads = 0,
                                       const Progress& progress = {});
 
+/// The published form: the share of the samples in a half ball about the inverted normal that lie inside the solid,
+/// weighted as above. The radius of the ball is half the diagonal of the mesh's box. The result is the share times this
+/// radius, because the text gives no unit.
+std::vector<float> inside_share(const Mesh& mesh, std::uint32_t rays, std::uint32_t threads = 0,
+                                const Progress& progress = {});
+
 }  // namespace pellucid::bake

@@ -57,8 +57,8 @@ Buffer uploaded(const Device& device, const char* name, const std::vector<T>& da
 
 }  // namespace
 
-LocalThickness bake_local_thickness(const Device& device, const Scene& scene, bake::BakeCache& cache,
-                                    std::uint32_t threads, const Progress& progress,
+LocalThickness bake_local_thickness(const Device& device, const Scene& scene, ThicknessMethod method,
+                                    bake::BakeCache& cache, std::uint32_t threads, const Progress& progress,
                                     std::vector<std::string>& warnings) {
     std::vector<std::uint32_t> first_vertex;  // per mesh
     std::uint32_t vertices = 0;
@@ -70,6 +70,8 @@ LocalThickness bake_local_thickness(const Device& device, const Scene& scene, ba
     std::vector<LocalObject> objects(scene.objects.size(), LocalObject{});
     std::map<int, std::size_t> in_own_frame;  // mesh index -> index of its first value
     const std::uint32_t parameters[] = {kRays};
+    const bool published = method == ThicknessMethod::kPublishedLocalThickness;
+    const auto values_of = published ? bake::inside_share : bake::inverted_occlusion;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         if (!scene.materials[std::size_t(object.material)].translucent()) continue;
@@ -86,8 +88,8 @@ LocalThickness bake_local_thickness(const Device& device, const Scene& scene, ba
                 if (progress) progress((double(i) + done) / double(scene.objects.size()));
             };
             const auto found = cache.get(
-                baked, {"inverted-occlusion", baked.positions.size(), parameters},
-                [&] { return bake::inverted_occlusion(baked, kRays, threads, share); }, warnings);
+                baked, {published ? "inside-share" : "inverted-occlusion", baked.positions.size(), parameters},
+                [&] { return values_of(baked, kRays, threads, share); }, warnings);
             values.insert(values.end(), found->begin(), found->end());
             if (scale > 0.0f) in_own_frame[object.mesh] = first;
         }

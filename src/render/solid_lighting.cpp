@@ -40,6 +40,9 @@ LayerBuilder SolidLighting::builder_for(ThicknessMethod method, std::vector<std:
         case ThicknessMethod::kTranslucentShadowMap:
         case ThicknessMethod::kLocalThickness:
         case ThicknessMethod::kDepthPeeling:
+        case ThicknessMethod::kPublishedShadowMap:
+        case ThicknessMethod::kPublishedLocalThickness:
+        case ThicknessMethod::kPublishedDepthPeeling:
             break;
     }
     return LayerBuilder::kDepthPeeling;
@@ -60,11 +63,13 @@ void SolidLighting::begin(const ThicknessSettings& settings, std::span<const std
                                                        gpu_scene.bounds, settings.resolution);
             setup.views.insert(setup.views.end(), views.begin(), views.end());
         }
-        if (settings.method == ThicknessMethod::kLocalThickness) {
-            if (!local_ || std::exchange(local_moves_, gpu_scene.moves) != gpu_scene.moves) {
+        if (is_baked(settings.method)) {
+            if (!local_ || local_moves_ != gpu_scene.moves || local_method_ != settings.method) {
                 local_.reset();
-                local_.emplace(bake_local_thickness(device_, scene, cache, threads, progress, warnings));
+                local_.emplace(
+                    bake_local_thickness(device_, scene, settings.method, cache, threads, progress, warnings));
                 local_moves_ = gpu_scene.moves;
+                local_method_ = settings.method;
             }
             setup.local = &*local_;
         }

@@ -39,6 +39,7 @@ private:
     TransmittedLight transmitted_;
     std::optional<LocalThickness> local_;
     std::uint64_t local_moves_ = 0;  ///< GpuScene::moves at the time of baking
+    ThicknessMethod local_method_ = ThicknessMethod::kLocalThickness;
 };
 
 }  // namespace pellucid

@@ -12,7 +12,7 @@
 namespace pellucid {
 namespace {
 
-constexpr std::array<ThicknessMethodInfo, 5> kMethods = {{
+constexpr std::array<ThicknessMethodInfo, 8> kMethods = {{
     {ThicknessMethod::kTranslucentShadowMap, "translucent-shadow-map",
      "from the first surface that the light meets; gaps count as solid",
      "Dachsbacher & Stamminger, Translucent Shadow Maps, EGSR 2003"},
@@ -25,6 +25,15 @@ constexpr std::array<ThicknessMethodInfo, 5> kMethods = {{
      "Chen, Real-time transmission of translucent objects by depth peeling"},
     {ThicknessMethod::kLayers, "layers", "layers from the light, all in one geometry pass",
      "Pellucid, docs/translucency.md"},
+    {ThicknessMethod::kPublishedShadowMap, "published-shadow-map",
+     "difference to the depth of the nearest texel, without a bias",
+     "Chen, Real-time transmission of translucent objects by depth peeling, introduction"},
+    {ThicknessMethod::kPublishedLocalThickness, "published-local-thickness",
+     "share of the samples around a vertex that lie inside, baked; in half diagonals of the mesh's box",
+     "Chen, Real-time transmission of translucent objects by depth peeling, introduction"},
+    {ThicknessMethod::kPublishedDepthPeeling, "published-depth-peeling",
+     "stored depths of the nearest texel up to the point's own",
+     "Chen, Real-time transmission of translucent objects by depth peeling, section 1.3"},
 }};
 
 }  // namespace

@@ -29,8 +29,8 @@ layout(std430, set = 0, binding = 13) buffer LightCounters { uint cut_rays; };
 
 layout(local_size_x = PELLUCID_LIST_GROUP) in;
 
-layout(constant_id = 0) const uint kMethod = 0u;  // kByLayers, kByFirst or kLocal
-const uint kByLayers = 0u, kByFirst = 1u, kLocal = 2u;
+layout(constant_id = 0) const uint kMethod = 0u;  // kByLayers, kByFirst, kLocal or kStored
+const uint kByLayers = 0u, kByFirst = 1u, kLocal = 2u, kStored = 3u;
 layout(constant_id = 1) const bool kMeasures = false;  // write d, add no light
 layout(constant_id = 2) const bool kOneObject = false;
 layout(push_constant) uniform Push {
@@ -39,6 +39,7 @@ layout(push_constant) uniform Push {
     uint layer_count;
 };
 #include "shade/solid_on_ray.glsl"
+#include "shade/stored_depths.glsl"
 
 const float kPi = 3.14159265;
 const uint kWholeView = 6u;
@@ -88,7 +89,7 @@ void main() {
         vec2 film = light_view.orthographic != 0u ? in_view.xy : in_view.xy / -in_view.z;
         vec2 map = vec2(film.x - light_view.film.x, light_view.film.y - film.y) / light_view.film.zw - 0.5;
         ivec2 first = ivec2(floor(map)), last = ivec2(light_view.width, light_view.height) - 1;
-        vec2 f = map - vec2(first);
+        vec2 f = kMethod == kStored ? round(map - vec2(first)) : map - vec2(first);
         float width = max(light_view.film.z, light_view.film.w) * (light_view.orthographic != 0u ? 1.0 : -in_view.z);
         float cos_theta = abs(dot(normalize(mat3(objects[object].world_from_object_normal) * outward), point.way));
         float tan_theta = sqrt(max(1.0 - cos_theta * cos_theta, 0.0)) / max(cos_theta, 1e-6);
@@ -101,10 +102,12 @@ void main() {
             float weight = (corner.x == 1 ? f.x : 1.0 - f.x) * (corner.y == 1 ? f.y : 1.0 - f.y);
             if (weight == 0.0) continue;
             ivec2 read = clamp(first + corner, ivec2(0), last);
-            SolidOnRay solid = kMethod == kByFirst ? solid_behind_first(read, point, width, tan_theta)
-                                                   : solid_in_layers(read, point, width, tan_theta);
+            SolidOnRay solid;
+            if (kMethod == kStored) solid = solid_in_stored_depths(read, in_view);
+            else if (kMethod == kByFirst) solid = solid_behind_first(read, point, width, tan_theta);
+            else solid = solid_in_layers(read, point, width, tan_theta);
             cut = cut || solid.cut;
-            if (point.leaving && solid.thickness == 0.0 && !solid.shadowed) continue;
+            if (kMethod != kStored && point.leaving && solid.thickness == 0.0 && !solid.shadowed) continue;
             known += weight;
             d += weight * solid.thickness;
             shadowed += solid.shadowed ? weight : 0.0;

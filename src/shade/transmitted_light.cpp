@@ -20,8 +20,21 @@ constexpr auto kTranslucentFormat = vk::Format::eR16G16B16A16Sfloat;
 
 /// Value of kMethod in transmit_light.comp.
 std::uint32_t method_constant(ThicknessMethod method) {
-    if (method == ThicknessMethod::kLocalThickness) return 2;
-    return method == ThicknessMethod::kTranslucentShadowMap ? 1 : 0;
+    switch (method) {
+        case ThicknessMethod::kTranslucentShadowMap:
+            return 1;
+        case ThicknessMethod::kLocalThickness:
+        case ThicknessMethod::kPublishedLocalThickness:
+            return 2;
+        case ThicknessMethod::kPublishedShadowMap:
+        case ThicknessMethod::kPublishedDepthPeeling:
+            return 3;
+        case ThicknessMethod::kDepthPeeling:
+        case ThicknessMethod::kDualDepthPeeling:
+        case ThicknessMethod::kLayers:
+            break;
+    }
+    return 0;
 }
 
 }  // namespace

@@ -18,6 +18,11 @@ struct LocalThickness {
     Buffer objects;
 };
 
+/// Whether a method reads baked values, and no layers.
+constexpr bool is_baked(ThicknessMethod method) {
+    return method == ThicknessMethod::kLocalThickness || method == ThicknessMethod::kPublishedLocalThickness;
+}
+
 /// Lights of an image, and the method that finds their thickness.
 struct TransmittedLightSetup {
     ThicknessMethod method = ThicknessMethod::kLayers;
@@ -26,7 +31,7 @@ struct TransmittedLightSetup {
     std::uint32_t resolution = 1024;  ///< texels along a side of a map
     std::vector<Light> lights;
     std::vector<LightView> views;
-    const LocalThickness* local = nullptr;  ///< required by kLocalThickness
+    const LocalThickness* local = nullptr;  ///< required if is_baked(method)
 };
 
 /// Light through translucent solids (Chen). It builds layers from every light, in a frame and layer source of the
@@ -63,10 +68,12 @@ private:
     const GpuImage& build_map(Recorder& recorder, const Frame& frame, const Opaque& opaque, std::size_t number);
     /// Layers per light; a shadow map is the first layer.
     std::uint32_t layer_count() const {
-        return setup_.method == ThicknessMethod::kTranslucentShadowMap ? 1 : setup_.layers;
+        const bool first = setup_.method == ThicknessMethod::kTranslucentShadowMap ||
+                           setup_.method == ThicknessMethod::kPublishedShadowMap;
+        return first ? 1 : setup_.layers;
     }
     Frame light_frame(const Frame& frame, const Buffer& constants, const gpu::FrameConstants& view) const;
-    bool needs_layers() const { return setup_.method != ThicknessMethod::kLocalThickness; }
+    bool needs_layers() const { return !is_baked(setup_.method); }
 
     mutable Workspace workspace_;
     LayerSource source_;

@@ -9,7 +9,8 @@ from pictures import read_exr
 BALL = "shape:sphere,segments=64"
 RADIUS = 1  # m
 WAX = ["--translucent", "0.8,0.3,0.1,0.5"]
-METHODS = ["translucent-shadow-map", "local-thickness", "depth-peeling", "dual-depth-peeling", "layers"]
+METHODS = ["translucent-shadow-map", "local-thickness", "depth-peeling", "dual-depth-peeling", "layers",
+           "published-shadow-map", "published-local-thickness", "published-depth-peeling"]
 
 
 def sun(azimuth):
@@ -31,6 +32,24 @@ class Thickness(CliTest):
 
     def test_the_lit_side_has_none(self):
         self.assertEqual(self.measure(*sun(0), "--camera", "orbit:0,0,40")["largest_m"], 0)
+
+    def test_published_forms(self):
+        """Stored depths are right to a texel where light leaves, and wrong where it enters. Of the samples in half the diagonal of
+        the box 55% lie inside a ball, 0.55 sqrt(3) radii."""
+        lamp = ["--add-light", "lamp:0,0,-3,1"]
+        for light in (sun(180), lamp):
+            exact = self.measure(*light, "--camera", "orbit:0,0,4", "--method", "exact")
+            for method in ("published-shadow-map", "published-depth-peeling"):
+                found = self.measure(*light, "--camera", "orbit:0,0,4", "--method", method)
+                self.assertAlmostEqual(found["largest_m"], 2 * RADIUS, delta=0.02 * RADIUS)
+                self.assertAlmostEqual(found["mean_m"], exact["mean_m"], delta=0.02 * exact["mean_m"])
+        for method in ("published-depth-peeling", "published-shadow-map"):
+            found = self.measure(*sun(0), "--camera", "orbit:0,0,40", "--method", method)
+            self.assertGreater(found["points"], found["lit"] + found["points"] // 10, method)
+        baked = self.measure(*sun(180), "--camera", "orbit:0,0,4", "--method", "published-local-thickness")
+        self.assertAlmostEqual(baked["largest_m"], 0.55 * 3 ** 0.5, delta=0.02)
+        baked = self.measure(*sun(180), "--camera", "orbit:0,0,4", "--method", "local-thickness")
+        self.assertAlmostEqual(baked["largest_m"], 4 / 3, delta=0.02)
 
     def test_every_method_runs(self):
         for method in METHODS:
@@ -59,7 +78,7 @@ class ThicknessComparison(CliTest):
         self.assertEqual([(r["view"], r["method"]) for r in runs],
                          [(view, method) for view in ("behind", "side", "top") for method in METHODS])
         for r in runs:
-            if r["method"] not in ("local-thickness", "translucent-shadow-map"):
+            if r["method"] in ("depth-peeling", "dual-depth-peeling", "layers"):
                 self.assertLess(r["relative_error"], 0.005, r)
         self.assertEqual(len(os.listdir(self.path("p"))), 3 * (1 + 2 * len(METHODS)))
 
