@@ -40,7 +40,9 @@ private:
 /// Z alone.
 std::vector<std::string> layer_channels(const std::string& aov, int channels) {
     static const std::set<std::string, std::less<>> kColors{"emitted", "direct", "caustic", "indirect"};
-    const std::string letters = aov == "depth" ? "Z" : kColors.contains(aov) ? "RGB" : "XYZ";
+    const std::string letters = channels == 1 && aov.find("depth") != aov.npos ? "Z"
+                                : kColors.contains(aov)                        ? "RGB"
+                                                                               : "XYZ";
     std::vector<std::string> names;
     for (std::size_t k = 0; k < std::size_t(channels); ++k) names.push_back(fmt::format("{}.{}", aov, letters[k]));
     return names;

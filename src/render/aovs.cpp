@@ -1,11 +1,13 @@
 #include "render/aovs.h"
 
+#include <pellucid/error.h>
 #include <pellucid/names.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -22,9 +24,13 @@ constexpr std::array kAovs = {
     AovInfo{"events", 2, "interface events on the path; total internal reflections among them"},
     AovInfo{"status", 1, "0 ok, 1 missing_layer, 2 left_screen, 3 step_limit, 4 event_limit"},
     AovInfo{"layers", 1, "glass surfaces recorded along the view ray"},
-    AovInfo{"depth", 1, "depth of the first glass surface along -Z of the view, m; 0 where there is none"},
-    AovInfo{"normal", 3, "outward world normal of the first glass surface; 0 where there is none"},
-    AovInfo{"object", 1, "index of the first glass surface's object; -1 where there is none"},
+    AovInfo{"depth", 1,
+            "depth of the first glass surface along -Z of the view, m; 0 where there is none; depth-2: of the second"},
+    AovInfo{"normal", 3,
+            "outward world normal of the first glass surface; 0 where there is none; normal-2: of the second"},
+    AovInfo{"object", 1, "index of the first glass surface's object; -1 where there is none; object-2: of the second"},
+    AovInfo{"back-depth", 1, "depth of the last recorded surface that leads out of glass, m; 0 where there is none"},
+    AovInfo{"back-normal", 3, "outward world normal of that surface; 0 where there is none"},
     AovInfo{"emitted", 3, "light that is seen directly, or reflected and refracted by smooth surfaces alone"},
     AovInfo{"direct", 3, "light that meets one surface that is not smooth, and no other before it"},
     AovInfo{"caustic", 3, "light that smooth surfaces throw onto one that is not smooth"},
@@ -85,23 +91,51 @@ float object_of_triangle(const std::vector<std::uint32_t>& first_triangles, std:
     return float(after - first_triangles.begin() - 1);
 }
 
-Image surface_aov(const Device& device, std::string_view name, const Layers& layers,
+Image surface_aov(const Device& device, const NamedAov& aov, const Layers& layers,
                   const std::vector<std::uint32_t>& first_triangles) {
     const vk::Extent2D extent = layers.depth.extent();
-    if (name == "depth") {
-        const auto depth = read<float>(device, layers.depth);
+    if (aov.info->name == "depth") {
+        const auto depth = read<float>(device, layers.depth, aov.layer);
         return scalar_image(extent,
                             [&](std::size_t i) { return depth[i] < float(PELLUCID_EMPTY_DEPTH) ? depth[i] : 0.0f; });
     }
-    const auto triangles = read<std::uint32_t>(device, layers.triangle);
-    if (name == "object") {
+    const auto triangles = read<std::uint32_t>(device, layers.triangle, aov.layer);
+    if (aov.info->name == "object") {
         return scalar_image(extent, [&](std::size_t i) { return object_of_triangle(first_triangles, triangles[i]); });
     }
-    const auto packed = read<std::uint32_t>(device, layers.normal);
+    const auto packed = read<std::uint32_t>(device, layers.normal, aov.layer);
     std::vector<glm::vec4> normals(packed.size(), glm::vec4(0.0f));
     for (std::size_t i = 0; i < packed.size(); ++i) {
         if (triangles[i] != PELLUCID_NO_TRIANGLE) normals[i] = glm::vec4(unpack_unit_vector(packed[i]), 0.0f);
     }
+    return vector_image(extent, normals);
+}
+
+/// `value` of the last layer in which a pixel's view ray leaves glass. Layers are read one at a time.
+template <class T, class Value>
+void for_last_back_face(const Device& device, const Layers& layers, const GpuImage& image, Value value) {
+    for (std::uint32_t layer = 0; layer < layers.count; ++layer) {
+        const auto triangles = read<std::uint32_t>(device, layers.triangle, layer);
+        const auto texels = read<T>(device, image, layer);
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            if (triangles[i] != PELLUCID_NO_TRIANGLE && (triangles[i] & PELLUCID_BACK_FACE) != 0) value(i, texels[i]);
+        }
+    }
+}
+
+Image back_depth_image(const Device& device, const Layers& layers) {
+    Image image(int(layers.depth.extent().width), int(layers.depth.extent().height), 1);
+    for_last_back_face<float>(device, layers, layers.depth,
+                              [&](std::size_t i, float depth) { image.pixels[i] = depth; });
+    return image;
+}
+
+Image back_normal_image(const Device& device, const Layers& layers) {
+    const vk::Extent2D extent = layers.depth.extent();
+    std::vector<glm::vec4> normals(std::size_t(extent.width) * extent.height, glm::vec4(0.0f));
+    for_last_back_face<std::uint32_t>(device, layers, layers.normal, [&](std::size_t i, std::uint32_t packed) {
+        normals[i] = glm::vec4(unpack_unit_vector(packed), 0.0f);
+    });
     return vector_image(extent, normals);
 }
 
@@ -160,8 +194,9 @@ private:
     std::vector<PathEvents> events_;
 };
 
-Image make_aov(const Device& device, std::string_view name, const Layers& layers, const HostRefraction& refraction,
+Image make_aov(const Device& device, const NamedAov& aov, const Layers& layers, const HostRefraction& refraction,
                const std::vector<std::uint32_t>& first_triangles) {
+    const std::string_view name = aov.info->name;
     const vk::Extent2D extent = layers.depth.extent();
     const std::vector<PathEvents>& events = refraction.events();
     if (name == "exit-direction") return vector_image(extent, refraction.exit_directions());
@@ -184,7 +219,9 @@ Image make_aov(const Device& device, std::string_view name, const Layers& layers
     }
     if (name == "status") return scalar_image(extent, [&](std::size_t i) { return float(events[i].status); });
     if (name == "layers") return layer_count_image(device, layers);
-    return surface_aov(device, name, layers, first_triangles);
+    if (name == "back-depth") return back_depth_image(device, layers);
+    if (name == "back-normal") return back_normal_image(device, layers);
+    return surface_aov(device, aov, layers, first_triangles);
 }
 
 std::vector<RefractedPath> read_paths(const HostRefraction& refraction) {
@@ -217,11 +254,29 @@ std::vector<RefractedPath> read_paths(const HostRefraction& refraction) {
 
 std::span<const AovInfo> aov_infos() { return kAovs; }
 
-void check_aov_names(const std::vector<std::string>& names) {
+NamedAov parse_aov(const std::string& name) {
+    std::vector<std::string_view> known;
+    for (const AovInfo& aov : kAovs) {
+        if (aov.name == name) return {&aov};
+        known.push_back(aov.name);
+    }
+    for (const AovInfo& aov : kAovs) {
+        const bool of_surface = aov.name == "depth" || aov.name == "normal" || aov.name == "object";
+        if (!of_surface || !name.starts_with(std::string(aov.name) + "-")) continue;
+        const std::string number = name.substr(aov.name.size() + 1);
+        std::uint32_t surface = 0;
+        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), surface);
+        if (error == std::errc() && end == number.data() + number.size() && number.front() != '0' && surface >= 2)
+            return {&aov, surface - 1};
+    }
+    throw unknown_name("AOV", name, known);
+}
+
+void check_aov_layers(const std::vector<std::string>& names, std::uint32_t layers, std::string_view technique) {
     for (const std::string& name : names) {
-        std::vector<std::string_view> known;
-        for (const AovInfo& aov : kAovs) known.push_back(aov.name);
-        if (std::find(known.begin(), known.end(), name) == known.end()) throw unknown_name("AOV", name, known);
+        if (parse_aov(name).layer < layers) continue;
+        throw Error(fmt::format("AOV '{}': {} records {} surface{} of a pixel, as its parameter layers says", name,
+                                technique, layers, layers == 1 ? "" : "s"));
     }
 }
 
@@ -241,7 +296,7 @@ void read_back(const Device& device, const FrameImages& images, const gpu::Frame
     }
     for (const std::string& name : settings.aovs) {
         if (is_light_part(name)) continue;
-        result.aovs[name] = make_aov(device, name, images.layers, refraction, first_triangles);
+        result.aovs[name] = make_aov(device, parse_aov(name), images.layers, refraction, first_triangles);
     }
     if (settings.paths) result.paths = read_paths(refraction);
 }

@@ -10,8 +10,16 @@
 
 namespace pellucid {
 
-/// Throws Error listing the known names if one of `names` is unknown.
-void check_aov_names(const std::vector<std::string>& names);
+/// The AOV of a name. `depth-3` is `depth` of the third surface; other names are those of aov_infos().
+struct NamedAov {
+    const AovInfo* info;
+    std::uint32_t layer = 0;  ///< of depth, normal and object
+};
+/// Throws Error listing the known names if `name` is unknown.
+NamedAov parse_aov(const std::string& name);
+
+/// Throws Error if one of `names` is of a surface beyond the technique's `layers`.
+void check_aov_layers(const std::vector<std::string>& names, std::uint32_t layers, std::string_view technique);
 
 /// True for names in kLightParts.
 bool is_light_part(const std::string& name);

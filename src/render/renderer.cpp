@@ -78,6 +78,7 @@ FrameSettings Renderer::Impl::frame_settings(const RenderSettings& settings, std
                          .parameters = ParameterValues(info, parameters),
                          .layer_builder = settings.layer_builder,
                          .view = settings.view};
+    check_aov_layers(settings.aovs, chosen.technique ? chosen.technique->layer_count(chosen.parameters) : 1, info.name);
     chosen.caustics = caustics_of(settings.light, device);
     const LightOptions light = chosen_light(settings);
     chosen.photons = photons_of(chosen, light.transport);

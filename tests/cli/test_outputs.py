@@ -11,7 +11,7 @@ from cli import BINARY, CliTest, TETRAHEDRON
 from pictures import read_exr, read_png
 
 AOVS = {"exit-direction": 3, "exit-position": 3, "path-length": 1, "events": 2, "status": 1, "layers": 1, "depth": 1,
-        "normal": 3, "object": 1, "exit-object": 1, "emitted": 3, "direct": 3, "caustic": 3, "indirect": 3}
+        "normal": 3, "object": 1, "back-depth": 1, "back-normal": 3, "exit-object": 1, "emitted": 3, "direct": 3, "caustic": 3, "indirect": 3}
 STATUS = ["ok", "missing_layer", "left_screen", "step_limit", "event_limit"]
 
 
@@ -234,6 +234,31 @@ class Aovs(CliTest):
         for i in covered:
             self.assertAlmostEqual(math.hypot(*aovs["exit-direction"].pixels[3 * i:3 * i + 3]), 1, places=3)
             self.assertGreater(aovs["depth"].pixels[i], 0)
+
+    def test_deeper_surfaces(self):
+        """Of four layers of a torus: each lies behind the one before, the back faces are the even ones, and what is not recorded is
+        refused."""
+        names = [f"{kind}{layer}" for kind in ("depth", "normal", "object") for layer in ("", "-2", "-3", "-4")] + ["back-depth", "back-normal"]
+        arguments = [argument for name in names for argument in ("--aov", f"{name}={name}.exr")]
+        self.assert_rendered(self.render("shape:torus", "--technique", "wang-2014", "--layers", "4", "--camera", "orbit:80,5,3",
+                                         *arguments, size="32x24"))
+        aovs = {name: read_exr(self.read(f"{name}.exr")).pixels for name in names}
+        depths = list(zip(*(aovs[name] for name in ("depth", "depth-2", "depth-3", "depth-4"))))
+        four = [i for i, along in enumerate(depths) if along[3] > 0]
+        self.assertGreater(len(four), 20)
+        for i, along in enumerate(depths):
+            known = [depth for depth in along if depth > 0]
+            self.assertEqual(known, sorted(known))
+            self.assertEqual(aovs["back-depth"][i], along[3] or along[1])
+            self.assertEqual([aovs[f"object{layer}"][i] for layer in ("", "-2", "-3", "-4")], [0 if depth > 0 else -1 for depth in along])
+        for i in four:
+            self.assertEqual(aovs["back-normal"][3 * i:3 * i + 3], aovs["normal-4"][3 * i:3 * i + 3])
+            self.assertAlmostEqual(math.hypot(*aovs["normal-3"][3 * i:3 * i + 3]), 1, places=3)
+        for technique, name in (("wang-2014", "depth-5"), ("one-interface", "normal-2"), ("reference", "object-2")):
+            arguments = ("--layers", "4") if technique == "wang-2014" else ()
+            self.refuses(name, "--technique", technique, *arguments, "--aov", f"{name}=a.exr")
+        for name in ("depth-1", "depth-0", "depth-", "depth-02", "depth-x", "depth-99999999999", "events-2"):
+            self.refuses(["unknown AOV", name], "--aov", f"{name}=a.exr")
 
     def test_list_is_complete(self):
         self.assertEqual(sorted(self.known_names("--aov", "?=out.exr")), sorted(AOVS))
