@@ -17,7 +17,8 @@
 namespace pellucid::cli {
 namespace {
 
-constexpr std::uint32_t kSamples = 4;  // jittered frames per picture, as in compare
+constexpr double kWorstSearches = 4.0;  // of a pixel: (3 + 1)(m + n), Wang 2014, section 4.4
+constexpr std::uint32_t kSamples = 4;   // jittered frames per picture, as in compare
 
 /// One view of one scene, and what its variants are held against.
 struct ExperimentView {
@@ -46,7 +47,7 @@ RenderSettings settings_for(const ExperimentView& view, const Variant& variant) 
     RenderSettings settings = view.settings;
     settings.technique = variant.technique;
     settings.parameters = variant.parameters;
-    settings.samples = kSamples;
+    settings.samples = variant.samples.value_or(kSamples);
     settings.paths = true;
     return settings;
 }
@@ -116,6 +117,27 @@ void add_times(nlohmann::ordered_json& json, ExperimentRun& run, const Experimen
     json["exact_ms"] = view.exact_ms;
 }
 
+/// Search steps of wang-2014's pixels, in searches of the thesis: m binary and n linear steps.
+void add_steps(nlohmann::ordered_json& json, const ExperimentView& view, const std::vector<RefractedPath>& paths) {
+    const double search = json["/parameters/steps"_json_pointer].get<double>() +
+                          json["/parameters/binary-steps"_json_pointer].get<double>();
+    std::vector<double> searches;
+    double sum = 0.0;
+    std::size_t beyond = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        if (view.exact.covered[i] == 0) continue;
+        searches.push_back(double(paths[i].length_inside) / search);
+        sum += searches.back();
+        beyond += searches.back() > kWorstSearches ? 1 : 0;
+    }
+    if (searches.empty()) return;
+    const double count = double(searches.size());
+    json["searches"] = {{"mean", sum / count},
+                        {"p95", spread(searches).p95},
+                        {"largest", *std::max_element(searches.begin(), searches.end())},
+                        {"beyond_worst", double(beyond) / count}};
+}
+
 nlohmann::ordered_json measured(ExperimentRun& run, const ExperimentSpec& spec, const ExperimentView& view,
                                 const Variant& variant, const RenderResult& result) {
     nlohmann::ordered_json json{{"scene", view.scene.label},
@@ -132,6 +154,8 @@ nlohmann::ordered_json measured(ExperimentRun& run, const ExperimentSpec& spec, 
     if (variant.map_width) json["map_width"] = *variant.map_width;
     const PathAccuracy accuracy = judge(view.exact, result.paths).accuracy;
     add_accuracy(json, view.exact, accuracy);
+    const auto counts = variant.parameters.find("count-steps");
+    if (counts != variant.parameters.end() && counts->second > 0.0) add_steps(json, view, result.paths);
     const bool any = accuracy.covered > 0;
     json["flip_mean"] = json["rmse"] = nullptr;
     if (any) {
@@ -188,6 +212,7 @@ void run_scene(ExperimentRun& run, const ExperimentSpec& spec, const ExperimentS
     const auto load = [&] {
         Scene made = scene.make ? scene.make() : with_copies(load_scene(scene.how.source), scene.how.copies);
         for (Material& material : made.materials) material.ior = scene.ior.value_or(material.ior);
+        if (scene.close_holes) close_holes(made);
         loaded = std::make_unique<const Scene>(std::move(made));
     };
     if (!run.unread.read(scene.label, load)) {

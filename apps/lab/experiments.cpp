@@ -40,6 +40,12 @@ public:
                         .published = std::move(published)});
         return *this;
     }
+    Scenes& closed(const std::string& label, const Model& model) {
+        const std::size_t before = all_.size();
+        this->model(label, model);
+        if (all_.size() > before) all_.back().close_holes = true;
+        return *this;
+    }
     /// Solids in a row behind one another: deeper than wide, so that the camera may stand nearer than usual.
     Scenes& made(const std::string& label, Scene (*make)()) {
         constexpr float kDistance = 3.4f;  // bounding-sphere radii
@@ -93,6 +99,7 @@ std::vector<ExperimentScene> models_of_the_thesis(ModelFolder& models) {
         .shape("bottle", "shape:bottle")
         .model("bunny", kBunny)
         .model("head (open)", kHead)
+        .closed("head, holes closed", kHead)
         .model("figure (closed)", kFigure)
         .all();
 }
@@ -237,6 +244,29 @@ ExperimentSpec wang_environment() {
     return spec;
 }
 
+ExperimentSpec wang_footprint() {
+    ExperimentSpec spec{.name = "wang-footprint",
+                        .source = "Wang 2014, chapter 5: filtered textures by the depth of refraction, its future work",
+                        .varied = "samples per pixel, and directions along a side of a pixel's footprint",
+                        .environment = "checker",
+                        .truth = {.label = "256 samples", .technique = "wang-2014", .samples = 256},
+                        .scenes = torus_and_bunny,
+                        .zoom = true,
+                        .columns = {kFlip, kRmse},
+                        .plots = {{"FLIP", "", false, {kFlip}}}};
+    for (const std::uint32_t samples : {1u, 4u}) {
+        for (const int side : {0, 4, 8}) {
+            const std::string footprint = side == 0 ? "one direction" : fmt::format("footprint {0}x{0}", side);
+            spec.variants.push_back(
+                {.label = fmt::format("{} sample{}, {}", samples, samples == 1 ? "" : "s", footprint),
+                 .technique = "wang-2014",
+                 .parameters = {{"footprint", double(side)}},
+                 .samples = samples});
+        }
+    }
+    return spec;
+}
+
 ExperimentSpec wang_layers() {
     ExperimentSpec spec{.name = "wang-layers",
                         .source = "Wang 2014, sections 3.1.2 and 3.4: depth layers",
@@ -281,6 +311,25 @@ ExperimentSpec wang_exits() {
     add("jumps to the outside are walls", 0, false, true);
     add("5.2, layers 1 and 3, walls", 1, true, true);
     return spec;
+}
+
+ExperimentSpec wang_steps() {
+    return {.name = "wang-steps",
+            .source = "Wang 2014, section 4.4: steps of the search, two searches at best, (3+1)(m+n) steps at worst",
+            .varied = "model, and search of the text or of ours",
+            .variants = {{"as in 3.5",
+                          "wang-2014",
+                          {{"count-steps", 1.0}, {"below-faults", 0.0}, {"front-exits", 0.0}, {"steep-walls", 0.0}}},
+                         {"defaults", "wang-2014", {{"count-steps", 1.0}}}},
+            .scenes = models_of_the_thesis,
+            .columns = {kTriangles,
+                        kStable,
+                        {"mean steps, (m+n)", "/searches/mean", 1.0, 2},
+                        {"95% of the pixels below, (m+n)", "/searches/p95", 1.0, 2},
+                        {"largest, (m+n)", "/searches/largest", 1.0, 2},
+                        {"pixels beyond 4 (m+n), %", "/searches/beyond_worst", 100.0, 3}},
+            .plots = {{"Mean steps of a pixel, in (m+n)", "", true, {{"mean", "/searches/mean", 1.0, 2}}}},
+            .remark = "n is 50 linear, m 8 binary steps. A search ends at its hit, so it takes fewer than (m+n)."};
 }
 
 ExperimentSpec interfaces() {
@@ -404,8 +453,10 @@ ExperimentSpec wang_many_objects() {
 std::span<const ExperimentSpec> experiments() {
     static const std::vector<ExperimentSpec> all = {wang_search_step(),
                                                     wang_environment(),
+                                                    wang_footprint(),
                                                     wang_layers(),
                                                     wang_exits(),
+                                                    wang_steps(),
                                                     wang_refractions(),
                                                     published_index(),
                                                     interfaces(),

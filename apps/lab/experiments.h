@@ -21,7 +21,8 @@ struct Variant {
     /// Width in texels of an equirectangular map, half as high, that replaces the experiment's environment; empty: no
     /// replacement.
     std::optional<int> map_width = {};
-    bool analysis = false;  ///< add the technique's analysis view
+    std::optional<std::uint32_t> samples = {};  ///< jittered frames; none: the experiments' own number
+    bool analysis = false;                      ///< add the technique's analysis view
 };
 
 /// One of the scenes of an experiment.
@@ -29,6 +30,7 @@ struct ExperimentScene {
     std::string label;
     BenchCase how;                                 ///< source, distance, copies
     Scene (*make)() = nullptr;                     ///< instead of how.source
+    bool close_holes = false;                      ///< of the model's meshes
     std::optional<float> ior = {};                 ///< instead of the index of refraction of all materials
     std::map<std::string, double> published = {};  ///< measurements of the publication for a similar scene
 };

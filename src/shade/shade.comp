@@ -13,6 +13,7 @@ layout(constant_id = 4) const bool kPathRadiance = false;  // paths gather radia
 layout(constant_id = 5) const bool kReflected = false;     // the technique supplies the reflection at the first surface
 // that reflection contains lights only; rough glass reflects the environment besides
 layout(constant_id = 8) const bool kHighlights = false;
+layout(constant_id = 9) const uint kFootprint = 0u;  // samples along a side of the environment's footprint; 0: none
 
 layout(std430, set = 0, binding = 5) readonly buffer Objects { ObjectRecord objects[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Materials { MaterialRecord materials[]; };
@@ -37,6 +38,7 @@ layout(std430, set = 0, binding = 16) readonly buffer Textures { TextureRecord t
 #include "layers/objects.glsl"
 #include "gpu/diffuse.glsl"
 #include "shade/analysis_color.glsl"
+#include "shade/exit_footprint.glsl"
 
 vec3 light_from_afar(vec3 position, vec3 direction, bool with_suns) {
     vec3 seen;
@@ -48,7 +50,9 @@ vec3 light_from_afar(vec3 position, vec3 direction, bool with_suns) {
 // at both surfaces.
 vec3 transmitted_radiance(ivec3 at, bool rough) {
     vec4 passes = imageLoad(transmittance, at);
-    vec3 behind = passes.rgb * light_from_afar(imageLoad(exit_position, at).xyz, imageLoad(exit_direction, at).xyz, !kHighlights || passes.a > 0.0);
+    vec3 behind = passes.rgb;
+    if (kFootprint > 0u) behind *= environment_over_footprint(at, kFootprint);
+    else behind *= light_from_afar(imageLoad(exit_position, at).xyz, imageLoad(exit_direction, at).xyz, !kHighlights || passes.a > 0.0);
     behind = drawn(rough ? PELLUCID_INDIRECT : PELLUCID_EMITTED, behind);
     if (!kPathRadiance) return behind;
     vec4 picked_up = imageLoad(path_radiance, at);

@@ -110,6 +110,7 @@ const GpuImage& shade(Recorder& recorder, const Frame& frame, const Opaque& opaq
                                   Constant{"kPathRadiance", refraction.radiance != nullptr},
                                   Constant{"kReflected", refraction.reflected != nullptr},
                                   Constant{"kHighlights", refraction.reflects_lights_alone},
+                                  Constant{"kFootprint", refraction.footprint},
                                   Constant{"kVisibleLights", frame.light.visible_lights()}};
     // Something of the right kind has to be bound where paths pick up nothing.
     const GpuImage& path_radiance =

@@ -38,6 +38,8 @@ struct Refraction {
     /// RGBA32F: radiance, to which `reflected` is added, of pixels that the technique has shaded itself, where a is 1.
     /// Null: none.
     const GpuImage* picture = nullptr;
+    /// Samples along a side of a pixel's footprint in the environment, over which shade() averages; 0: one direction.
+    std::uint32_t footprint = 0;
     bool everywhere = false;  ///< pixels without glass hold the view ray, and what it meets
 
     std::vector<Binding> group = {updates("exit_direction", exit_direction), updates("exit_position", exit_position),

@@ -8,7 +8,7 @@ import cli
 import pictures
 from cli import CliTest, TETRAHEDRON
 
-NAMES = ["wang-search-step", "wang-environment", "wang-layers", "wang-exits", "wang-refractions",
+NAMES = ["wang-search-step", "wang-environment", "wang-footprint", "wang-layers", "wang-exits", "wang-steps", "wang-refractions",
          "index", "interfaces", "wyman-speed", "wang-table-4-1",
          "wang-many-objects", "chen-error", "chen-speed", "ihrke-rays", "ihrke-light",
          "ihrke-reflections", "kay-greenberg-transparency", "kay-greenberg-background"]
@@ -191,6 +191,25 @@ class Experiment(CliTest):
         exact = pictures.read_png(self.read("out/experiments/wang-environment/torus-procedural.png"))
         self.assertEqual((exact.width, exact.height), (128, 128))
         self.assertIn("torus-magnified-256-texels.png", self.page("wang-environment"))
+
+    def test_search_steps_and_closed_holes(self):
+        """Steps are counted in searches of the thesis. An open head is also measured with its hole closed, by three triangles here."""
+        os.mkdir(self.path("models"))
+        self.write("models/suzanne.obj", "".join(line + "\n" for line in TETRAHEDRON.splitlines()[:-1]))
+        _, content = self.measure("wang-steps", "--models", "models", size="24x24")
+        runs = {(run["scene"], run["variant"]): run for run in content["experiments"][0]["runs"]}
+        for run in runs.values():
+            searches = run["searches"]
+            self.assertTrue(0.2 < searches["mean"] <= searches["largest"] < 5, run)
+        self.assertLess(runs["sphere", "defaults"]["searches"]["mean"], 1.1)
+        self.assertEqual([runs[head, "defaults"]["triangles"] for head in ("head (open)", "head, holes closed")], [3, 6])
+        self.assertTrue(any("1 holes are closed" in warning for warning in content["experiments"][0]["warnings"]))
+
+    def test_the_footprint_replaces_samples(self):
+        _, content = self.measure("wang-footprint", size="64x64")
+        errors = {run["variant"]: run["rmse"] for run in content["experiments"][0]["runs"]}
+        self.assertEqual(len(errors), 6)
+        self.assertLess(errors["1 sample, footprint 4x4"], 0.85 * errors["1 sample, one direction"])
 
     def test_several_objects(self):
         _, content = self.measure("wang-many-objects", size="48x48")

@@ -54,8 +54,10 @@ void main() {
     } else {
         path = load_path(texel);
         uint status = path.status, events = path.events;
-        meets = meet_surface_ahead(path);                                      // case 3
-        if (path.events == events && path.status == status) return;  // case 2
+        float before = path.length_inside;
+        meets = meet_surface_ahead(path);  // case 3
+        note_steps(path, before);
+        if (path.events == events && path.status == status && !kCountsSteps) return;  // case 2
     }
     store_world_refraction(texel, path);
     if (meets) append_inside(texel);

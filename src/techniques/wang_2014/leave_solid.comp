@@ -22,9 +22,11 @@ void main() {
     }
     // A reflected ray starts on the searched layer, a ray that has just entered does not.
     bool reflected = path.status == kStatusEventLimit;
+    float before = path.length_inside;
     Hit hit = search_exit(path.position, path.direction, reflected);
     if (hit.distance < 0.0) {
         path.status = hit.status;
+        note_steps(path, before);
         store_world_refraction(texel, path);
         return;
     }
@@ -32,6 +34,7 @@ void main() {
     travel(path, hit.distance, material.sigma_a.rgb);
     bool leaves = cross_interface(path, normal_at(world_pixel(path.position), hit.layer), true, material.ior);
     path.status = leaves ? kStatusOk : kStatusEventLimit;  // a further search may still resolve kStatusEventLimit
+    note_steps(path, before);
     store_world_refraction(texel, path);
 
     if (leaves) append_outside(texel);

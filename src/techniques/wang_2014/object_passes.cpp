@@ -39,7 +39,8 @@ const Buffer& ObjectPasses::enter(const Buffer& pixels, std::uint32_t layer) {
     const Buffer& inside = start_pixel_list(recorder_, frame_, "rays inside");
     search_.layer = layer;
     recorder_.compute_indirect(
-        frame_.workspace.compute(shaders::enter_solid_comp, {{"kNextObject", layer == 0}}),
+        frame_.workspace.compute(shaders::enter_solid_comp,
+                                 {{"kNextObject", layer == 0}, {"kCountsSteps", exits_.counts_steps}}),
         {frame_.bindings(), layers_.bindings(), refraction_.bindings(), reads("seen_triangle", seen_.triangle),
          reads("merged_depth", merged_.depth), reads("merged_normal", merged_.normal),
          reads("EntryLimit", merged_.entry_limit), reads("PixelList", pixels), updates("Inside", inside)},
@@ -59,7 +60,8 @@ const Buffer& ObjectPasses::leave(const Buffer& pixels, std::uint32_t layer, std
             frame_.workspace.compute(shaders::leave_solid_comp, {{"kFromEye", from_eye && reflection == 0},
                                                                  {"kBelowFaults", exits_.below_faults},
                                                                  {"kFrontExits", exits_.front_exits},
-                                                                 {"kSteepWalls", exits_.steep_walls}}),
+                                                                 {"kSteepWalls", exits_.steep_walls},
+                                                                 {"kCountsSteps", exits_.counts_steps}}),
             {frame_.bindings(), layers_.bindings(), refraction_.bindings(), reads("seen_triangle", seen_.triangle),
              reads("merged_depth", merged_.depth), reads("merged_normal", merged_.normal),
              reads("EntryLimit", merged_.entry_limit), reads("PixelList", *searching), updates("Outside", outside),

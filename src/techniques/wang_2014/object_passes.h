@@ -18,7 +18,8 @@ struct ObjectSearch {
 struct ExitSearch {
     std::uint32_t below_faults;
     bool front_exits, steep_walls;
-    bool silhouettes;  ///< beside the object a ray is behind exits, so a step beyond the silhouette is refined
+    bool counts_steps;  ///< lengths of paths are numbers of steps
+    bool silhouettes;   ///< beside the object a ray is behind exits, so a step beyond the silhouette is refined
 };
 
 /// The passes of Wang 2014 for one object, from its candidate rays to the rays that have passed it.

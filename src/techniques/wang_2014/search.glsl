@@ -7,6 +7,15 @@
 #include "techniques/ray_range.glsl"
 #include "techniques/wang_2014/merged_layers.glsl"
 
+// The path's length is the number of search steps that the pixel has taken, instead of metres.
+layout(constant_id = 4) const bool kCountsSteps = false;
+uint steps_taken = 0u;
+
+// `before`: the path's length before the search.
+void note_steps(inout Path path, float before) {
+    if (kCountsSteps) path.length_inside = before + float(steps_taken);
+}
+
 // First step of a ray, in linear steps, to clear its own surface (3.6). Values from 0.02 to 0.5 are equally accurate.
 const float kFirstStep = 0.1;
 
@@ -85,6 +94,7 @@ bool step_on(inout Walk walk) {
     walk.before = walk.after;
     walk.after = min(walk.start + float(walk.next_step) * walk.step_length, walk.end);
     ++walk.next_step;
+    ++steps_taken;
     return true;
 }
 
@@ -111,6 +121,7 @@ float binary_search(Walk walk, uint crossed, bool to_front, out float jump) {
     float depth_before = footprint(pixel_at(walk.ray, before), crossed).depth;
     float depth_after = footprint(pixel_at(walk.ray, after), crossed).depth;
     for (uint i = 0u; i < binary_steps; ++i) {
+        ++steps_taken;
         float middle = 0.5 * (before + after);
         float depth = footprint(pixel_at(walk.ray, middle), crossed).depth;
         if ((depth_at(walk.ray, middle) > depth) != to_front) {

@@ -29,6 +29,9 @@ constexpr std::array kParameters = {
                   kOffOn},
     ParameterInfo{"size-range", "", 0, 0, 1, true, "depth range of which SIZE is a share", kSizeRanges},
     ParameterInfo{"steep-walls", "", 1, 0, 1, true, "a jump of a layer to the outside is a wall, no fault", kOffOn},
+    ParameterInfo{"footprint", "", 0, 0, 16, true,
+                  "samples along a side of a pixel's footprint in the environment; 0: one direction"},
+    ParameterInfo{"count-steps", "", 0, 0, 1, true, "path-length holds the number of search steps, not metres", kOffOn},
 };
 
 /// Axis-aligned box in view space: x, y and depth, m.
@@ -82,7 +85,8 @@ std::vector<SortedSolid> sort_solids(const GpuScene& scene, const gpu::FrameCons
 }
 
 Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, const ParameterValues& parameters) {
-    const Refraction refraction = clear_refraction(recorder, frame);
+    Refraction refraction = clear_refraction(recorder, frame);
+    refraction.footprint = parameters.whole("footprint");
     const gpu::FrameConstants& view = frame.view;
     const GpuScene& scene = frame.scene;
     // The layers of all solids serve a single solid, unless opaque objects hide a part of it.
@@ -108,6 +112,7 @@ Refraction record(Recorder& recorder, const Frame& frame, const Layers& layers, 
                             {.below_faults = parameters.whole("below-faults"),
                              .front_exits = parameters.whole("front-exits") != 0,
                              .steep_walls = parameters.whole("steep-walls") != 0,
+                             .counts_steps = parameters.whole("count-steps") != 0,
                              .silhouettes = parameters.whole("silhouettes") != 0});
         const Buffer* rays = &layers.covered;
         for (std::uint32_t entry = 0; entry + 1 < own.count; entry += 2) {
