@@ -15,8 +15,14 @@ constexpr double kLowest = 1e-16;
 
 glm::dvec3 to_other_side(const glm::dvec3& w) { return {w.x, w.y, -w.z}; }
 
+/// std::lgamma() writes the sign to a variable that all threads share.
+double log_gamma(double x) {
+    int sign = 0;
+    return ::lgamma_r(x, &sign);
+}
+
 /// Euler's beta function. Both arguments are at least 1.
-double beta(double a, double b) { return std::exp(std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b)); }
+double beta(double a, double b) { return std::exp(log_gamma(a) + log_gamma(b) - log_gamma(a + b)); }
 
 }  // namespace
 
