@@ -1,6 +1,7 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "options/arguments.h"
+#include "options/interrupts.h"
 
 #include <pellucid/error.h>
 
@@ -35,6 +36,7 @@ std::string command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const pellucid::cli::Interrupts interrupts;
     CLI::App app{
         "Pellucid renders glass in real time. Exit codes: 0 done, 2 bad input or usage, 3 no suitable device, 4 frames "
         "of a sequence are missing, "
