@@ -6,9 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
+#include <cstring>
+#include <fstream>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace pellucid {
@@ -115,7 +119,14 @@ std::string write_to(const std::string& file, OIIO::Filesystem::IOProxy* memory,
 
 std::string write(const std::string& file, bool png, const Image& image,
                   const std::vector<std::string>& channel_names) {
-    return write_to(file, nullptr, png, image, channel_names);
+    if (!png) return write_to(file, nullptr, png, image, channel_names);
+    // OpenImageIO does not report that a PNG file could not be written to its end, as on a full disk.
+    OIIO::Filesystem::IOVecOutput memory;
+    if (std::string cause = write_to("image.png", &memory, png, image, channel_names); !cause.empty()) return cause;
+    std::ofstream stream(file, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(memory.buffer().data()), std::streamsize(memory.buffer().size()));
+    stream.close();
+    return stream ? "" : fmt::format("cannot write: {}", std::strerror(errno));
 }
 
 std::string encode_png(const Image& image, std::vector<std::byte>& bytes) {
