@@ -16,7 +16,7 @@
 namespace pellucid::cli {
 namespace {
 
-constexpr const char* kTechnique = "ihrke-2007";
+constexpr const char* kIhrke = "ihrke-2007";
 constexpr double kIor = 1.5;
 constexpr double kFinestStep = 0.0625;  // voxels; what steps are held against
 constexpr int kStepResolution = 128;
@@ -138,7 +138,7 @@ RenderResult draw(ExperimentRun& run, const RayRun& how, std::uint32_t samples) 
     RenderSettings settings;
     settings.width = run.width;
     settings.height = run.height;
-    settings.technique = kTechnique;
+    settings.technique = kIhrke;
     settings.parameters = {
         {"interpolation", 0.0}, {"integrator", double(how.integrator)}, {"step", how.step}, {"max-steps", max_steps}};
     settings.samples = samples;
@@ -181,7 +181,7 @@ nlohmann::ordered_json run_of(const ExperimentRun& run, const std::string& scene
     const auto covered = std::count_if(ball.exact.begin(), ball.exact.end(), [](const auto& d) { return bool(d); });
     return {{"scene", scene},
             {"variant", how.variant()},
-            {"technique", kTechnique},
+            {"technique", kIhrke},
             {"width", run.width},
             {"height", run.height},
             {"resolution", how.resolution},

@@ -14,7 +14,7 @@
 namespace pellucid::cli {
 namespace {
 
-constexpr const char* kTechnique = "kay-greenberg-1979";
+constexpr const char* kKayGreenberg = "kay-greenberg-1979";
 constexpr double kFaceOn = 0.9;      // transparency of a surface seen from the front
 constexpr float kElevation = 15.0f;  // degrees
 constexpr float kShare = 0.7f;       // of the image height, of the bounding sphere
@@ -142,7 +142,7 @@ void measure_transparency(ExperimentRun& run, const ExperimentSpec& spec, ModelF
         const std::vector<RefractedPath> exact = exact_paths(run, camera);
         page.add_picture(figure.label, spec.truth.label, draw(run, spec.truth.technique, {}).display);
         for (const Form& form : forms()) {
-            const RenderResult result = draw(run, kTechnique, form.parameters);
+            const RenderResult result = draw(run, kKayGreenberg, form.parameters);
             page.add_picture(figure.label, form.label, result.display);
             nlohmann::ordered_json json{{"scene", figure.label}, {"variant", form.label},
                                         {"width", run.width},    {"height", run.height},
@@ -204,7 +204,7 @@ void measure_background(ExperimentRun& run, const ExperimentSpec& spec, ModelFol
             const std::string label = fmt::format("wall {} m, {} degrees", wall, fov_deg);
             page.add_picture(label, spec.truth.label, draw(run, spec.truth.technique, {}).display);
             for (const Form* form : {&all.front(), &all.back()}) {
-                const RenderResult result = draw(run, kTechnique, form->parameters);
+                const RenderResult result = draw(run, kKayGreenberg, form->parameters);
                 page.add_picture(label, form->label, result.display);
                 nlohmann::ordered_json json{{"scene", label},       {"variant", form->label}, {"width", run.width},
                                             {"height", run.height}, {"wall_m", wall},         {"fov_deg", fov_deg}};
