@@ -37,8 +37,8 @@ vk::raii::DeviceMemory allocate(const Device& device, const std::string& name, c
              .allocationSize = needs.size,
              .memoryTypeIndex = device.memory_type(needs.memoryTypeBits, required, preferred)});
     } catch (const vk::OutOfDeviceMemoryError&) {
-        throw TooLarge(
-            fmt::format("{}: out of device memory for {:.2f} GiB", name, double(needs.size) / double(1u << 30)));
+        throw TooLarge(fmt::format("{}: out of device memory for {:.1f} MiB; give a smaller size or a smaller scene",
+                                   name, double(needs.size) / double(1u << 20)));
     }
 }
 

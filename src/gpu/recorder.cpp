@@ -120,7 +120,8 @@ vk::DescriptorSet Recorder::allocate_set(const Program& program) {
         const VkDescriptorSetAllocateInfo& plain = info;
         const VkResult result = handle.getDispatcher()->vkAllocateDescriptorSets(*handle, &plain, &set);
         if (result == VK_SUCCESS) return set;
-        if (fresh) throw std::logic_error(fmt::format("{}: no descriptor set for it", program.name()));
+        const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
+        if (!full || fresh) vk::throwResultException(vk::Result(result), program.name().c_str());
     }
 }
 

@@ -235,7 +235,7 @@ const Buffer& HostFinder::normals() const { return hierarchy_->normals; }
 
 void HostFinder::bring_up_to_date(const Device& device, const Scene& scene, const GpuScene& gpu_scene, bool deforming) {
     Hierarchy& own = *hierarchy_;
-    const bool first = !own.device;
+    const bool first = !own.scene;  // also if an earlier call failed half way
     // An object that has moved once is likely to move again.
     deforming = deforming || own.deforming || gpu_scene.moves > 0;
     if (!first && own.moves == gpu_scene.moves && own.deforming == deforming) return;

@@ -43,12 +43,12 @@ void FrameQueue::submit_part(const FrameRun& run, vk::CommandBuffer commands, bo
 
 void FrameQueue::submit(FrameRun& run) {
     device_.handle().resetFences(*run.fence);
-    run.submitted = false;
+    run.submitted = run.fenced = false;
     run.failure = nullptr;
     std::unique_lock lock(mutex_);
     if (run.parts.size() == 1 && waiting_.empty()) {
         submit_part(run, run.parts.front().commands, true, true, *run.fence);
-        run.submitted = true;
+        run.submitted = run.fenced = true;
         return;
     }
     waiting_.push_back(&run);
@@ -73,13 +73,13 @@ void FrameQueue::work() {
 }
 
 void FrameQueue::run_all(FrameRun& run) {
-    bool first = true, ended = false;
+    bool first = true;
     try {
         const vk::raii::Fence between = device_.handle().createFence({});
         Recorder::run_parts(run.parts, [&](vk::CommandBuffer commands, bool last) {
             submit_part(run, commands, first, last, last ? *run.fence : *between);
             first = false;
-            ended = last;
+            run.fenced = last;
             if (last) return;
             wait_for(device_, *between);
             device_.handle().resetFences(*between);
@@ -87,9 +87,10 @@ void FrameQueue::run_all(FrameRun& run) {
     } catch (...) {
         run.failure = std::current_exception();
     }
-    if (ended) return;
+    if (run.fenced) return;
     try {
         submit_part(run, {}, first, true, *run.fence);  // release all waiters for the frame
+        run.fenced = true;
     } catch (...) {
         run.failure = std::current_exception();
     }
@@ -100,7 +101,7 @@ bool FrameQueue::has_run(FrameRun& run) {
         const std::lock_guard lock(mutex_);
         if (!run.submitted) return false;
     }
-    return run.fence.getStatus() == vk::Result::eSuccess;
+    return !run.fenced || run.fence.getStatus() == vk::Result::eSuccess;
 }
 
 void FrameQueue::wait(FrameRun& run) {
@@ -108,7 +109,7 @@ void FrameQueue::wait(FrameRun& run) {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return run.submitted; });
     }
-    wait_for(device_, *run.fence);
+    if (run.fenced) wait_for(device_, *run.fence);
 }
 
 }  // namespace pellucid

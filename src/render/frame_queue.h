@@ -20,6 +20,7 @@ struct FrameRun {
     std::vector<vulkan::SemaphoreValue> wait, signal;
     vk::raii::Fence fence;
     bool submitted = false;  ///< all parts submitted; guarded by FrameQueue
+    bool fenced = false;     ///< the fence will be signalled; false if the last submission failed
     std::exception_ptr failure;
 };
 
@@ -35,7 +36,7 @@ public:
 
     /// Submits a frame. `run` must live until the frame has run.
     void submit(FrameRun& run);
-    /// True once the frame has run. FrameRun::failure then contains its error, if any.
+    /// True once the frame has run or failed. FrameRun::failure then contains its error, if any.
     bool has_run(FrameRun& run);
     void wait(FrameRun& run);
 

@@ -1,4 +1,5 @@
 // Frames that run while the caller goes on.
+#include "gpu/failures.h"
 #include "render/approximations.h"
 #include "render/check_settings.h"
 #include "render/frame_queue.h"
@@ -361,10 +362,13 @@ Frames::Frames(Renderer& renderer, std::uint32_t in_flight) {
 }
 
 Frames::~Frames() {
-    impl_->stop_tracing();
     for (Impl::Slot* slot : impl_->unread) {
-        if (slot->submitted) impl_->queue.wait(slot->run);
-        slot->recorder.restart();
+        slot->stopped = true;
+        try {
+            if (slot->submitted) impl_->queue.wait(slot->run);
+            slot->recorder.restart();
+        } catch (const vk::SystemError&) {  // the device is lost: nothing runs on it any more
+        }
         --impl_->of.unread_frames;
     }
     impl_->of.has_frames = false;
@@ -379,7 +383,7 @@ std::string Frames::unrecordable(const RenderSettings& settings) const {
 }
 
 Ticket Frames::record(VkCommandBuffer commands, const RenderSettings& settings, const Target& target,
-                      const Background* background) {
+                      const Background* background) try {
     check_frame(settings, target, background, impl_->of.device);
     if (const std::string why = unrecordable(settings); !why.empty()) throw Error("cannot be recorded: " + why);
     Impl::Slot& slot = impl_->free_slot();
@@ -394,28 +398,32 @@ Ticket Frames::record(VkCommandBuffer commands, const RenderSettings& settings, 
     }
     slot.recorder.end(*slot.done);
     return impl_->begin(slot);
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
 Ticket Frames::submit(const RenderSettings& settings, const Target& target, std::span<const SemaphoreValue> wait,
-                      std::span<const SemaphoreValue> signal, const Background* background) {
+                      std::span<const SemaphoreValue> signal, const Background* background) try {
     check_frame(settings, target, background, impl_->of.device);
     Impl::Slot& slot = impl_->free_slot();
     slot.submitted = true;
     slot.recorder.restart();
     try {
         impl_->draw(slot, settings, target, background, false);
+        slot.run.parts = slot.recorder.end();
+        slot.run.wait.assign(wait.begin(), wait.end());
+        slot.run.signal.assign(signal.begin(), signal.end());
+        impl_->queue.submit(slot.run);
     } catch (...) {
         impl_->forget(slot);
         throw;
     }
-    slot.run.parts = slot.recorder.end();
-    slot.run.wait.assign(wait.begin(), wait.end());
-    slot.run.signal.assign(signal.begin(), signal.end());
-    impl_->queue.submit(slot.run);
     return impl_->begin(slot);
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
-std::optional<FrameReport> Frames::read(Ticket ticket) {
+std::optional<FrameReport> Frames::read(Ticket ticket) try {
     if (impl_->unread.empty() || impl_->unread.front()->ticket != ticket)
         throw Error(fmt::format("ticket {} is not the oldest that has not been read", ticket));
     Impl::Slot& slot = *impl_->unread.front();
@@ -423,13 +431,17 @@ std::optional<FrameReport> Frames::read(Ticket ticket) {
         slot.submitted ? impl_->queue.has_run(slot.run) : slot.done.getStatus() == vk::Result::eEventSet;
     if (!has_run) return std::nullopt;
     return impl_->finish(slot);
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
-FrameReport Frames::wait(Ticket ticket) {
+FrameReport Frames::wait(Ticket ticket) try {
     if (!impl_->unread.empty() && impl_->unread.front()->submitted) impl_->queue.wait(impl_->unread.front()->run);
     std::optional<FrameReport> report = read(ticket);
     if (!report) throw Error(fmt::format("ticket {} was recorded: whoever submits it waits for it", ticket));
     return std::move(*report);
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
 std::uint32_t Frames::unread() const { return std::uint32_t(impl_->unread.size()); }

@@ -1,3 +1,4 @@
+#include "gpu/failures.h"
 #include "render/approximations.h"
 #include "render/check_settings.h"
 #include "render/renderer_impl.h"
@@ -218,11 +219,17 @@ void Renderer::Impl::forget_frame() {
     workspace.clear();
 }
 
-Renderer::Renderer(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options, options)) { begin(); }
+Renderer::Renderer(const DeviceOptions& options) try : impl_(std::make_unique<Impl>(options, options)) {
+    begin();
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
+}
 
-Renderer::Renderer(const vulkan::LentDevice& device, std::uint32_t threads)
+Renderer::Renderer(const vulkan::LentDevice& device, std::uint32_t threads) try
     : impl_(std::make_unique<Impl>(device, DeviceOptions{.device = name_of(device), .threads = threads})) {
     begin();
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
 void Renderer::begin() {
@@ -236,52 +243,55 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-void Renderer::set_scene(const Scene& scene) {
+void Renderer::set_scene(const Scene& scene) try {
     impl_->require_no_frames();
     check_scene(scene);
     ++impl_->changes;
     if (!scene.cameras.empty()) check_camera(scene.cameras.front());
     Scene copy = scene;
-    impl_->scene.reset();  // freed first: a large scene may fit once only
+    impl_->scene = GpuScene(impl_->device, Scene{});  // frees the old one: a large scene may fit once only
     impl_->layer_source = LayerSource();
     impl_->solid_lighting.forget();
     impl_->photons.forget();
     impl_->irradiance.forget();
     impl_->cpu.set_scene(Scene{});
     impl_->scene_camera.reset();
-    try {
-        impl_->scene.emplace(impl_->device, scene);
-    } catch (...) {
-        impl_->scene.emplace(impl_->device, Scene{});
-        throw;
-    }
+    impl_->scene = GpuScene(impl_->device, scene);
     impl_->cpu.set_scene(std::move(copy));
     impl_->scene_camera = scene.cameras.empty() ? std::nullopt : std::optional(scene.cameras.front());
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
-void Renderer::set_positions(const std::vector<MovedMesh>& moved) {
+void Renderer::set_positions(const std::vector<MovedMesh>& moved) try {
     impl_->begin_change();
     impl_->cpu.set_positions(moved);  // checks them, and changes nothing if they are wrong
     std::vector<int> meshes;
     for (const MovedMesh& each : moved) meshes.push_back(each.mesh);
     impl_->scene->move_vertices(impl_->device, impl_->cpu.scene(), meshes);
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
-void Renderer::set_transforms(const std::vector<PosedObject>& moved) {
+void Renderer::set_transforms(const std::vector<PosedObject>& moved) try {
     impl_->begin_change();
     impl_->cpu.set_transforms(moved);
     std::vector<int> objects;
     for (const PosedObject& each : moved) objects.push_back(each.object);
     impl_->scene->move_objects(impl_->device, impl_->cpu.scene(), objects);
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
-void Renderer::set_material(int index, const Material& material) {
+void Renderer::set_material(int index, const Material& material) try {
     impl_->begin_change();
     const auto number = std::size_t(index);
     const auto& materials = impl_->cpu.scene().materials;
     const bool was_refractive = number < materials.size() && materials[number].refractive();
     impl_->cpu.set_material(index, material);
     impl_->scene->set_material(impl_->device, impl_->cpu.scene(), number, was_refractive);
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
 void Renderer::set_light(int index, const Light& light) {
@@ -292,14 +302,16 @@ void Renderer::set_light(int index, const Light& light) {
     set_lights(lights);
 }
 
-void Renderer::set_lights(const std::vector<Light>& lights) {
+void Renderer::set_lights(const std::vector<Light>& lights) try {
     impl_->begin_change();
     check_lights(lights);
     impl_->cpu.set_lights(lights);
     impl_->scene->set_lights(impl_->device, lights);
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
-void Renderer::set_environment(const Environment& environment) {
+void Renderer::set_environment(const Environment& environment) try {
     impl_->begin_change();
     check_environment(environment);
     impl_->filtered_is_current = false;
@@ -308,6 +320,8 @@ void Renderer::set_environment(const Environment& environment) {
     impl_->environment_map = upload_environment(impl_->device, environment);
     impl_->environment = environment;
     pellucid::set_environment(impl_->environment_constants, environment);
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
 void Renderer::turn_environment(float rotation, float intensity) {
@@ -331,23 +345,23 @@ void Renderer::set_camera(const Camera& camera) {
     ++impl_->camera_changes;
 }
 
-RenderResult Renderer::render(const RenderSettings& settings) {
+RenderResult Renderer::render(const RenderSettings& settings) try {
     Impl& impl = *impl_;
     check_settings(settings, impl.device);
     impl.require_no_frames();
     RenderResult result;
     const FrameSettings chosen = impl.frame_settings(settings, result.warnings);
-    impl.prepare(chosen, impl.frame_light(impl.chosen_light(settings)), impl.camera_for(settings), settings.progress,
-                 result.warnings);
-    result.light = impl.chosen_light(settings).transport;
-    impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
-    const bool filtered = impl.filtered_is_current;
-    Frame frame = impl.lit_frame(impl.recorder, settings);
-    if (filtered != impl.filtered_is_current)
-        impl.recorder.submit_and_wait();  // apart from frames, which may be forgotten
-    impl.workspace.trim();
-    if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
     try {
+        impl.prepare(chosen, impl.frame_light(impl.chosen_light(settings)), impl.camera_for(settings),
+                     settings.progress, result.warnings);
+        result.light = impl.chosen_light(settings).transport;
+        impl.light_solids(settings.thickness, impl.all_lights(), settings.progress, result.warnings);
+        const bool filtered = impl.filtered_is_current;
+        Frame frame = impl.lit_frame(impl.recorder, settings);
+        if (filtered != impl.filtered_is_current)
+            impl.recorder.submit_and_wait();  // apart from frames, which may be forgotten
+        impl.workspace.trim();
+        if (std::exchange(impl.layer_extent, frame.extent) != frame.extent) impl.layer_source.forget_size();
         const Impl::Drawn drawn = impl.draw_tiles(frame, chosen, settings, result);
         warn_of(result, chosen, drawn.cut, settings);
         impl.irradiance.report(result.warnings);
@@ -376,9 +390,11 @@ RenderResult Renderer::render(const RenderSettings& settings) {
     }
     ++impl.changes;  // frames have another workspace now
     return result;
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
-ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
+ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) try {
     Impl& impl = *impl_;
     RenderSettings settings;
     settings.width = request.width;
@@ -391,13 +407,13 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
             fmt::format("there is no light {}; the scene has {}", request.light, impl.cpu.scene().lights.size()));
     }
     ThicknessResult result;
-    impl.light_solids(request.settings, {request.light}, request.progress, result.warnings);
-    const bool filtered = impl.filtered_is_current;
-    Frame frame = impl.frame_of(impl.recorder, settings);
-    if (filtered != impl.filtered_is_current) impl.recorder.submit_and_wait();
-    Impl::begin_frame(impl.recorder, frame, impl.constants_of(frame, settings, std::nullopt));
     TransmittedLight& transmitted = impl.solid_lighting.transmitted();
     try {
+        impl.light_solids(request.settings, {request.light}, request.progress, result.warnings);
+        const bool filtered = impl.filtered_is_current;
+        Frame frame = impl.frame_of(impl.recorder, settings);
+        if (filtered != impl.filtered_is_current) impl.recorder.submit_and_wait();
+        Impl::begin_frame(impl.recorder, frame, impl.constants_of(frame, settings, std::nullopt));
         const GpuImage* thickness = nullptr;
         do {
             const auto start = std::chrono::steady_clock::now();
@@ -429,6 +445,8 @@ ThicknessResult Renderer::measure_thickness(const ThicknessRequest& request) {
     result.cut_rays = transmitted.cut_rays();
     result.light_views = transmitted.view_count();
     return result;
+} catch (const vk::SystemError& failure) {
+    throw_clearly(failure);
 }
 
 const Tracer& Renderer::tracer() { return impl_->cpu.tracer(); }
