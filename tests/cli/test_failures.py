@@ -138,23 +138,6 @@ class SharedCache(CliTest):
         self.assertEqual(self.read("out.png"), picture)
 
 
-class RepeatedDatasets(CliTest):
-    def make(self, folder, *arguments):
-        result = self.run_cli("dataset", "recipe.json", "--folder", folder, "--quiet", *arguments)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return {name.removeprefix(folder + "/"): self.read(name) for name in self.files() if name.startswith(folder + "/")}
-
-    def test_images_alone_are_those_of_a_run(self):
-        self.write("recipe.json", json.dumps({"images": 6, "width": 48, "height": 40}))
-        run = self.make("run")
-        for image in (5, 0, 3):
-            for threads in ("1", "5"):
-                alone = self.make(f"alone-{image}-{threads}", "--images", str(image), "--threads", threads)
-                for name, content in alone.items():
-                    if not name.startswith("annotations"):
-                        self.assertTrue(content == run[name], f"{name} on {threads} threads")
-
-
 @unittest.skipUnless(FAILING_LAYER, "PELLUCID_FAILING_LAYER names no folder")
 class FailingDevices(CliTest):
     def failing(self, **how):

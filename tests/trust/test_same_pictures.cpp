@@ -1,8 +1,6 @@
 // The same picture bit for bit: over runs, numbers of threads, order of scenes, and renderers in other threads.
 #include "gpu/gpu_test.h"
 
-#include <pellucid/reference.h>
-
 #include <thread>
 
 namespace pellucid::test {
@@ -89,26 +87,6 @@ std::vector<const char*> technique_names() {
     return names;
 }
 INSTANTIATE_TEST_SUITE_P(Each, SamePictures, ::testing::ValuesIn(technique_names()), technique_test_name);
-
-TEST(SameTraces, OnAnyNumberOfThreads) {
-    const Scene scene = lit_scene("shape:goblet");
-    const Camera camera = framing_camera(scene_bounds(scene), 40, 40, 0.5f);
-    const Environment environment = load_environment("studio");
-    std::vector<RefractedPath> paths;
-    std::vector<float> pixels;
-    for (const std::uint32_t threads : {1u, 2u, 5u}) {
-        const Tracer tracer(scene, {.threads = threads});
-        const auto traced = tracer.exact(camera, {.width = 40, .height = 40});
-        const PathTracedImage image =
-            tracer.path_trace(camera, environment, {.width = 40, .height = 40, .samples = 4, .photons = 2000});
-        if (paths.empty()) {
-            paths = traced;
-            pixels = image.radiance.pixels;
-        }
-        EXPECT_TRUE(same_paths(traced, paths)) << threads;
-        EXPECT_EQ(image.radiance.pixels, pixels) << threads;
-    }
-}
 
 TEST(TwoRenderers, InTwoThreadsDrawWhatEachDrawsAlone) {
     const auto draw = [](const std::string& source, int rounds) {
