@@ -42,6 +42,18 @@ class Builder:
         self.links.new(b, node.inputs[2])
         return node.outputs[0]
 
+    def add(self, a, b):
+        node = self.node("AddShader")
+        self.links.new(a, node.inputs[0])
+        self.links.new(b, node.inputs[1])
+        return node.outputs[0]
+
+    def fresnel(self, ior, **tilt):
+        """What either face reflects. Cycles takes a face seen from behind for one seen from inside, with 1 / ior."""
+        behind = self.node("NewGeometry").outputs["Backfacing"]
+        power = self.math("SUBTRACT", 1.0, self.math("MULTIPLY", behind, 2.0))
+        return self.node("Fresnel", IOR=self.math("POWER", ior, power), **tilt).outputs[0]
+
     def image(self, texture, colour):
         """Texture coordinates with v upwards."""
         import bpy
@@ -70,7 +82,7 @@ def factors(b, given):
 
 def thin_glass(b, base, given):
     """Both faces of a pane: 2 R / (1 + R) is reflected, the rest goes straight on."""
-    r = b.node("Fresnel", IOR=given["ior"]).outputs[0]
+    r = b.fresnel(given["ior"])
     both = b.math("DIVIDE", b.math("MULTIPLY", r, 2.0), b.math("ADD", r, 1.0))
     mirror = b.node("BsdfGlossy", Color=(1, 1, 1), Roughness=factors(b, given)[1]).outputs[0]
     return b.mix(both, b.node("BsdfTransparent", Color=base).outputs[0], mirror)
@@ -86,21 +98,27 @@ def solid_glass(b, base, given):
 
 
 def opaque(b, base, given):
+    """glTF's layers: a coat over a metal, or over a diffuse surface under a dielectric. The Principled BSDF would not do: its diffuse
+    part reflects more towards grazing angles, 20% in the mean on a rough floor, and keeps what its specular part reflects."""
     metallic, roughness = factors(b, given)
-    root = (given["ior"] - 1) / (given["ior"] + 1)
-    surface = b.node("BsdfPrincipled", Base_Color=base, Metallic=metallic, Roughness=roughness, Specular=root * root / 0.08,
-                     Clearcoat=given["coat"], Clearcoat_Roughness=given["coat_roughness"])
+    tilt = {}
     if given["normal_texture"]:
-        tilt = b.node("NormalMap", Strength=given["normal_texture"]["strength"],
-                      Color=b.image(given["normal_texture"], False).outputs["Color"])
-        b.links.new(tilt.outputs[0], surface.inputs["Normal"])
+        tilt["Normal"] = b.node("NormalMap", Strength=given["normal_texture"]["strength"],
+                                Color=b.image(given["normal_texture"], False).outputs["Color"]).outputs[0]
+    dielectric = b.mix(b.fresnel(given["ior"], **tilt),
+                       b.node("BsdfDiffuse", Color=base, **tilt).outputs[0],
+                       b.node("BsdfGlossy", Color=(1, 1, 1), Roughness=roughness, **tilt).outputs[0])
+    surface = b.mix(metallic, dielectric, b.node("BsdfGlossy", Color=base, Roughness=roughness, **tilt).outputs[0])
+    if given["coat"] > 0:
+        reflected = b.math("MULTIPLY", b.fresnel(1.5), given["coat"])
+        surface = b.mix(reflected, surface,
+                        b.node("BsdfGlossy", Color=(1, 1, 1), Roughness=given["coat_roughness"]).outputs[0])
     if max(given["emission"]) > 0:
         emission = tuple(given["emission"])
         if given["emission_texture"]:
             emission = b.product(emission, b.image(given["emission_texture"], True).outputs["Color"])
-        b.give(surface.inputs["Emission"], emission)
-        surface.inputs["Emission Strength"].default_value = 1
-    return surface.outputs[0]
+        surface = b.add(surface, b.node("Emission", Color=emission).outputs[0])
+    return surface
 
 
 def build(nodes, links, output, given):
