@@ -44,7 +44,7 @@ private:
 };
 
 /// Takes them apart. Throws Error where there are too few bytes.
-class ByteReader {
+class [[gnu::visibility("hidden")]] ByteReader {  // also in vdb_file.cpp
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 

@@ -1,6 +1,5 @@
 // Volumes in OpenVDB files (Museth, VDB: High-resolution sparse volumes with dynamic topology, 2013). This is the only
 // file that includes OpenVDB's headers.
-#pragma GCC visibility push(hidden)  // this file is compiled with default visibility, for OpenVDB
 #include "core/byte_stream.h"
 #include "core/fail.h"
 #include "core/file.h"
@@ -8,7 +7,6 @@
 #include "core/read_apart.h"
 #include "optics/index_fields.h"
 #include "scene/apart_readers.h"
-#pragma GCC visibility pop
 
 #include <pellucid/error.h>
 #include <pellucid/volume.h>
