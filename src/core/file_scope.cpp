@@ -10,7 +10,9 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path resolved(const fs::path& path, std::error_code& error) {
-    return fs::weakly_canonical(path.empty() ? fs::path(".") : path, error);
+    // Of a relative path that does not exist, weakly_canonical() alone makes no absolute one.
+    const fs::path absolute = fs::absolute(path.empty() ? fs::path(".") : path, error);
+    return error ? path : fs::weakly_canonical(absolute, error);
 }
 
 }  // namespace

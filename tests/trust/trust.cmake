@@ -8,7 +8,7 @@ configure_file(trust/failing_layer.json.in ${failing_layer_folder}/VkLayer_pellu
 
 pellucid_test(trust_tests
     SOURCES
-        trust/test_failures.cpp trust/test_repeatable_tracers.cpp trust/test_same_pictures.cpp trust/test_statistics.cpp
+        trust/test_failures.cpp trust/test_long_runs.cpp trust/test_repeatable_tracers.cpp trust/test_same_pictures.cpp trust/test_statistics.cpp
     LIBRARIES Vulkan::Vulkan)
 add_dependencies(trust_tests pellucid_failing_layer)
 target_compile_definitions(trust_tests PRIVATE PELLUCID_FAILING_LAYER_FOLDER="${failing_layer_folder}")
