@@ -54,7 +54,7 @@ class Interrupted(CliTest):
         self.write("recipe.json", json.dumps({"images": 1000, "width": 32, "height": 32}))
         self.interrupt(signal.SIGINT, lambda: len(self.files()) > 1, "dataset", "recipe.json", "--folder", "data")
         for number, arguments in ((signal.SIGINT, ("bench", "shape:sphere", "--frames", "100000", "--size", "64x64", "--json", "out.json")),
-                                  (signal.SIGTERM, ("experiment", "wang-layers", "--report", "report", "--frames", "100000"))):
+                                  (signal.SIGTERM, ("experiment", "kay-greenberg-transparency", "--report", "report", "--size", "800x800"))):
             begin = time.monotonic()
             self.interrupt(number, lambda: time.monotonic() > begin + 1, *arguments)
             self.assertNotIn("out.json", self.files())
