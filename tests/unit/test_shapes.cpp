@@ -222,16 +222,21 @@ std::vector<glm::dvec2> profile_of(const std::string& spec) {
     return profile;
 }
 
+/// Pairs of segments that are no neighbours and cross.
+int crossings(const std::vector<glm::dvec2>& profile) {
+    int count = 0;
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i)
+        for (std::size_t j = i + 2; j + 1 < profile.size(); ++j)
+            count += cross(profile[i], profile[i + 1], profile[j], profile[j + 1]);
+    return count;
+}
+
 TEST(Shapes, BottleIsHollowAndOpen) {
     for (const char* wall : {"0.008", "0.03", "0.06"}) {
         SCOPED_TRACE(wall);
         const std::vector<glm::dvec2> profile = profile_of("bottle,rings=800,grooves=8,wall=" + std::string(wall));
         ASSERT_EQ(profile.size(), 801u);
-        int crossing_count = 0;
-        for (std::size_t i = 0; i + 1 < profile.size(); ++i)
-            for (std::size_t j = i + 2; j + 1 < profile.size(); ++j)
-                crossing_count += cross(profile[i], profile[i + 1], profile[j], profile[j + 1]);
-        EXPECT_EQ(crossing_count, 0);
+        EXPECT_EQ(crossings(profile), 0);
         const auto rim = std::ranges::max_element(profile, {}, &glm::dvec2::y);
         // The inside goes down from the rim to the bottom, and is never nearer to the outside than most of a wall.
         const double thickness = std::stod(wall);
@@ -258,11 +263,7 @@ TEST(Shapes, VaseProfileDoesNotCrossItself) {
         SCOPED_TRACE(wall);
         const std::vector<glm::dvec2> profile = profile_of("vase,rings=400,wall=" + std::string(wall));
         ASSERT_EQ(profile.size(), 401u);
-        int crossing_count = 0;
-        for (std::size_t i = 0; i + 1 < profile.size(); ++i)
-            for (std::size_t j = i + 2; j + 1 < profile.size(); ++j)
-                crossing_count += cross(profile[i], profile[i + 1], profile[j], profile[j + 1]);
-        EXPECT_EQ(crossing_count, 0);
+        EXPECT_EQ(crossings(profile), 0);
         EXPECT_NEAR(profile.back().y - profile.front().y, std::stod(wall), 1e-3);
     }
 }
@@ -272,11 +273,7 @@ TEST(Shapes, GobletProfileDoesNotCrossItself) {
         SCOPED_TRACE(wall);
         const std::vector<glm::dvec2> profile = profile_of("goblet,rings=400,wall=" + std::string(wall));
         ASSERT_EQ(profile.size(), 401u);
-        int crossing_count = 0;
-        for (std::size_t i = 0; i + 1 < profile.size(); ++i)
-            for (std::size_t j = i + 2; j + 1 < profile.size(); ++j)
-                crossing_count += cross(profile[i], profile[i + 1], profile[j], profile[j + 1]);
-        EXPECT_EQ(crossing_count, 0);
+        EXPECT_EQ(crossings(profile), 0);
         // The inside of the bowl ends above the stem, on the axis.
         EXPECT_GT(profile.back().y, -0.12);
         EXPECT_EQ(profile.back().x, 0.0);
